@@ -1,0 +1,120 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/vector.h"
+#include "geometry/tet_mesh.h"
+#include "geometry/triangle_mesh.h"
+
+namespace myotact::anatomy {
+
+// Everything is given in the specimen frame L (= world frame W at the file pose: x cranial, y left, z up), SI units.
+// References between parts are indices into the specimen's lists.
+
+struct Bone {
+  std::string key, name_la, name_en;
+  int body = -1;
+  geometry::TriangleMesh surface;
+};
+
+struct Body {
+  std::string key;
+  double mass_kg = 0.0;
+  Vec3 com_m = Vec3::Zero();
+  std::array<double, 6> inertia_kg_m2{};  // about the centre of mass: xx yy zz xy xz yz
+  bool estimated = true;
+};
+
+enum class JointType { Hinge, Universal, Ball, Weld };
+
+/// A right-hand rotation of `child` about an axis is flexion; q = 0 at the file pose.
+struct Joint {
+  std::string key;
+  JointType type = JointType::Hinge;
+  int parent = -1, child = -1;  // bodies
+  Vec3 centre_m = Vec3::Zero();
+  std::vector<Vec3> axes;                               // unit; 1 hinge, 2 universal, 3 ball, 0 weld
+  std::vector<std::pair<double, double>> range_rad;     // one an axis, lowest .. highest
+  double stiffness_Nm_rad = 0.0;
+  double damping_Nms_rad = 0.0;
+  double centre_uncertainty_m = 0.0;
+  double axis_uncertainty_rad = 0.0;
+};
+
+enum class TissueRegion : int { Belly = 0, Tendon = 1, Aponeurosis = 2 };
+
+struct Muscle {
+  std::string key, name_la, name_en, material;
+  double peak_force_N = 0.0;      // F0
+  double optimal_fibre_m = 0.0;   // lo
+  double pennation_rad = 0.0;     // alpha at lo
+  double rest_stretch = 0.8;      // fibre length over lo at the file pose with an unstretched tendon
+  double tendon_slack_m = 0.0;
+  double activation_tau_s = 0.015;
+  double deactivation_tau_s = 0.050;
+  std::vector<std::string> estimated;  // keys whose values are estimates
+  std::vector<std::string> sources;
+  geometry::TetMesh tets;
+  std::vector<Vec3> fibres;            // one a tet, unit, from origin to insertion
+  std::vector<TissueRegion> regions;   // one a tet
+  std::vector<int> attachments;        // one a node: body, or -1
+  geometry::TriangleMesh skin;         // fine surface, embedded in the tets on load
+};
+
+enum class LinePointKind { Origin, Via, Insertion };
+
+struct LinePoint {
+  int body = -1;
+  Vec3 position_m = Vec3::Zero();
+  LinePointKind kind = LinePointKind::Via;
+};
+
+/// From origin to insertion; a point moves with its body.
+struct MuscleLine {
+  int muscle = -1;
+  std::vector<LinePoint> points;
+};
+
+struct MuscleGroup {
+  int joint = -1;
+  std::vector<int> flexors, extensors;  // muscles
+};
+
+struct Overlap {
+  std::string a, b;
+  double depth_m = 0.0;
+  double volume_m3 = 0.0;
+};
+
+struct Specimen {
+  std::string name, species, breed, side, source, licence, created_by;
+  std::vector<Bone> bones;
+  std::vector<Body> bodies;
+  std::vector<Joint> joints;
+  std::vector<Muscle> muscles;
+  std::vector<MuscleLine> lines;
+  std::vector<MuscleGroup> groups;
+  std::vector<Overlap> overlaps;
+};
+
+/// Reads a specimen folder (FORMATS: specimen.json, bones/*.ply, skins/*.ply, muscles/*.vtk) and checks it.
+/// Throws Error NoInput or BadData naming file, place, value, allowed range and remedy.
+Specimen load_specimen(const std::filesystem::path& folder);
+
+/// Writes the folder completely, or throws Error InputOutput and leaves nothing half-written: the files go to a
+/// temporary folder beside it that is renamed at the end. An existing specimen folder is replaced.
+void save_specimen(const Specimen& specimen, const std::filesystem::path& folder);
+
+/// What makes a specimen unusable, as one sentence with place, value and remedy; empty when all is well.
+std::string find_defect(const Specimen& specimen);
+
+/// Index of the muscle with that key, or -1.
+int find_muscle(const Specimen& specimen, const std::string& key);
+int find_joint(const Specimen& specimen, const std::string& key);
+int find_body(const Specimen& specimen, const std::string& key);
+
+}  // namespace myotact::anatomy

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace myotact {
+
+/// Readers refuse larger files, so that no input can exhaust the memory. The largest canine mesh has 0.2 MB.
+inline constexpr std::size_t kLargestInput_bytes = std::size_t{1} << 30;
+
+/// The whole of a regular file. Throws Error: NoInput when it is not there, BadData when it is a folder or too large,
+/// InputOutput when reading fails.
+std::string read_file(const std::filesystem::path& path);
+
+/// Writes a temporary file beside `path`, flushes it to disk and renames it, so that nothing half-written stays behind.
+/// Throws Error InputOutput.
+void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// Makes the folder and its parents, and checks that files can be made in it. Throws Error InputOutput.
+void make_writable_folder(const std::filesystem::path& folder);
+
+/// SHA-256 as 64 hexadecimal digits.
+std::string sha256(std::string_view bytes);
+
+}  // namespace myotact

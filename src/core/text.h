@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace myotact {
+
+/// Shortest text that reads back to the same double ("nan" and "inf" included). Independent of the locale.
+std::string to_text(double value);
+
+/// The whole of `text` as a number, or nothing. Independent of the locale.
+std::optional<double> parse_number(std::string_view text);
+
+/// The candidate with the smallest edit distance to `word`, for "did you mean"; empty when there are no candidates.
+std::string nearest_word(std::string_view word, std::span<const std::string> candidates);
+
+/// "a, b, c".
+std::string join(std::span<const std::string> words, std::string_view separator = ", ");
+
+}  // namespace myotact

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <type_traits>
+
+namespace myotact::messages {
+
+/// What the haptic loop reads from any device. Crosses threads by value.
+struct DeviceState {
+  std::array<double, 3> stylus_position_world_m{};
+  std::array<double, 3> stylus_velocity_world_m_s{};  // low-passed by the driver
+  std::uint64_t sampled_at_ns = 0;                    // steady clock of this host, or the virtual clock
+  std::uint32_t buttons = 0;                          // bit i set: button i is down
+};
+
+/// What the haptic loop writes to any device, after the force gate.
+struct DeviceCommand {
+  std::array<double, 3> force_world_N{};
+};
+
+inline constexpr std::uint32_t kGrabButton = 1u << 0;  // held: the nearest muscle line is in hand
+
+static_assert(std::is_trivially_copyable_v<DeviceState> && std::is_trivially_copyable_v<DeviceCommand>);
+
+}  // namespace myotact::messages

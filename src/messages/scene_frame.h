@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace myotact::messages {
+
+/// One tool as the view draws it.
+struct ToolFrame {
+  std::array<double, 3> tool_world_m{};
+  std::array<double, 3> proxy_world_m{};
+  std::array<double, 3> force_world_N{};
+  double radius_m = 0.0;
+  bool in_contact = false;
+  int grabbed_line = -1;  // muscle, or -1
+};
+
+/// Numbers of a joint for plots and panels.
+struct JointFrame {
+  double angle_rad = 0.0;
+  double torque_Nm = 0.0;
+  double stiffness_Nm_rad = 0.0;
+};
+
+struct RateFrame {
+  double simulation_hz = 0.0;
+  double haptic_hz = 0.0;
+  std::uint64_t missed_ticks = 0;
+  double time_factor = 1.0;  // simulated seconds a second
+};
+
+/// A drawable snapshot of the scene. Vectors are sized once and filled in place; order as in the specimen.
+struct SceneFrame {
+  std::uint64_t sequence = 0;
+  double time_s = 0.0;
+  std::vector<std::array<double, 12>> body_poses;              // X_WB, row-major 3x4, bodies
+  std::vector<std::vector<std::array<float, 3>>> skins_world_m;  // muscles x skin vertices
+  std::vector<double> activations;                             // muscles, 0 .. 1
+  std::vector<double> tensions_N;                              // muscles
+  std::vector<std::vector<std::array<double, 3>>> lines_world_m;  // muscles x line points
+  std::vector<JointFrame> joints;
+  std::vector<ToolFrame> tools;
+  RateFrame rates;
+};
+
+}  // namespace myotact::messages

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "anatomy/specimen.h"
+#include "core/pose.h"
+#include "core/vector.h"
+#include "messages/local_model.h"
+#include "messages/scene_frame.h"
+#include "messages/tool_state.h"
+
+namespace myotact::simulation {
+
+enum class TissueModel { Fem, Rigid };
+
+struct SimulationSettings {
+  double dt_s = 0.01;
+  Vec3 gravity_m_s2 = Vec3::Zero();
+  int workers = 2;  // threads of a step, the caller's included; the result does not depend on it
+  std::vector<TissueModel> tissue;  // one a muscle; empty: all Fem
+};
+
+/// Joint stiffness K = -d(net torque)/dq at held activations, and what it is made of. All about the joint's axis.
+struct JointReadout {
+  double angle_rad = 0.0;
+  double velocity_rad_s = 0.0;
+  double net_torque_Nm = 0.0;         // of all muscles on the joint, positive flexes
+  double stiffness_Nm_rad = 0.0;      // Schur complement of the quasi-static system, passive joint included
+  double line_muscle_Nm_rad = 0.0;    // sum r^2 k of the muscle lines
+  double line_geometry_Nm_rad = 0.0;  // -sum (dr/dq) F of the muscle lines
+  double passive_Nm_rad = 0.0;        // the joint's own
+  double inertia_kg_m2 = 0.0;
+};
+
+/// Soft muscles on a skeleton, advanced by a fixed implicit step. Single caller; makes its own workers.
+class Simulation {
+ public:
+  /// Builds meshes, factors' patterns, embeddings. Throws Error BadData when the specimen cannot be simulated.
+  Simulation(const anatomy::Specimen& specimen, const SimulationSettings& settings);
+  ~Simulation();
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  // ---- input, between steps
+  void set_excitation(int muscle, double excitation);  // 0 .. 1, drives the activation's first-order lag
+  void set_joint_locked(int joint, bool locked);
+  void set_gravity(const Vec3& gravity_m_s2);
+  /// External torque about a joint, positive flexes [N m]; held until set again.
+  void set_joint_torque(int joint, double torque_Nm);
+  /// Puts everything at rest in the given pose: angles, zero velocities, activations as given (empty: zero), tissue in
+  /// static equilibrium. Returns false when the static solve did not converge.
+  bool settle(std::span<const double> joint_angles_rad, std::span<const double> activations);
+
+  /// One step of dt. `tools` are the newest states of the tools; their springs enter the solve implicitly.
+  void step(std::span<const messages::ToolState> tools);
+
+  // ---- output
+  double time_s() const;
+  double activation(int muscle) const;
+  double excitation(int muscle) const;
+  double muscle_force_N(int muscle) const;   // tension that the muscle hands to its tendon
+  JointReadout joint(int joint) const;       // of the last step or settle; stiffness as of the last refresh
+  /// Refreshes the stiffness of a joint for all muscles at once (costs a factorisation a muscle).
+  void refresh_stiffness(int joint);
+  Pose body_pose(int body) const;            // X_WL: maps rest position to now
+  std::span<const Vec3> skin_world_m(int muscle) const;
+  std::vector<Vec3> line_world_m(int muscle) const;
+  double smallest_volume_ratio(int muscle) const;  // smallest J over the integration points
+  std::uint64_t state_hash() const;
+
+  /// The surface near the tool, its compliance at the contact, the line nearest to (or in) the hand, the joint.
+  void write_local_model(const messages::ToolState& tool, messages::LocalModel& model) const;
+  void write_frame(messages::SceneFrame& frame) const;  // everything but tools and rates
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace myotact::simulation
