@@ -22,6 +22,7 @@ TriangleMesh read_stl(const std::filesystem::path& path);
 struct TetFile {
   TetMesh mesh;
   std::vector<Vec3> fibres;      // cell vectors "fibre"
+  std::vector<double> sections_m2;  // cell scalars "section", optional: cross-section along the fibres
   std::vector<int> regions;      // cell scalars "region"
   std::vector<int> attachments;  // point scalars "attachment"
 };
