@@ -62,6 +62,8 @@ class Simulation {
   double activation(int muscle) const;
   double excitation(int muscle) const;
   double muscle_force_N(int muscle) const;   // tension that the muscle hands to its tendon
+  /// Torque of one muscle about a joint, positive flexes [N m]; of the last step or settle.
+  double muscle_torque_Nm(int muscle, int joint) const;
   JointReadout joint(int joint) const;       // of the last step or settle; stiffness as of the last refresh
   /// Refreshes the stiffness of a joint for all muscles at once (costs a factorisation a muscle).
   void refresh_stiffness(int joint);
