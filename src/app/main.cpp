@@ -1,0 +1,92 @@
+// The program myotact: reads the command line, calls one subcommand, turns every error into one line and a status.
+
+#include <exception>
+#include <functional>
+#include <iostream>
+#include <new>
+
+#include <CLI/CLI.hpp>
+#include <spdlog/spdlog.h>
+
+#include "app/options.h"
+#include "core/error.h"
+#include "core/log.h"
+
+namespace {
+
+using myotact::ExitStatus;
+using myotact::app::Options;
+
+void add_common(CLI::App& command, Options& options) {
+  command.add_option("--device", options.devices, "device name: simulated or mouse")->delimiter(',');
+  command.add_option("--set", options.set, "override a key of the scene: key=value");
+  command.add_option("--seconds", options.seconds, "simulated time to run [s]")->check(CLI::Range(0.0, 86400.0));
+  command.add_option("--seed", options.seed, "seed of everything random")->capture_default_str();
+  command.add_option("--out", options.out, "folder for what the command leaves")->capture_default_str();
+  command.add_option("--record", options.record, "write a recording to this file");
+  command.add_flag("--json", options.json, "machine-readable standard output");
+  command.add_option("--log-level", options.log_level, "trace, debug, info, warning, error, critical or off")
+      ->capture_default_str();
+  command.add_option("--workers", options.workers, "threads of a simulation step")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+}
+
+CLI::App* add_scene_command(CLI::App& program, Options& options, const char* name, const char* what) {
+  CLI::App* command = program.add_subcommand(name, what);
+  command->add_option("scene", options.scene, "built-in scene or scene file")->capture_default_str();
+  add_common(*command, options);
+  return command;
+}
+
+/// Declares all subcommands; returns what the one that was given does.
+void declare(CLI::App& program, Options& options, std::function<int(const Options&)>& action) {
+  program.set_version_flag("--version", MYOTACT_VERSION);
+  program.require_subcommand(0, 1);
+  const auto bind = [&](CLI::App* command, int (*function)(const Options&)) {
+    command->callback([&action, function] { action = function; });
+  };
+  bind(add_scene_command(program, options, "view", "the window (default)"), myotact::app::view);
+  CLI::App* run = add_scene_command(program, options, "run", "no window: a scripted hand acts, tables and a picture come out");
+  run->add_flag("--realtime", options.realtime, "run free on the wall clock, as the window does, and report the timing");
+  run->add_option("--every", options.every, "keep every n-th tick in samples.csv")->check(CLI::Range(1, 1000000));
+  bind(run, myotact::app::run);
+  CLI::App* stiffness = add_scene_command(program, options, "stiffness", "joint stiffness against co-contraction");
+  stiffness->add_option("--angles", options.angles_deg, "joint angles q [degrees]")->delimiter(',');
+  stiffness->add_option("--levels", options.levels, "co-contraction levels 0 .. 1")->delimiter(',')->check(CLI::Range(0.0, 1.0));
+  bind(stiffness, myotact::app::stiffness);
+  CLI::App* replay = program.add_subcommand("replay", "run a recording again and compare the states");
+  replay->add_option("file", options.file, "recording")->required();
+  add_common(*replay, options);
+  bind(replay, myotact::app::replay);
+  CLI::App* devices = program.add_subcommand("devices", "which devices there are");
+  add_common(*devices, options);
+  bind(devices, myotact::app::devices);
+}
+
+int report(ExitStatus status, const std::string& text) {
+  spdlog::error("{}", text);
+  return static_cast<int>(status);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App program("Feel the muscles of a dog's limb. Not a medical device.", "myotact");
+  Options options;
+  std::function<int(const Options&)> action = myotact::app::view;
+  declare(program, options, action);
+  try {
+    program.parse(argc, argv);
+    myotact::start_log(options.log_level);
+    return action(options);
+  } catch (const CLI::ParseError& failure) {
+    return program.exit(failure) == 0 ? 0 : static_cast<int>(ExitStatus::Usage);
+  } catch (const myotact::Error& failure) {
+    return report(failure.status(), failure.what());
+  } catch (const std::bad_alloc&) {
+    return report(ExitStatus::Internal, "out of memory; use a smaller specimen");
+  } catch (const std::exception& failure) {
+    return report(ExitStatus::Internal, failure.what());
+  }
+}

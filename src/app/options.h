@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/scene_file.h"
+
+namespace myotact::app {
+
+/// Options that every subcommand knows, and those of single ones. Defaults are what --help shows.
+struct Options {
+  std::string scene = "elbow";
+  std::vector<std::string> set;             // key=value
+  std::vector<std::string> devices;
+  std::optional<double> seconds;
+  std::uint64_t seed = 1;
+  std::filesystem::path out = "out";
+  std::optional<std::filesystem::path> record;
+  bool json = false;
+  std::string log_level = "info";
+  bool realtime = false;
+  int every = 1;
+  int workers = 2;
+  std::vector<double> angles_deg = {0.0};
+  std::vector<double> levels = {0.0, 0.25, 0.5, 0.75, 1.0};
+  std::filesystem::path file;               // replay
+};
+
+/// --set and --device as overrides of the scene. Throws Error Usage for a --set without "=".
+scene::Overrides overrides_of(const Options& options);
+
+/// The scene of the command line with --set, --device and --workers applied.
+scene::Scene scene_of(const Options& options);
+
+// One function a subcommand, in the file of its name. Each returns the exit status of the program or throws Error.
+int run(const Options& options);
+int view(const Options& options);
+int stiffness(const Options& options);
+int replay(const Options& options);
+int devices(const Options& options);
+
+}  // namespace myotact::app

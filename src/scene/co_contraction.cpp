@@ -1,0 +1,118 @@
+#include "scene/co_contraction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace myotact::scene {
+
+namespace {
+
+/// Denser towards 0, where the weak demands of a balance lie.
+const std::vector<double> kLevels = {0.0, 0.05, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0};
+
+/// Drift of one degree held for a second asks for 0.1 N m; against 0.6 to 7 N m/rad of an elbow that is a time
+/// constant of 0.1 to 1 s, slower than a push.
+constexpr double kTrimGain_Nm_rad_s = 6.0;
+
+double side_torque(const TorqueTable& table, const std::vector<int>& side, double activation) {
+  double sum = 0.0;
+  for (const int muscle : side) sum += table.torque(muscle, activation);
+  return sum;
+}
+
+bool contains(const std::vector<int>& side, int muscle) {
+  return std::find(side.begin(), side.end(), muscle) != side.end();
+}
+
+/// Zero of a function that changes sign at most once on [low, high]; the nearer end when it does not change sign.
+double bisect(const std::function<double(double)>& residual, double low, double high) {
+  const double at_low = residual(low);
+  const double at_high = residual(high);
+  if (at_low * at_high > 0.0) return std::abs(at_low) <= std::abs(at_high) ? low : high;
+  for (int i = 0; i < 60; ++i) {  // 2^-60: beyond the resolution of a double on [0, 1]
+    const double middle = 0.5 * (low + high);
+    (residual(middle) * at_low > 0.0 ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace
+
+double TorqueTable::torque(int muscle, double activation) const {
+  const auto& row = torque_Nm[static_cast<std::size_t>(muscle)];
+  const double a = std::clamp(activation, 0.0, 1.0);
+  const auto above = std::upper_bound(levels.begin(), levels.end() - 1, a);
+  const auto i = static_cast<std::size_t>(std::max<std::ptrdiff_t>(above - levels.begin(), 1));
+  const double s = (a - levels[i - 1]) / (levels[i] - levels[i - 1]);
+  return (1.0 - s) * row[i - 1] + s * row[i];
+}
+
+TorqueTable measure_torques(simulation::Simulation& simulation, const anatomy::Specimen& specimen, int joint,
+                            std::span<const double> angles_rad) {
+  TorqueTable table{kLevels, std::vector<std::vector<double>>(specimen.muscles.size())};
+  const auto settle = [&](double level) {
+    const std::vector<double> activations(specimen.muscles.size(), level);
+    if (!simulation.settle(angles_rad, activations)) {
+      throw Error(ExitStatus::CheckFailed,
+                  fmt::format("no static equilibrium at activation {} of all muscles; try a posture nearer to the "
+                              "specimen's own, or finer tetrahedra",
+                              level));
+    }
+  };
+  for (const double level : kLevels) {
+    settle(level);
+    for (std::size_t m = 0; m < specimen.muscles.size(); ++m) {
+      table.torque_Nm[m].push_back(simulation.muscle_torque_Nm(static_cast<int>(m), joint));
+    }
+  }
+  settle(0.0);
+  return table;
+}
+
+Balance balance(const TorqueTable& table, const CoContraction& set, std::span<const double> activations,
+                double wanted_Nm) {
+  double others = 0.0;
+  for (std::size_t m = 0; m < activations.size(); ++m) {
+    const int muscle = static_cast<int>(m);
+    if (contains(set.flexors, muscle) || contains(set.extensors, muscle)) continue;
+    others += table.torque(muscle, activations[m]);
+  }
+  const bool flexors_weaker =
+      std::abs(side_torque(table, set.flexors, 1.0)) < std::abs(side_torque(table, set.extensors, 1.0));
+  const auto& weak = flexors_weaker ? set.flexors : set.extensors;
+  const auto& strong = flexors_weaker ? set.extensors : set.flexors;
+  const auto net = [&](double weak_level, double strong_level) {
+    return others + side_torque(table, weak, weak_level) + side_torque(table, strong, strong_level) - wanted_Nm;
+  };
+  const double sign = flexors_weaker ? 1.0 : -1.0;  // of the weak side's torque
+  double weak_level = set.common;
+  double strong_level = 0.0;
+  if (sign * net(set.common, 0.0) >= 0.0) {
+    strong_level = bisect([&](double level) { return net(set.common, level); }, 0.0, 1.0);
+  } else {
+    weak_level = bisect([&](double level) { return net(level, 0.0); }, set.common, 1.0);
+  }
+  constexpr double kHeld_Nm = 1e-6;
+  Balance result{flexors_weaker ? weak_level : strong_level, flexors_weaker ? strong_level : weak_level,
+                 std::abs(net(weak_level, strong_level)) < kHeld_Nm};
+  result.flexors = std::clamp(result.flexors + std::max(set.difference, 0.0), 0.0, 1.0);
+  result.extensors = std::clamp(result.extensors + std::max(-set.difference, 0.0), 0.0, 1.0);
+  return result;
+}
+
+void PostureTrim::restart(double angle_rad) {
+  held_angle_rad_ = angle_rad;
+  torque_Nm_ = 0.0;
+}
+
+double PostureTrim::update(double angle_rad, double dt_s) {
+  torque_Nm_ -= kTrimGain_Nm_rad_s * (angle_rad - held_angle_rad_) * dt_s;
+  return torque_Nm_;
+}
+
+}  // namespace myotact::scene

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "scene/scene_file.h"
+#include "simulation/simulation.h"
+
+namespace myotact::scene {
+
+/// Static torque of every muscle about one joint, with the joint held at one angle. With the joint held the muscles do
+/// not act on each other, so that a balance can be found from the table alone.
+struct TorqueTable {
+  std::vector<double> levels;                  // activations, rising from 0 to 1
+  std::vector<std::vector<double>> torque_Nm;  // muscles x levels, positive flexes
+
+  /// Linear between levels; `activation` is clamped to 0 .. 1.
+  double torque(int muscle, double activation) const;
+};
+
+/// Settles the simulation at each level in turn. Leaves it settled, at activation 0, at the given angles.
+/// Throws Error CheckFailed when the tissue finds no equilibrium.
+TorqueTable measure_torques(simulation::Simulation& simulation, const anatomy::Specimen& specimen, int joint,
+                            std::span<const double> angles_rad);
+
+struct Balance {
+  double flexors = 0.0;    // activation of every driven flexor
+  double extensors = 0.0;  // activation of every driven extensor
+  bool held = false;       // the wanted torque is reached
+};
+
+/// Activations at which the net muscle torque is `wanted_Nm`: the weaker side (by its torque at full activation) works
+/// at `set.common`, the other side is solved for. Where the stronger side's passive pull alone is too much, it gets 0
+/// and the weaker side is raised. `activations` are those of the muscles that are not driven. `set.difference` is added
+/// to the flexors (positive) or the extensors (negative) afterwards.
+Balance balance(const TorqueTable& table, const CoContraction& set, std::span<const double> activations,
+                double wanted_Nm = 0.0);
+
+/// Trims a balance so slowly that it does not count as stiffness: the wanted torque is minus the integral of the drift.
+class PostureTrim {
+ public:
+  void restart(double angle_rad);
+  /// Call once a step; returns the torque that the muscles should have [N m].
+  double update(double angle_rad, double dt_s);
+
+ private:
+  double held_angle_rad_ = 0.0;
+  double torque_Nm_ = 0.0;
+};
+
+}  // namespace myotact::scene

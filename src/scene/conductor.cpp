@@ -1,0 +1,164 @@
+#include "scene/conductor.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/error.h"
+
+namespace myotact::scene {
+
+namespace {
+
+/// The hand starts beside the limb, out of reach of every muscle, so that the first touch is an approach.
+constexpr double kStartAside_m = 0.15;
+constexpr double kSliderGlide_s = 0.1;  // a slider's jump is spread over this
+
+Vec3 start_of_hand(const anatomy::Specimen& specimen) {
+  Vec3 sum = Vec3::Zero();
+  for (const auto& muscle : specimen.muscles) sum += muscle.skin.positions_m.front();
+  const double side = specimen.side == "right" ? -1.0 : 1.0;
+  return sum / static_cast<double>(specimen.muscles.size()) + side * kStartAside_m * Vec3::UnitY();
+}
+
+std::vector<double> start_angles(const Scene& scene) {
+  std::vector<double> angles;
+  for (const JointSetting& joint : scene.joints) angles.push_back(joint.angle_rad);
+  return angles;
+}
+
+}  // namespace
+
+double Conductor::Ramp::at(double time_s) const {
+  if (time_s >= end_s) return to;
+  if (time_s <= start_s) return from;
+  return from + (time_s - start_s) / (end_s - start_s) * (to - from);
+}
+
+Conductor::Conductor(const Scene& scene, simulation::Simulation& simulation)
+    : scene_(&scene),
+      simulation_(&simulation),
+      hand_(scene.specimen, start_of_hand(scene.specimen)),
+      gravity_m_s2_(scene.settings.gravity_m_s2) {
+  const std::vector<double> angles = start_angles(scene);
+  for (const double activation : scene.activations) activations_.push_back({0.0, 0.0, activation, activation});
+  if (scene.co_contraction) {
+    const CoContraction& set = *scene.co_contraction;
+    torques_ = measure_torques(simulation, scene.specimen, set.joint, angles);
+    common_ = {0.0, 0.0, set.common, set.common};
+    difference_ = {0.0, 0.0, set.difference, set.difference};
+    co_contracting_ = hold_posture_ = set.hold_posture;
+  }
+  std::vector<double> excitations = scene.activations;
+  if (co_contracting_) drive_co_contraction(0.0, excitations);
+  if (!simulation.settle(angles, excitations)) {
+    throw Error(ExitStatus::CheckFailed, scene.name + ": the tissue finds no equilibrium in the starting posture; set "
+                                                      "joints nearer to 0 and activations lower");
+  }
+  for (std::size_t j = 0; j < scene.joints.size(); ++j) {
+    simulation.set_joint_locked(static_cast<int>(j), scene.joints[j].locked);
+  }
+  if (scene.co_contraction) trim_.restart(simulation.joint(scene.co_contraction->joint).angle_rad);
+}
+
+void Conductor::begin(const ScriptAction& action) {
+  hand_.begin(action, *simulation_);
+  const auto ramp = [&](const Ramp& now, double to) {
+    return Ramp{action.start_s, action.end_s(), now.at(action.start_s), to};
+  };
+  if (const auto* deed = std::get_if<Activate>(&action.deed)) {
+    Ramp& activation = activations_[static_cast<std::size_t>(deed->muscle)];
+    activation = ramp(activation, deed->to);
+  } else if (const auto* co_contract = std::get_if<CoContract>(&action.deed)) {
+    common_ = ramp(common_, co_contract->common);
+    difference_ = ramp(difference_, co_contract->difference);
+    co_contracting_ = scene_->co_contraction.has_value();
+  } else if (const auto* hold = std::get_if<HoldPosture>(&action.deed)) {
+    ask_hold_posture(hold->on);
+  } else if (std::holds_alternative<Shove>(action.deed)) {
+    shoves_.push_back(action);
+  } else if (const auto* picture = std::get_if<TakePicture>(&action.deed)) {
+    picture_ = *picture;
+  }
+}
+
+void Conductor::drive_co_contraction(double time_s, std::vector<double>& excitations) {
+  CoContraction set = *scene_->co_contraction;
+  Balance levels;
+  if (flexor_level_) {
+    levels.flexors = flexor_level_->at(time_s);
+    levels.extensors = extensor_level_->at(time_s);
+  } else {
+    set.common = common_.at(time_s);
+    set.difference = difference_.at(time_s);
+    const double drift_torque_Nm =
+        hold_posture_ ? trim_.update(simulation_->joint(set.joint).angle_rad, scene_->settings.dt_s) : 0.0;
+    levels = balance(torques_, set, excitations, drift_torque_Nm);
+  }
+  for (const int m : set.flexors) excitations[static_cast<std::size_t>(m)] = levels.flexors;
+  for (const int m : set.extensors) excitations[static_cast<std::size_t>(m)] = levels.extensors;
+}
+
+void Conductor::prepare_step(double time_s, StepRecord& input) {
+  const double half_step_s = 0.5 * scene_->settings.dt_s;  // an action due within this step's first half starts now
+  while (next_action_ < scene_->script.size() && scene_->script[next_action_].start_s <= time_s + half_step_s) {
+    begin(scene_->script[next_action_++]);
+  }
+  input.excitations.clear();
+  for (const Ramp& activation : activations_) input.excitations.push_back(activation.at(time_s));
+  if (co_contracting_) drive_co_contraction(time_s, input.excitations);
+  input.joint_torques_Nm.assign(scene_->specimen.joints.size(), 0.0);
+  std::erase_if(shoves_, [&](const ScriptAction& shove) { return shove.end_s() <= time_s; });
+  for (const ScriptAction& action : shoves_) {
+    const auto& shove = std::get<Shove>(action.deed);
+    input.joint_torques_Nm[static_cast<std::size_t>(shove.joint)] += shove.torque_Nm;
+  }
+  input.gravity_m_s2 = gravity_m_s2_;
+}
+
+std::optional<TakePicture> Conductor::take_picture() { return std::exchange(picture_, std::nullopt); }
+
+void Conductor::ask_levels(double flexors, double extensors) {
+  if (!scene_->co_contraction) return;
+  const double now_s = simulation_->time_s();
+  const auto glide = [&](const std::optional<Ramp>& level, double to) {
+    return Ramp{now_s, now_s + kSliderGlide_s, level ? level->at(now_s) : to, to};
+  };
+  flexor_level_ = glide(flexor_level_, flexors);
+  extensor_level_ = glide(extensor_level_, extensors);
+  co_contracting_ = true;
+}
+
+void Conductor::ask_co_contraction(double common, double difference) {
+  if (!scene_->co_contraction) return;
+  const double now_s = simulation_->time_s();
+  flexor_level_.reset();
+  extensor_level_.reset();
+  common_ = {now_s, now_s + kSliderGlide_s, common_.at(now_s), common};
+  difference_ = {now_s, now_s + kSliderGlide_s, difference_.at(now_s), difference};
+  co_contracting_ = true;
+}
+
+void Conductor::ask_hold_posture(bool on) {
+  if (on && !hold_posture_ && scene_->co_contraction) {
+    trim_.restart(simulation_->joint(scene_->co_contraction->joint).angle_rad);
+  }
+  hold_posture_ = on;
+}
+
+double Conductor::script_end_s() const {
+  double end_s = 0.0;
+  for (const ScriptAction& action : scene_->script) end_s = std::max(end_s, action.end_s());
+  return end_s;
+}
+
+void apply(const StepRecord& input, simulation::Simulation& simulation) {
+  for (std::size_t m = 0; m < input.excitations.size(); ++m) {
+    simulation.set_excitation(static_cast<int>(m), input.excitations[m]);
+  }
+  for (std::size_t j = 0; j < input.joint_torques_Nm.size(); ++j) {
+    simulation.set_joint_torque(static_cast<int>(j), input.joint_torques_Nm[j]);
+  }
+  simulation.set_gravity(input.gravity_m_s2);
+}
+
+}  // namespace myotact::scene

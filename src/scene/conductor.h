@@ -1,0 +1,67 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "scene/co_contraction.h"
+#include "scene/recording.h"
+#include "scene/scene_file.h"
+#include "scene/scripted_hand.h"
+#include "simulation/simulation.h"
+
+namespace myotact::scene {
+
+/// Carries out the scene's script, and what a window asks for, step by step: decides what the muscles and joints are
+/// told and where the hand wants to be. Lives on the simulation's thread.
+class Conductor {
+ public:
+  /// Puts the simulation at rest in the scene's posture; measures the torque table when the scene co-contracts.
+  /// Throws Error CheckFailed when there is no equilibrium.
+  Conductor(const Scene& scene, simulation::Simulation& simulation);
+
+  /// Fills excitations, torques and gravity of the step that starts at `time_s`. Starts the script's due actions.
+  void prepare_step(double time_s, StepRecord& input);
+
+  HandTarget hand(double time_s) const { return hand_.target(time_s); }
+
+  /// The picture that the script asked for since the last call, if any.
+  std::optional<TakePicture> take_picture();
+
+  // What the window's sliders ask for; they overrule the script from then on.
+  void ask_levels(double flexors, double extensors);
+  void ask_co_contraction(double common, double difference);
+  void ask_hold_posture(bool on);
+  void ask_gravity(const Vec3& gravity_m_s2) { gravity_m_s2_ = gravity_m_s2; }
+
+  double script_end_s() const;
+
+ private:
+  /// A value on its way from one level to another.
+  struct Ramp {
+    double start_s = 0.0, end_s = 0.0, from = 0.0, to = 0.0;
+    double at(double time_s) const;
+  };
+
+  void begin(const ScriptAction& action);
+  void drive_co_contraction(double time_s, std::vector<double>& excitations);
+
+  const Scene* scene_;
+  simulation::Simulation* simulation_;
+  ScriptedHand hand_;
+  TorqueTable torques_;
+  PostureTrim trim_;
+  std::size_t next_action_ = 0;
+  std::vector<Ramp> activations_;           // one a muscle
+  Ramp common_, difference_;
+  std::optional<Ramp> flexor_level_, extensor_level_;  // set by the sliders: no balance
+  bool co_contracting_ = false;
+  bool hold_posture_ = false;
+  std::vector<ScriptAction> shoves_;        // under way
+  Vec3 gravity_m_s2_;
+  std::optional<TakePicture> picture_;
+};
+
+/// Tells the simulation what a step's record says.
+void apply(const StepRecord& input, simulation::Simulation& simulation);
+
+}  // namespace myotact::scene

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "core/vector.h"
+#include "messages/device.h"
+#include "messages/tool_state.h"
+
+namespace myotact::scene {
+
+// A recording is append-only: 8 bytes "MYOREC01", then chunks of {u32 length, u32 type, payload, u32 crc32 of type and
+// payload}, little-endian. After a crash it is readable up to the last whole chunk.
+
+/// What the simulation was told before a step, and the state that followed.
+struct StepRecord {
+  std::vector<double> excitations;    // one a muscle
+  std::vector<double> joint_torques_Nm;  // one a joint
+  Vec3 gravity_m_s2 = Vec3::Zero();
+  messages::ToolState tool;
+  std::uint64_t state_hash = 0;       // after the step
+};
+
+/// What the device said in one tick, and which model answered.
+struct TickRecord {
+  messages::DeviceState device;
+  std::uint64_t model_sequence = 0;
+};
+
+struct Recording {
+  std::string header_json;  // program version, seed, settings, the scene's text
+  std::vector<StepRecord> steps;
+  std::vector<TickRecord> ticks;
+  bool complete = false;    // the closing chunk is there
+};
+
+class RecordingWriter {
+ public:
+  /// Throws Error InputOutput.
+  RecordingWriter(const std::filesystem::path& path, const std::string& header_json);
+  void add(const StepRecord& step);
+  void add(const std::vector<TickRecord>& ticks);
+  void close();
+
+ private:
+  void write_chunk(std::uint32_t type, const std::string& payload);
+
+  std::filesystem::path path_;
+  std::ofstream file_;
+};
+
+/// Throws Error NoInput, or BadData when the file is no recording or its first chunk is damaged.
+Recording read_recording(const std::filesystem::path& path);
+
+}  // namespace myotact::scene

@@ -1,0 +1,190 @@
+#include "scene/scene_file.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/data_folder.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "core/json_reader.h"
+#include "core/text.h"
+
+namespace myotact::scene {
+
+namespace {
+
+
+std::filesystem::path scenes_folder() { return data_folder() / "assets" / "scenes"; }
+
+/// --set key=value becomes a key of the scene; a value that is no JSON is taken as a text.
+void apply_overrides(nlohmann::json& scene, const Overrides& overrides) {
+  for (const auto& [key, value] : overrides) {
+    const auto parsed = nlohmann::json::parse(value, nullptr, false);
+    scene[key] = parsed.is_discarded() ? nlohmann::json(value) : parsed;
+  }
+}
+
+/// A specimen is named by its folder in meshes/, by a path, or by a path beside the scene file.
+std::filesystem::path find_specimen(const JsonValue& name, const std::filesystem::path& scene_file) {
+  const std::filesystem::path given = name.string();
+  for (const auto& candidate : {data_folder() / "meshes" / given, scene_file.parent_path() / given, given}) {
+    if (!given.empty() && std::filesystem::exists(candidate / "specimen.json")) return candidate;
+  }
+  throw Error(ExitStatus::NoInput,
+              fmt::format("{}: /specimen: \"{}\" is no specimen folder (specimen.json is missing); name one of meshes/ or "
+                          "make one with myotact-prepare",
+                          scene_file.string(), given.string()));
+}
+
+void read_joints(const JsonValue& value, Scene& scene) {
+  JsonObject joints(value);
+  for (const auto& [key, entry] : joints.entries()) {
+    const int joint = require_joint(JsonValue(nlohmann::json(key), value.file(), entry.pointer()), scene.specimen);
+    auto& setting = scene.joints[static_cast<std::size_t>(joint)];
+    JsonObject fields(entry);
+    if (const auto angle = fields.find("q_rad")) {
+      const auto& range = scene.specimen.joints[static_cast<std::size_t>(joint)].range_rad;
+      if (range.empty()) throw angle->error("this joint does not move; remove the key");
+      setting.angle_rad = angle->number_between(range[0].first, range[0].second);
+    }
+    setting.locked = fields.boolean_or("locked", setting.locked);
+    fields.finish();
+  }
+}
+
+simulation::TissueModel tissue_model(const JsonValue& value) {
+  const std::string name = value.one_of({"fem", "mass_spring", "line", "rigid"});
+  if (name == "fem") return simulation::TissueModel::Fem;
+  if (name == "rigid") return simulation::TissueModel::Rigid;
+  throw value.error(fmt::format("the model \"{}\" is not in this version; use fem or rigid", name));
+}
+
+void read_tissue(const JsonValue& value, Scene& scene) {
+  JsonObject tissue(value);
+  if (const auto model = tissue.find("default")) {
+    scene.settings.tissue.assign(scene.specimen.muscles.size(), tissue_model(*model));
+  }
+  if (const auto muscles = tissue.find("muscles")) {
+    for (const auto& [key, entry] : JsonObject(*muscles).entries()) {
+      const int muscle = require_muscle(JsonValue(nlohmann::json(key), value.file(), entry.pointer()), scene.specimen);
+      scene.settings.tissue[static_cast<std::size_t>(muscle)] = tissue_model(entry);
+    }
+  }
+  tissue.finish();
+}
+
+void read_activations(const JsonValue& value, Scene& scene) {
+  for (const auto& [key, entry] : JsonObject(value).entries()) {
+    const int muscle = require_muscle(JsonValue(nlohmann::json(key), value.file(), entry.pointer()), scene.specimen);
+    scene.activations[static_cast<std::size_t>(muscle)] = entry.number_between(0.0, 1.0);
+  }
+}
+
+std::vector<int> read_side(JsonObject& fields, const char* key, const std::vector<int>& whole_group,
+                           const anatomy::Specimen& specimen) {
+  const auto list = fields.find(key);
+  if (!list) return whole_group;
+  std::vector<int> muscles;
+  for (const JsonValue& name : list->elements()) muscles.push_back(require_muscle(name, specimen));
+  if (muscles.empty()) throw list->error("is empty; name at least one muscle or leave the key out");
+  return muscles;
+}
+
+CoContraction read_co_contraction(const JsonValue& value, const Scene& scene) {
+  JsonObject fields(value);
+  CoContraction set;
+  const JsonValue joint = fields.at("joint");
+  set.joint = require_joint(joint, scene.specimen);
+  const auto group = std::find_if(scene.specimen.groups.begin(), scene.specimen.groups.end(),
+                                  [&](const anatomy::MuscleGroup& candidate) { return candidate.joint == set.joint; });
+  if (group == scene.specimen.groups.end()) throw joint.error("the specimen has no muscle group for this joint");
+  set.flexors = read_side(fields, "flexors", group->flexors, scene.specimen);
+  set.extensors = read_side(fields, "extensors", group->extensors, scene.specimen);
+  if (const auto common = fields.find("common")) set.common = common->number_between(0.0, 1.0);
+  if (const auto difference = fields.find("difference")) set.difference = difference->number_between(-1.0, 1.0);
+  set.hold_posture = fields.boolean_or("hold_posture", false);
+  fields.finish();
+  return set;
+}
+
+void read_friction(const JsonValue& value, ToolSettings& tool) {
+  JsonObject friction(value);
+  tool.static_friction = friction.at("static").number_between(0.0, 2.0);
+  tool.dynamic_friction = friction.at("dynamic").number_between(0.0, tool.static_friction);
+  friction.finish();
+}
+
+ToolSettings read_tool(const JsonValue& value) {
+  JsonObject fields(value);
+  ToolSettings tool;
+  tool.device = fields.at("device").string();
+  if (const auto hand = fields.find("hand")) tool.hand = hand->one_of({"left", "right"});
+  if (const auto radius = fields.find("radius_m")) tool.radius_m = radius->number_between(1e-3, 1e-2);
+  if (const auto scale = fields.find("force_scale")) tool.force_scale = scale->number_between(0.0, 1.0);
+  if (const auto friction = fields.find("friction")) read_friction(*friction, tool);
+  if (const auto stiffness = fields.find("stiffness_N_m")) tool.stiffness_N_m = stiffness->number_between(10.0, 5000.0);
+  fields.finish();
+  return tool;
+}
+
+void read_parts(JsonObject& root, Scene& scene) {
+  if (const auto dt = root.find("dt_s")) scene.settings.dt_s = dt->number_between(1e-3, 0.05);
+  if (const auto gravity = root.find("gravity_m_s2")) scene.settings.gravity_m_s2 = gravity->vec3();
+  if (const auto joints = root.find("joints")) read_joints(*joints, scene);
+  if (const auto tissue = root.find("tissue")) read_tissue(*tissue, scene);
+  if (const auto activations = root.find("activations")) read_activations(*activations, scene);
+  if (const auto set = root.find("co_contraction")) scene.co_contraction = read_co_contraction(*set, scene);
+  if (const auto tools = root.find("tools")) {
+    for (const JsonValue& tool : tools->elements()) scene.tools.push_back(read_tool(tool));
+    if (scene.tools.size() > 1) throw tools->error("more than one tool is not in this version; name one");
+  }
+  if (const auto script = root.find("script")) scene.script = read_script(*script, scene.specimen);
+}
+
+}  // namespace
+
+Scene parse_scene(const std::string& text, const std::filesystem::path& file, const Overrides& overrides) {
+  nlohmann::json json = parse_json(text, file.string());
+  if (!json.is_object()) throw bad_data(file.string(), "/", "must be an object in braces");
+  apply_overrides(json, overrides);
+  JsonObject root(JsonValue(json, file.string()));
+  root.at("schema").integer_between(1, 1);
+  Scene scene;
+  scene.source_text = json.dump();
+  scene.name = root.at("name").string();
+  scene.title = root.string_or("title", scene.name);
+  scene.specimen_folder = find_specimen(root.at("specimen"), file);
+  scene.specimen = anatomy::load_specimen(scene.specimen_folder);
+  scene.joints.resize(scene.specimen.joints.size());
+  scene.activations.assign(scene.specimen.muscles.size(), 0.0);
+  scene.settings.tissue.assign(scene.specimen.muscles.size(), simulation::TissueModel::Fem);
+  read_parts(root, scene);
+  root.finish();
+  if (scene.tools.empty()) scene.tools.emplace_back();
+  return scene;
+}
+
+std::vector<std::string> built_in_scenes() {
+  std::vector<std::string> names;
+  std::error_code missing;
+  for (const auto& entry : std::filesystem::directory_iterator(scenes_folder(), missing)) {
+    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+Scene load_scene(const std::string& name_or_path, const Overrides& overrides) {
+  const auto built_in = scenes_folder() / (name_or_path + ".json");
+  const bool is_name = name_or_path.find('/') == std::string::npos && std::filesystem::exists(built_in);
+  const std::filesystem::path file = is_name ? built_in : std::filesystem::path(name_or_path);
+  if (!std::filesystem::exists(file)) {
+    const auto names = built_in_scenes();
+    throw Error(ExitStatus::NoInput, fmt::format("{}: no such scene file; built-in scenes: {} (nearest: \"{}\")",
+                                                 name_or_path, join(names), nearest_word(name_or_path, names)));
+  }
+  return parse_scene(read_file(file), file, overrides);
+}
+
+}  // namespace myotact::scene

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "anatomy/specimen.h"
+#include "core/vector.h"
+#include "scene/script.h"
+#include "simulation/simulation.h"
+
+namespace myotact::scene {
+
+/// Co-contraction of the muscles across a joint: `common` is the level of the weaker side, the other side balances it;
+/// `difference` shifts the balance, positive towards flexion.
+struct CoContraction {
+  int joint = -1;
+  std::vector<int> flexors, extensors;  // muscles that are driven
+  double common = 0.0;                  // 0 .. 1
+  double difference = 0.0;              // -1 .. 1
+  bool hold_posture = false;            // trims the balance slowly until the joint is back at its starting angle
+};
+
+struct ToolSettings {
+  std::string device = "simulated";
+  std::string hand = "right";
+  double radius_m = 3e-3;
+  double force_scale = 1.0;
+  double static_friction = 0.3, dynamic_friction = 0.3;
+  double stiffness_N_m = 800.0;
+};
+
+struct JointSetting {
+  double angle_rad = 0.0;
+  bool locked = false;
+};
+
+/// A scene file (FORMATS: Scene) with every name resolved against its specimen.
+struct Scene {
+  std::string name, title;
+  std::filesystem::path specimen_folder;
+  anatomy::Specimen specimen;
+  simulation::SimulationSettings settings;
+  std::vector<JointSetting> joints;   // one a joint of the specimen
+  std::vector<double> activations;    // one a muscle
+  std::optional<CoContraction> co_contraction;
+  std::vector<ToolSettings> tools;
+  std::vector<ScriptAction> script;   // by time
+  std::string source_text;            // the file as read, for recordings
+};
+
+/// What the command line overrides in a scene: keys of --set, e.g. "specimen", "dt_s", "gravity_m_s2".
+using Overrides = std::map<std::string, std::string>;
+
+/// Reads a built-in scene by name or a scene file by path. Throws Error NoInput (names the built-in ones) or BadData.
+Scene load_scene(const std::string& name_or_path, const Overrides& overrides = {});
+
+/// The same from text, for recordings; `file` is named in errors and relative specimen paths start at its folder.
+Scene parse_scene(const std::string& text, const std::filesystem::path& file, const Overrides& overrides);
+
+/// Names of the scenes in assets/scenes.
+std::vector<std::string> built_in_scenes();
+
+}  // namespace myotact::scene

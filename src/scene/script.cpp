@@ -1,0 +1,123 @@
+#include "scene/script.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/text.h"
+
+namespace myotact::scene {
+
+namespace {
+
+template <class Part>
+int require_part(const JsonValue& name, const std::vector<Part>& parts, const char* kind) {
+  const std::string key = name.string();
+  std::vector<std::string> keys;
+  for (const Part& part : parts) keys.push_back(part.key);
+  const auto found = std::find(keys.begin(), keys.end(), key);
+  if (found == keys.end()) {
+    throw name.error(fmt::format("the specimen has no {} \"{}\"; the nearest is \"{}\"", kind, key,
+                                 nearest_word(key, keys)));
+  }
+  return static_cast<int>(found - keys.begin());
+}
+
+Vec3 direction(const JsonValue& value) {
+  const Vec3 vector = value.vec3();
+  if (!(vector.norm() > 1e-9)) throw value.error("is no direction; must be longer than 1e-9");
+  return vector.normalized();
+}
+
+constexpr double kDeepestPress_m = 0.03;  // deeper is beyond any muscle of a dog's limb
+
+Deed read_touch(JsonObject& action, const anatomy::Specimen& specimen) {
+  TouchMuscle touch;
+  touch.muscle = require_muscle(action.at("muscle"), specimen);
+  touch.at = action.at("at").number_between(0.0, 1.0);
+  touch.from = direction(action.at("from"));
+  if (const auto depth = action.find("depth_m")) touch.depth_m = depth->number_between(0.0, kDeepestPress_m);
+  return touch;
+}
+
+Deed read_slide(JsonObject& action, const anatomy::Specimen&) {
+  SlideOnMuscle slide;
+  slide.to = action.at("to").number_between(0.0, 1.0);
+  if (const auto depth = action.find("depth_m")) slide.depth_m = depth->number_between(0.0, kDeepestPress_m);
+  return slide;
+}
+
+Deed read_grab(JsonObject& action, const anatomy::Specimen& specimen) {
+  GrabLine grab;
+  grab.muscle = require_muscle(action.at("muscle"), specimen);
+  grab.at = action.at("at").number_between(0.0, 1.0);
+  grab.from = direction(action.at("from"));
+  grab.drag_m = action.at("drag_m").vec3();
+  return grab;
+}
+
+Deed read_activate(JsonObject& action, const anatomy::Specimen& specimen) {
+  return Activate{require_muscle(action.at("muscle"), specimen), action.at("to").number_between(0.0, 1.0)};
+}
+
+Deed read_co_contract(JsonObject& action, const anatomy::Specimen&) {
+  CoContract deed;
+  deed.common = action.at("common").number_between(0.0, 1.0);
+  if (const auto difference = action.find("difference")) deed.difference = difference->number_between(-1.0, 1.0);
+  return deed;
+}
+
+Deed read_shove(JsonObject& action, const anatomy::Specimen& specimen) {
+  constexpr double kLargestShove_Nm = 50.0;  // above what a dog's elbow can hold (31 N m estimated)
+  return Shove{require_joint(action.at("joint"), specimen),
+               action.at("torque_Nm").number_between(-kLargestShove_Nm, kLargestShove_Nm)};
+}
+
+Deed read_deed(const std::string& what, JsonObject& action, const anatomy::Specimen& specimen) {
+  if (what == "move") return MoveHand{action.at("to_m").vec3()};
+  if (what == "touch") return read_touch(action, specimen);
+  if (what == "slide") return read_slide(action, specimen);
+  if (what == "grab_line") return read_grab(action, specimen);
+  if (what == "release") return ReleaseHand{};
+  if (what == "activate") return read_activate(action, specimen);
+  if (what == "co_contract") return read_co_contract(action, specimen);
+  if (what == "hold_posture") return HoldPosture{action.at("on").boolean()};
+  if (what == "shove") return read_shove(action, specimen);
+  return TakePicture{action.at("view").one_of({"lateral", "medial", "cranial", "caudal", "dorsal", "palmar"})};
+}
+
+ScriptAction read_action(const JsonValue& value, const anatomy::Specimen& specimen) {
+  static const std::vector<std::string> kDeeds = {"move",        "touch",        "slide", "grab_line", "release", "activate",
+                                                  "co_contract", "hold_posture", "shove", "picture"};
+  constexpr double kLongestRun_s = 86400.0;
+  JsonObject object(value);
+  ScriptAction action;
+  action.start_s = object.at("t_s").number_between(0.0, kLongestRun_s);
+  if (const auto duration = object.find("duration_s")) action.duration_s = duration->number_between(0.0, kLongestRun_s);
+  action.deed = read_deed(object.at("do").one_of(kDeeds), object, specimen);
+  object.finish();
+  return action;
+}
+
+}  // namespace
+
+int require_muscle(const JsonValue& name, const anatomy::Specimen& specimen) {
+  return require_part(name, specimen.muscles, "muscle");
+}
+
+int require_joint(const JsonValue& name, const anatomy::Specimen& specimen) {
+  return require_part(name, specimen.joints, "joint");
+}
+
+std::vector<ScriptAction> read_script(const JsonValue& list, const anatomy::Specimen& specimen) {
+  std::vector<ScriptAction> script;
+  for (const JsonValue& element : list.elements()) {
+    script.push_back(read_action(element, specimen));
+    if (script.size() > 1 && script.back().start_s < script[script.size() - 2].start_s) {
+      throw element.error("starts before the action above it; order the script by t_s");
+    }
+  }
+  return script;
+}
+
+}  // namespace myotact::scene

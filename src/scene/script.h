@@ -1,0 +1,72 @@
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "anatomy/specimen.h"
+#include "core/json_reader.h"
+#include "core/vector.h"
+
+namespace myotact::scene {
+
+// What a script can ask for; assets/scenes/README.md lists the same with examples. Positions in the world frame W.
+
+struct MoveHand {  // to a point of the world
+  Vec3 to_m = Vec3::Zero();
+};
+struct TouchMuscle {  // approach the skin from outside at a place along the muscle line and press
+  int muscle = -1;
+  double at = 0.5;                     // along the line, 0 origin .. 1 insertion
+  Vec3 from = Vec3::UnitY();           // direction out of the muscle from which the hand comes
+  double depth_m = 4e-3;               // of the device below the resting skin
+};
+struct SlideOnMuscle {  // move along the muscle just touched, pressing
+  double to = 0.5;
+  double depth_m = 4e-3;
+};
+struct GrabLine {  // approach a muscle's line, take it, and drag it
+  int muscle = -1;
+  double at = 0.5;
+  Vec3 from = Vec3::UnitX();
+  Vec3 drag_m = Vec3::Zero();
+};
+struct ReleaseHand {};  // let go and lift off by 40 mm
+struct Activate {
+  int muscle = -1;
+  double to = 0.0;
+};
+struct CoContract {  // ramp the common level and the difference
+  double common = 0.0;
+  double difference = 0.0;
+};
+struct HoldPosture {
+  bool on = true;
+};
+struct Shove {  // a constant torque about a joint for the action's duration
+  int joint = -1;
+  double torque_Nm = 0.0;
+};
+struct TakePicture {
+  std::string view = "lateral";
+};
+
+using Deed = std::variant<MoveHand, TouchMuscle, SlideOnMuscle, GrabLine, ReleaseHand, Activate, CoContract, HoldPosture,
+                          Shove, TakePicture>;
+
+struct ScriptAction {
+  double start_s = 0.0;
+  double duration_s = 0.0;  // 0: at once
+  Deed deed;
+
+  double end_s() const { return start_s + duration_s; }
+};
+
+/// Reads a scene's `script` list. Throws Error BadData (unknown muscle, wrong type, overlapping hand actions).
+std::vector<ScriptAction> read_script(const JsonValue& list, const anatomy::Specimen& specimen);
+
+/// Index of the named muscle; throws Error BadData naming the nearest one.
+int require_muscle(const JsonValue& name, const anatomy::Specimen& specimen);
+int require_joint(const JsonValue& name, const anatomy::Specimen& specimen);
+
+}  // namespace myotact::scene

@@ -1,0 +1,138 @@
+#include "scene/scripted_hand.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+
+#include <Eigen/Geometry>
+
+#include "messages/device.h"
+
+namespace myotact::scene {
+
+namespace {
+
+constexpr double kStandOff_m = 0.03;   // the hand comes to this distance from the skin before it presses
+constexpr double kLiftOff_m = 0.04;
+constexpr double kGrabGap_m = 0.005;   // the stylus takes a line from just outside the skin
+constexpr int kSlideWaypoints = 16;    // about 5 mm apart on a 90 mm belly
+
+/// Distance along the ray origin + t direction to the triangle, if it is hit (Moeller and Trumbore 1997).
+std::optional<double> ray_hit(const Vec3& origin, const Vec3& direction, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 ab = b - a;
+  const Vec3 ac = c - a;
+  const Vec3 p = direction.cross(ac);
+  const double determinant = ab.dot(p);
+  if (std::abs(determinant) < 1e-18) return std::nullopt;  // parallel, or a triangle without area
+  const Vec3 s = origin - a;
+  const double u = s.dot(p) / determinant;
+  const Vec3 q = s.cross(ab);
+  const double v = direction.dot(q) / determinant;
+  const double t = ac.dot(q) / determinant;
+  if (u < 0.0 || v < 0.0 || u + v > 1.0 || t < 0.0) return std::nullopt;
+  return t;
+}
+
+double minimum_jerk(double s) { return s * s * s * (10.0 + s * (6.0 * s - 15.0)); }
+
+}  // namespace
+
+Vec3 point_at_fraction(const std::vector<Vec3>& points, double fraction) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
+  double left = std::clamp(fraction, 0.0, 1.0) * length;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const double segment = (points[i] - points[i - 1]).norm();
+    if (left <= segment && segment > 0.0) return points[i - 1] + left / segment * (points[i] - points[i - 1]);
+    left -= segment;
+  }
+  return points.back();
+}
+
+ScriptedHand::ScriptedHand(const anatomy::Specimen& specimen, const Vec3& start_world_m) : specimen_(&specimen) {
+  path_.push_back({0.0, start_world_m, 0});
+}
+
+HandTarget ScriptedHand::target(double time_s) const {
+  const auto later = std::find_if(path_.begin(), path_.end(), [&](const Waypoint& w) { return w.time_s > time_s; });
+  if (later == path_.begin()) return {later->position_world_m, later->buttons};
+  const Waypoint& from = *(later - 1);
+  if (later == path_.end()) return {from.position_world_m, from.buttons};
+  const double passed = (time_s - from.time_s) / (later->time_s - from.time_s);
+  const double s = later->arrives_moving ? passed : minimum_jerk(passed);
+  return {from.position_world_m + s * (later->position_world_m - from.position_world_m), from.buttons};
+}
+
+void ScriptedHand::begin(const ScriptAction& action, const simulation::Simulation& simulation) {
+  const HandTarget now = target(action.start_s);
+  const std::vector<Waypoint> before = path_;
+  path_.assign(1, {action.start_s, now.position_world_m, now.buttons});
+  if (const auto* move = std::get_if<MoveHand>(&action.deed)) return lay_out(action, *move);
+  if (const auto* touch = std::get_if<TouchMuscle>(&action.deed)) return lay_out(action, *touch, simulation);
+  if (const auto* slide = std::get_if<SlideOnMuscle>(&action.deed)) return lay_out(action, *slide, simulation);
+  if (const auto* grab = std::get_if<GrabLine>(&action.deed)) return lay_out(action, *grab, simulation);
+  if (const auto* release = std::get_if<ReleaseHand>(&action.deed)) return lay_out(action, *release);
+  path_ = before;
+}
+
+void ScriptedHand::lay_out(const ScriptAction& action, const MoveHand& deed) {
+  path_.push_back({action.end_s(), deed.to_m, 0});
+}
+
+void ScriptedHand::lay_out(const ScriptAction& action, const TouchMuscle& deed,
+                           const simulation::Simulation& simulation) {
+  touched_muscle_ = deed.muscle;
+  touched_at_ = deed.at;
+  from_ = deed.from;
+  const Vec3 skin = skin_point(simulation, deed.muscle, deed.at, deed.from);
+  path_.push_back({action.start_s + 0.5 * action.duration_s, skin + kStandOff_m * deed.from, 0});
+  path_.push_back({action.end_s(), skin - deed.depth_m * deed.from, 0});
+}
+
+void ScriptedHand::lay_out(const ScriptAction& action, const SlideOnMuscle& deed,
+                           const simulation::Simulation& simulation) {
+  if (touched_muscle_ < 0) return;  // nothing was touched before: the hand stays where it is
+  for (int i = 1; i <= kSlideWaypoints; ++i) {
+    const double s = static_cast<double>(i) / kSlideWaypoints;
+    const double at = touched_at_ + s * (deed.to - touched_at_);
+    const Vec3 skin = skin_point(simulation, touched_muscle_, at, from_);
+    path_.push_back({action.start_s + s * action.duration_s, skin - deed.depth_m * from_, 0, true});
+  }
+  touched_at_ = deed.to;
+}
+
+void ScriptedHand::lay_out(const ScriptAction& action, const GrabLine& deed,
+                           const simulation::Simulation& simulation) {
+  touched_muscle_ = deed.muscle;
+  touched_at_ = deed.at;
+  from_ = deed.from;
+  const Vec3 grip = skin_point(simulation, deed.muscle, deed.at, deed.from) + kGrabGap_m * deed.from;
+  const double start = action.start_s;
+  const double duration = action.duration_s;
+  path_.push_back({start + 0.2 * duration, grip + kStandOff_m * deed.from, 0});
+  path_.push_back({start + 0.4 * duration, grip, 0});
+  path_.push_back({start + 0.45 * duration, grip, messages::kGrabButton});
+  path_.push_back({start + 0.9 * duration, grip + deed.drag_m, messages::kGrabButton});
+  path_.push_back({action.end_s(), grip + deed.drag_m, messages::kGrabButton});
+}
+
+void ScriptedHand::lay_out(const ScriptAction& action, const ReleaseHand&) {
+  path_.front().buttons = 0;
+  path_.push_back({action.end_s(), path_.front().position_world_m + kLiftOff_m * from_, 0});
+}
+
+Vec3 ScriptedHand::skin_point(const simulation::Simulation& simulation, int muscle, double at,
+                              const Vec3& from) const {
+  const Vec3 origin = point_at_fraction(simulation.line_world_m(muscle), at);
+  const std::span<const Vec3> skin = simulation.skin_world_m(muscle);
+  double outermost = 0.0;
+  for (const auto& t : specimen_->muscles[static_cast<std::size_t>(muscle)].skin.triangles) {
+    const auto hit = ray_hit(origin, from, skin[static_cast<std::size_t>(t[0])], skin[static_cast<std::size_t>(t[1])],
+                             skin[static_cast<std::size_t>(t[2])]);
+    if (hit) outermost = std::max(outermost, *hit);
+  }
+  return origin + outermost * from;
+}
+
+}  // namespace myotact::scene
