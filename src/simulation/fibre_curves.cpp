@@ -1,0 +1,93 @@
+#include "simulation/fibre_curves.h"
+
+#include <array>
+#include <cmath>
+
+namespace myotact::simulation {
+namespace {
+
+/// height exp(-((n - centre) / width)^2 / 2) with width = width0 + width1 n.
+struct Bell {
+  double height, centre, width0, width1;
+};
+
+constexpr std::array<Bell, 3> kBells = {{
+    {0.8150671134243542, 1.055033428970575, 0.162384573599574, 0.063303448465465},
+    {0.433004984392647, 0.716775413397760, -0.029947116970696, 0.200356847296188},
+    {0.1, 1.0, 0.353553390593274, 0.0},
+}};
+
+/// A bell is below 1e-300 when its argument exceeds this; leaving it out there keeps 0/0 away where its width passes 0.
+constexpr double kFarthestDeviation = 37.0;
+
+constexpr double kPassiveShape = 4.0;
+constexpr double kPassiveStrain = 0.6;    // at peak isometric force
+constexpr double kPassiveZero_lo = 0.2;   // the curve passes 0 here
+constexpr double kPassiveStraight_lo = 2.0;
+
+constexpr std::array<double, 4> kVelocity = {-0.3211346127989808, -8.149, -0.374, 0.8825327733249912};
+
+/// (n - centre) / width, or nothing to add (false) where the bell has vanished.
+bool deviation(const Bell& bell, double n, double& x) noexcept {
+  const double width = bell.width0 + bell.width1 * n;
+  if (!(std::abs(n - bell.centre) < kFarthestDeviation * std::abs(width))) return false;
+  x = (n - bell.centre) / width;
+  return true;
+}
+
+double passive_exponential(double n) noexcept { return std::exp(kPassiveShape * (n - 1.0) / kPassiveStrain); }
+
+double passive_scale() noexcept {
+  static const double scale = 1.0 / (std::exp(kPassiveShape) - passive_exponential(kPassiveZero_lo));
+  return scale;
+}
+
+}  // namespace
+
+double active_force_length(double n) noexcept {
+  double sum = 0.0;
+  double x = 0.0;
+  for (const Bell& bell : kBells) {
+    if (deviation(bell, n, x)) sum += bell.height * std::exp(-0.5 * x * x);
+  }
+  return sum;
+}
+
+double active_force_length_slope(double n) noexcept {
+  double sum = 0.0;
+  double x = 0.0;
+  for (const Bell& bell : kBells) {
+    if (!deviation(bell, n, x)) continue;
+    const double width = bell.width0 + bell.width1 * n;
+    const double dx_dn = (1.0 - x * bell.width1) / width;
+    sum -= bell.height * std::exp(-0.5 * x * x) * x * dx_dn;
+  }
+  return sum;
+}
+
+double passive_force_length(double n) noexcept {
+  if (n > kPassiveStraight_lo) {
+    return passive_force_length(kPassiveStraight_lo) +
+           (n - kPassiveStraight_lo) * passive_force_length_slope(kPassiveStraight_lo);
+  }
+  return (passive_exponential(n) - passive_exponential(kPassiveZero_lo)) * passive_scale();
+}
+
+double passive_force_length_slope(double n) noexcept {
+  const double bounded = n > kPassiveStraight_lo ? kPassiveStraight_lo : n;
+  return kPassiveShape / kPassiveStrain * passive_exponential(bounded) * passive_scale();
+}
+
+double force_velocity(double v) noexcept {
+  if (v <= -1.0) return 0.0;
+  const double force = kVelocity[0] * std::asinh(kVelocity[1] * v + kVelocity[2]) + kVelocity[3];
+  return force > 0.0 ? force : 0.0;
+}
+
+double force_velocity_slope(double v) noexcept {
+  if (v <= -1.0) return 0.0;
+  const double argument = kVelocity[1] * v + kVelocity[2];
+  return kVelocity[0] * kVelocity[1] / std::sqrt(argument * argument + 1.0);
+}
+
+}  // namespace myotact::simulation

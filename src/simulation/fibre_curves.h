@@ -1,0 +1,25 @@
+#pragma once
+
+namespace myotact::simulation {
+
+// The force curves of a muscle fibre after De Groote, Kinney, Rao and Fregly, Ann Biomed Eng 44:2922 (2016), with the
+// constants of OpenSim's DeGrooteFregly2016Muscle (the first force-length bell rescaled so that its peak is 1).
+// `n` is the fibre length over the optimal fibre length; `v` the lengthening speed over the largest shortening speed
+// (v < 0 shortens). Forces are over the peak isometric force. All are finite for every finite argument; real-time safe.
+
+/// Largest shortening speed in optimal fibre lengths a second (De Groote et al. 2016, table 1).
+inline constexpr double kLargestShortening_lo_s = 10.0;
+
+double active_force_length(double n) noexcept;
+double active_force_length_slope(double n) noexcept;
+
+/// Strain 0.6 at peak force, shape 4. Goes on as a straight line past n = 2, far beyond any living fibre, so that a
+/// wild iterate of the solver cannot overflow.
+double passive_force_length(double n) noexcept;
+double passive_force_length_slope(double n) noexcept;
+
+/// 0 for v <= -1: a fibre that shortens faster than it can does not push.
+double force_velocity(double v) noexcept;
+double force_velocity_slope(double v) noexcept;
+
+}  // namespace myotact::simulation

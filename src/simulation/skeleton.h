@@ -1,0 +1,96 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "anatomy/specimen.h"
+#include "core/pose.h"
+
+namespace myotact::simulation {
+
+/// The tree of rigid bodies in generalised coordinates: one angle a joint, in the specimen's order (a weld's stays 0).
+/// Bodies without a joint above them stand still. Positive torques flex.
+///
+/// All sums follow from where a point of a body goes when joint j turns by dq: dp = w_j x (p - c_j) dq if the body is
+/// distal to j, else 0. Single caller; const functions may be called from several threads.
+class Skeleton {
+ public:
+  /// Joints and bodies are copied. Throws Error BadData for a universal or ball joint, an index out of range, an axis
+  /// that is not a unit vector, a body below two joints or a loop.
+  explicit Skeleton(const anatomy::Specimen& specimen);
+
+  int joint_count() const { return static_cast<int>(joints_.size()); }
+  int body_count() const { return static_cast<int>(bodies_.size()); }
+  const anatomy::Joint& joint(int joint) const { return joints_[index(joint)]; }
+  const anatomy::Body& body(int body) const { return bodies_[index(body)]; }
+  /// A hinge that is not locked.
+  bool moves(int joint) const;
+  void set_locked(int joint, bool locked) { locked_[index(joint)] = locked; }
+  bool locked(int joint) const { return locked_[index(joint)]; }
+
+  /// Puts the bodies in the pose `angles_rad` (one a joint). Allocates nothing.
+  void set_pose(std::span<const double> angles_rad);
+  double angle_rad(int joint) const { return angles_rad_[index(joint)]; }
+
+  // ---- in the pose set last
+  /// X_WL: maps a body point's rest position to where it is now.
+  const Pose& body_pose(int body) const { return poses_[index(body)]; }
+  Vec3 axis_W(int joint) const { return axes_W_[index(joint)]; }      // unit; 0 for a weld
+  Vec3 centre_W(int joint) const { return centres_W_[index(joint)]; }
+  /// True when turning `joint` moves `body` (locked or not).
+  bool is_distal(int body, int joint) const { return distal_[index(body) * joints_.size() + index(joint)]; }
+
+  /// dp/dq_joint [m/rad] of the point of `body` that is at p_W now.
+  Vec3 point_derivative(int body, int joint, const Vec3& p_W) const;
+  /// d2p/(dq_a dq_b) [m/rad^2], symmetric in the joints.
+  Vec3 point_second_derivative(int body, int joint_a, int joint_b, const Vec3& p_W) const;
+
+  /// Inertia of everything distal about the joint's axis [kg m^2].
+  double inertia_kg_m2(int joint) const;
+
+ private:
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  void check_joint(int joint) const;
+  void order_joints();
+
+  std::vector<anatomy::Joint> joints_;
+  std::vector<anatomy::Body> bodies_;
+  std::vector<int> order_;   // joints, proximal before distal
+  std::vector<int> place_;   // of a joint in order_
+  std::vector<char> distal_;  // bodies x joints
+  std::vector<char> locked_;  // joints
+  std::vector<double> angles_rad_;
+  std::vector<Pose> poses_;  // bodies
+  std::vector<Vec3> axes_W_, centres_W_;
+};
+
+/// What acts on the bones besides muscles.
+struct SkeletonInput {
+  Vec3 gravity_m_s2 = Vec3::Zero();
+  std::span<const double> velocities_rad_s;     // joints
+  std::span<const double> external_torque_Nm;   // joints
+};
+
+/// Stop at the end of a joint's range: a one-sided spring and damper. 500 N m/rad yields 1.4 degrees under 12 N m (600 N
+/// at 20 mm, a strong canine triceps); softer, and the elbow visibly passes its range. Chosen, not measured: bone on bone is
+/// far stiffer, which an implicit step would stand but a hand could not tell.
+inline constexpr double kRangeStiffness_Nm_rad = 500.0;
+/// Near critical for a canine forearm (0.003 kg m^2): 2 sqrt(500 * 0.003), so that the limb does not bounce off the stop.
+inline constexpr double kRangeDamping_Nms_rad = 2.5;
+
+/// What an implicit step of the angles needs: mass(q) qddot = force(q, qdot). One row a joint; welds and locked joints
+/// have their entries as if free (identity mass for a weld), and the caller leaves those rows out (Skeleton::moves).
+struct SkeletonLoads {
+  Eigen::MatrixXd mass_kg_m2;
+  Eigen::VectorXd force_Nm;          // gravity, passive joint, range stop, external torque, centrifugal terms
+  Eigen::MatrixXd stiffness_Nm_rad;  // -d force / dq without the centrifugal terms
+  Eigen::VectorXd damping_Nms_rad;   // -d force / d qdot, diagonal, likewise
+  Eigen::VectorXd passive_Nm_rad;    // the part of the diagonal stiffness that is the joint's own (spring and stop)
+
+  /// Fills all in the pose set last. Allocates on the first call only.
+  void compute(const Skeleton& skeleton, const SkeletonInput& input);
+};
+
+}  // namespace myotact::simulation
