@@ -1,0 +1,21 @@
+#include <algorithm>
+
+#include "anatomy/specimen.h"
+
+namespace myotact::anatomy {
+
+namespace {
+
+template <class Part>
+int index_of(const std::vector<Part>& parts, const std::string& key) {
+  const auto found = std::find_if(parts.begin(), parts.end(), [&](const Part& part) { return part.key == key; });
+  return found == parts.end() ? -1 : static_cast<int>(found - parts.begin());
+}
+
+}  // namespace
+
+int find_muscle(const Specimen& specimen, const std::string& key) { return index_of(specimen.muscles, key); }
+int find_joint(const Specimen& specimen, const std::string& key) { return index_of(specimen.joints, key); }
+int find_body(const Specimen& specimen, const std::string& key) { return index_of(specimen.bodies, key); }
+
+}  // namespace myotact::anatomy

@@ -1,0 +1,166 @@
+#include <unistd.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "anatomy/specimen.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "geometry/mesh_files.h"
+
+namespace myotact::anatomy {
+
+namespace {
+
+using Json = nlohmann::ordered_json;  // keys stay in the order of the format's page
+
+Json json_of(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
+
+Json json_of(const Body& body) {
+  return {{"key", body.key},
+          {"mass_kg", body.mass_kg},
+          {"com_m", json_of(body.com_m)},
+          {"inertia_kg_m2", body.inertia_kg_m2},
+          {"estimated", body.estimated}};
+}
+
+Json json_of(const Joint& joint, const Specimen& specimen) {
+  static constexpr const char* kTypes[] = {"hinge", "universal", "ball", "weld"};
+  Json axes = Json::array();
+  for (const Vec3& axis : joint.axes) axes.push_back(json_of(axis));
+  Json ranges = Json::array();
+  for (const auto& [lowest, highest] : joint.range_rad) ranges.push_back(Json::array({lowest, highest}));
+  return {{"key", joint.key},
+          {"type", kTypes[static_cast<int>(joint.type)]},
+          {"parent", specimen.bodies[static_cast<std::size_t>(joint.parent)].key},
+          {"child", specimen.bodies[static_cast<std::size_t>(joint.child)].key},
+          {"centre_m", json_of(joint.centre_m)},
+          {"axes", axes},
+          {"range_rad", ranges},
+          {"stiffness_Nm_rad", joint.stiffness_Nm_rad},
+          {"damping_Nms_rad", joint.damping_Nms_rad},
+          {"centre_uncertainty_m", joint.centre_uncertainty_m},
+          {"axis_uncertainty_rad", joint.axis_uncertainty_rad}};
+}
+
+Json json_of(const Muscle& muscle) {
+  return {{"key", muscle.key},
+          {"name_la", muscle.name_la},
+          {"name_en", muscle.name_en},
+          {"tets", "muscles/" + muscle.key + ".vtk"},
+          {"skin", "skins/" + muscle.key + ".ply"},
+          {"material", muscle.material},
+          {"peak_force_N", muscle.peak_force_N},
+          {"optimal_fibre_m", muscle.optimal_fibre_m},
+          {"pennation_rad", muscle.pennation_rad},
+          {"rest_stretch", muscle.rest_stretch},
+          {"tendon_slack_m", muscle.tendon_slack_m},
+          {"activation_tau_s", muscle.activation_tau_s},
+          {"deactivation_tau_s", muscle.deactivation_tau_s},
+          {"estimated", muscle.estimated},
+          {"sources", muscle.sources}};
+}
+
+Json json_of(const MuscleLine& line, const Specimen& specimen) {
+  static constexpr const char* kKinds[] = {"origin", "via", "insertion"};
+  Json points = Json::array();
+  for (const LinePoint& point : line.points) {
+    points.push_back({{"body", specimen.bodies[static_cast<std::size_t>(point.body)].key},
+                      {"position_m", json_of(point.position_m)},
+                      {"kind", kKinds[static_cast<int>(point.kind)]}});
+  }
+  return {{"muscle", specimen.muscles[static_cast<std::size_t>(line.muscle)].key},
+          {"points", points},
+          {"wraps", Json::array()}};
+}
+
+Json keys_of(const std::vector<int>& muscles, const Specimen& specimen) {
+  Json keys = Json::array();
+  for (const int m : muscles) keys.push_back(specimen.muscles[static_cast<std::size_t>(m)].key);
+  return keys;
+}
+
+Json json_of_lists(const Specimen& s) {
+  Json json;
+  json["bones"] = json["bodies"] = json["joints"] = json["muscles"] = json["lines"] = json["groups"] =
+      json["overlaps"] = Json::array();
+  for (const Bone& bone : s.bones) {
+    json["bones"].push_back({{"key", bone.key},
+                             {"name_la", bone.name_la},
+                             {"name_en", bone.name_en},
+                             {"file", "bones/" + bone.key + ".ply"},
+                             {"body", s.bodies[static_cast<std::size_t>(bone.body)].key}});
+  }
+  for (const Body& body : s.bodies) json["bodies"].push_back(json_of(body));
+  for (const Joint& joint : s.joints) json["joints"].push_back(json_of(joint, s));
+  for (const Muscle& muscle : s.muscles) json["muscles"].push_back(json_of(muscle));
+  for (const MuscleLine& line : s.lines) json["lines"].push_back(json_of(line, s));
+  for (const MuscleGroup& group : s.groups) {
+    json["groups"].push_back({{"joint", s.joints[static_cast<std::size_t>(group.joint)].key},
+                              {"flexors", keys_of(group.flexors, s)},
+                              {"extensors", keys_of(group.extensors, s)}});
+  }
+  for (const Overlap& o : s.overlaps) {
+    json["overlaps"].push_back({{"a", o.a}, {"b", o.b}, {"depth_m", o.depth_m}, {"volume_m3", o.volume_m3}});
+  }
+  return json;
+}
+
+/// Writes everything into `folder`, which is there and empty.
+void write_parts(const Specimen& specimen, const std::filesystem::path& folder) {
+  for (const char* part : {"bones", "skins", "muscles"}) make_writable_folder(folder / part);
+  std::vector<std::string> files;
+  for (const Bone& bone : specimen.bones) {
+    files.push_back("bones/" + bone.key + ".ply");
+    geometry::write_ply(bone.surface, folder / files.back());
+  }
+  for (const Muscle& muscle : specimen.muscles) {
+    files.push_back("skins/" + muscle.key + ".ply");
+    geometry::write_ply(muscle.skin, folder / files.back());
+    std::vector<int> regions;
+    for (const TissueRegion region : muscle.regions) regions.push_back(static_cast<int>(region));
+    files.push_back("muscles/" + muscle.key + ".vtk");
+    geometry::write_vtk({muscle.tets, muscle.fibres, muscle.sections_m2, regions, muscle.attachments},
+                        folder / files.back());
+  }
+  Json json = {{"schema", 1},
+               {"name", specimen.name},
+               {"species", specimen.species},
+               {"breed", specimen.breed},
+               {"side", specimen.side},
+               {"source", specimen.source},
+               {"licence", specimen.licence},
+               {"created_by", specimen.created_by}};
+  json.update(json_of_lists(specimen));
+  json["files"] = Json::object();
+  for (const std::string& file : files) json["files"][file] = sha256(read_file(folder / file));
+  write_file(folder / "specimen.json", json.dump(1) + "\n");
+}
+
+}  // namespace
+
+void save_specimen(const Specimen& specimen, const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  const fs::path target = fs::absolute(folder).lexically_normal();
+  if (fs::exists(target) && !fs::exists(target / "specimen.json") && !fs::is_empty(target)) {
+    throw Error(ExitStatus::InputOutput,
+                target.string() + ": holds something that is no specimen; name another folder for the specimen");
+  }
+  const fs::path stem = target.has_filename() ? target : target.parent_path();
+  const fs::path temporary = stem.string() + fmt::format(".{}.new", ::getpid());
+  make_writable_folder(stem.parent_path());
+  try {
+    make_writable_folder(temporary);
+    write_parts(specimen, temporary);
+    fs::remove_all(stem);
+    fs::rename(temporary, stem);
+  } catch (const fs::filesystem_error& failure) {
+    fs::remove_all(temporary);
+    throw Error(ExitStatus::InputOutput, failure.what());
+  } catch (...) {
+    fs::remove_all(temporary);
+    throw;
+  }
+}
+
+}  // namespace myotact::anatomy

@@ -1,0 +1,249 @@
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/text.h"
+#include "geometry/mesh_files.h"
+
+namespace myotact::geometry {
+
+namespace {
+
+constexpr int kLinearTet = 10, kQuadraticTet = 24;  // VTK cell types
+constexpr int kMostElements = 20'000'000;
+
+/// Words of a text file, one after the other, with the line they stand in.
+class Words {
+ public:
+  Words(std::string file, std::string_view text) : file_(std::move(file)), text_(text) {}
+
+  std::string_view next() {
+    skip_blanks();
+    const std::size_t start = position_;
+    while (position_ < text_.size() && !is_blank(text_[position_])) ++position_;
+    if (start == position_) throw error("the file ends early");
+    return text_.substr(start, position_ - start);
+  }
+
+  bool at_end() {
+    skip_blanks();
+    return position_ == text_.size();
+  }
+
+  std::string_view rest_of_line() {
+    const std::size_t end = std::min(text_.find('\n', position_), text_.size());
+    const std::string_view line = text_.substr(position_, end - position_);
+    position_ = end;
+    return line;
+  }
+
+  void expect(std::string_view word) {
+    const std::string_view found = next();
+    if (found != word) throw error(fmt::format("is \"{}\"; must be \"{}\"", found, word));
+  }
+
+  double number() {
+    const std::string_view word = next();
+    const auto value = parse_number(word);
+    if (!value || !std::isfinite(*value)) throw error(fmt::format("\"{}\" is no finite number", word));
+    return *value;
+  }
+
+  int integer(int lowest, int highest) {
+    const double value = number();
+    if (!(value >= lowest && value <= highest) || value != std::floor(value)) {
+      throw error(fmt::format("{} must be a whole number from {} to {}", to_text(value), lowest, highest));
+    }
+    return static_cast<int>(value);
+  }
+
+  Error error(const std::string& problem) const {
+    return bad_data(file_, fmt::format("line {}", line_), problem);
+  }
+
+ private:
+  static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
+  void skip_blanks() {
+    while (position_ < text_.size() && is_blank(text_[position_])) line_ += text_[position_++] == '\n' ? 1 : 0;
+  }
+
+  std::string file_;
+  std::string_view text_;
+  std::size_t position_ = 0;
+  int line_ = 1;
+};
+
+void read_points(Words& words, TetMesh& mesh) {
+  const int count = words.integer(0, kMostElements);
+  const std::string_view type = words.next();
+  if (type != "double" && type != "float") throw words.error("points must be double or float");
+  for (int i = 0; i < count; ++i) {
+    const double x = words.number();
+    const double y = words.number();
+    mesh.nodes_m.emplace_back(x, y, words.number());
+  }
+}
+
+void read_cells(Words& words, TetMesh& mesh) {
+  const int count = words.integer(0, kMostElements);
+  words.integer(0, std::numeric_limits<int>::max());  // size of the list: implied by the cells
+  const int last_node = static_cast<int>(mesh.nodes_m.size()) - 1;
+  for (int i = 0; i < count; ++i) {
+    const int nodes = words.integer(4, 10);
+    if (nodes != 4 && nodes != 10) throw words.error(fmt::format("a tet has 4 or 10 nodes, not {}", nodes));
+    std::array<int, 4> corners{};
+    for (int& node : corners) node = words.integer(0, last_node);
+    mesh.corners.push_back(corners);
+    if (nodes == 4) continue;
+    std::array<int, 6> midsides{};
+    for (int& node : midsides) node = words.integer(0, last_node);
+    mesh.midsides.push_back(midsides);
+  }
+  if (!mesh.midsides.empty() && mesh.midsides.size() != mesh.corners.size()) {
+    throw words.error("linear and quadratic tets are mixed; use one kind");
+  }
+}
+
+void read_cell_types(Words& words, const TetMesh& mesh) {
+  const int count = words.integer(0, kMostElements);
+  if (static_cast<std::size_t>(count) != mesh.corners.size()) throw words.error("must have one type a cell");
+  const int wanted = mesh.quadratic() ? kQuadraticTet : kLinearTet;
+  for (int i = 0; i < count; ++i) {
+    const int type = words.integer(0, 1000);
+    if (type != wanted) throw words.error(fmt::format("cell type {}; must be {}", type, wanted));
+  }
+}
+
+/// "SCALARS name type [components]" followed by "LOOKUP_TABLE name" and one number an entry.
+std::vector<double> read_scalars(Words& words, std::size_t count) {
+  words.rest_of_line();
+  words.expect("LOOKUP_TABLE");
+  words.next();
+  std::vector<double> values;
+  for (std::size_t i = 0; i < count; ++i) values.push_back(words.number());
+  return values;
+}
+
+std::vector<int> to_integers(const std::vector<double>& values, const Words& words) {
+  std::vector<int> integers;
+  for (const double value : values) {
+    if (value != std::floor(value) || std::abs(value) > 1e6) throw words.error("must be small whole numbers");
+    integers.push_back(static_cast<int>(value));
+  }
+  return integers;
+}
+
+/// Data arrays of the points or the cells, until the next section.
+void read_data(Words& words, TetFile& file) {
+  bool of_cells = false;
+  while (!words.at_end()) {
+    const std::string_view kind = words.next();
+    if (kind == "CELL_DATA" || kind == "POINT_DATA") {
+      of_cells = kind == "CELL_DATA";
+      const std::size_t wanted = of_cells ? file.mesh.corners.size() : file.mesh.nodes_m.size();
+      if (static_cast<std::size_t>(words.integer(0, kMostElements)) != wanted) {
+        throw words.error(fmt::format("{} must have {} entries", kind, wanted));
+      }
+      continue;
+    }
+    const std::string_view name = words.next();
+    const std::size_t count = of_cells ? file.mesh.corners.size() : file.mesh.nodes_m.size();
+    if (kind == "VECTORS") {
+      words.next();
+      std::vector<Vec3> vectors;
+      for (std::size_t i = 0; i < count; ++i) {
+        const double x = words.number();
+        const double y = words.number();
+        vectors.emplace_back(x, y, words.number());
+      }
+      if (of_cells && name == "fibre") file.fibres = std::move(vectors);
+    } else if (kind == "SCALARS") {
+      std::vector<double> values = read_scalars(words, count);
+      if (of_cells && name == "region") file.regions = to_integers(values, words);
+      if (of_cells && name == "section") file.sections_m2 = std::move(values);
+      if (!of_cells && name == "attachment") file.attachments = to_integers(values, words);
+    } else {
+      throw words.error(fmt::format("\"{}\" is not read; must be SCALARS or VECTORS", kind));
+    }
+  }
+}
+
+void append_numbers(std::string& text, std::initializer_list<double> values) {
+  const char* separator = "";
+  for (const double value : values) {
+    text += separator;
+    text += to_text(value);
+    separator = " ";
+  }
+  text += '\n';
+}
+
+void append_scalars(std::string& text, const char* name, const char* type, const std::vector<double>& values) {
+  text += fmt::format("SCALARS {} {} 1\nLOOKUP_TABLE default\n", name, type);
+  for (const double value : values) append_numbers(text, {value});
+}
+
+void append_cells(std::string& text, const TetMesh& mesh) {
+  const int nodes = mesh.quadratic() ? 10 : 4;
+  const std::size_t count = mesh.corners.size();
+  text += fmt::format("CELLS {} {}\n", count, count * static_cast<std::size_t>(nodes + 1));
+  for (std::size_t t = 0; t < count; ++t) {
+    text += std::to_string(nodes);
+    for (const int node : mesh.corners[t]) text += ' ' + std::to_string(node);
+    if (mesh.quadratic()) {
+      for (const int node : mesh.midsides[t]) text += ' ' + std::to_string(node);
+    }
+    text += '\n';
+  }
+  text += fmt::format("CELL_TYPES {}\n", count);
+  for (std::size_t t = 0; t < count; ++t) text += mesh.quadratic() ? "24\n" : "10\n";
+}
+
+}  // namespace
+
+TetFile read_vtk(const std::filesystem::path& path) {
+  const std::string text = read_file(path);
+  Words words(path.string(), text);
+  if (words.rest_of_line().find("vtk DataFile") == std::string_view::npos) {
+    throw words.error("is no legacy VTK file (\"# vtk DataFile Version\" is missing)");
+  }
+  words.next();  // the title's first word; the rest follows
+  words.rest_of_line();
+  words.expect("ASCII");
+  words.expect("DATASET");
+  words.expect("UNSTRUCTURED_GRID");
+  TetFile file;
+  words.expect("POINTS");
+  read_points(words, file.mesh);
+  words.expect("CELLS");
+  read_cells(words, file.mesh);
+  words.expect("CELL_TYPES");
+  read_cell_types(words, file.mesh);
+  read_data(words, file);
+  return file;
+}
+
+void write_vtk(const TetFile& file, const std::filesystem::path& path) {
+  std::string text = "# vtk DataFile Version 3.0\nmuscle\nASCII\nDATASET UNSTRUCTURED_GRID\n";
+  text += fmt::format("POINTS {} double\n", file.mesh.nodes_m.size());
+  for (const Vec3& node : file.mesh.nodes_m) append_numbers(text, {node.x(), node.y(), node.z()});
+  append_cells(text, file.mesh);
+  text += fmt::format("CELL_DATA {}\n", file.mesh.corners.size());
+  if (!file.fibres.empty()) text += "VECTORS fibre double\n";
+  for (const Vec3& fibre : file.fibres) append_numbers(text, {fibre.x(), fibre.y(), fibre.z()});
+  if (!file.sections_m2.empty()) append_scalars(text, "section", "double", file.sections_m2);
+  if (!file.regions.empty()) append_scalars(text, "region", "int", {file.regions.begin(), file.regions.end()});
+  if (!file.attachments.empty()) {
+    text += fmt::format("POINT_DATA {}\n", file.mesh.nodes_m.size());
+    append_scalars(text, "attachment", "int", {file.attachments.begin(), file.attachments.end()});
+  }
+  write_file(path, text);
+}
+
+}  // namespace myotact::geometry

@@ -1,0 +1,72 @@
+#include "scene/co_contraction.h"
+
+#include <gtest/gtest.h>
+
+namespace myotact::scene {
+namespace {
+
+/// Flexor 0 of at most 2 N m, extensor 1 of at most -5 N m, each with 0.1 N m of passive pull, torque linear in level.
+TorqueTable two_muscles() { return {{0.0, 0.5, 1.0}, {{0.1, 1.05, 2.0}, {-0.1, -2.55, -5.0}}}; }
+
+CoContraction set_of(double common, double difference = 0.0) {
+  CoContraction set;
+  set.joint = 0;
+  set.flexors = {0};
+  set.extensors = {1};
+  set.common = common;
+  set.difference = difference;
+  return set;
+}
+
+constexpr double kNoTorque[] = {0.0, 0.0};
+
+TEST(Balance, WeakerSideWorksAtTheCommonLevelAndTheOtherCancelsIt) {
+  const TorqueTable table = two_muscles();
+  for (const double common : {0.2, 0.6, 1.0}) {
+    const Balance levels = balance(table, set_of(common), kNoTorque);
+    EXPECT_TRUE(levels.held);
+    EXPECT_DOUBLE_EQ(levels.flexors, common);
+    EXPECT_NEAR(table.torque(0, levels.flexors) + table.torque(1, levels.extensors), 0.0, 1e-9);
+  }
+}
+
+TEST(Balance, RaisesTheWeakerSideWhereThePassivePullOfTheStrongerWins) {
+  TorqueTable table = two_muscles();
+  table.torque_Nm[1] = {-0.5, -2.75, -5.0};
+  const Balance levels = balance(table, set_of(0.0), kNoTorque);
+  EXPECT_TRUE(levels.held);
+  EXPECT_DOUBLE_EQ(levels.extensors, 0.0);
+  EXPECT_NEAR(table.torque(0, levels.flexors), 0.5, 1e-9);
+}
+
+TEST(Balance, SaysWhenTheWantedTorqueIsOutOfReach) {
+  EXPECT_FALSE(balance(two_muscles(), set_of(0.0), kNoTorque, 3.0).held);
+}
+
+TEST(Balance, DifferenceIsAddedToOneSide) {
+  const Balance flexed = balance(two_muscles(), set_of(0.5, 0.2), kNoTorque);
+  EXPECT_DOUBLE_EQ(flexed.flexors, 0.7);
+  const Balance straight = balance(two_muscles(), set_of(0.5), kNoTorque);
+  const Balance extended = balance(two_muscles(), set_of(0.5, -0.2), kNoTorque);
+  EXPECT_NEAR(extended.extensors - straight.extensors, 0.2, 1e-12);
+}
+
+TEST(Balance, CountsTheTorqueOfMusclesThatAreNotDriven) {
+  TorqueTable table = two_muscles();
+  table.torque_Nm.push_back({0.0, 0.25, 0.5});
+  const double activations[] = {0.0, 0.0, 1.0};
+  const Balance levels = balance(table, set_of(0.5), activations);
+  EXPECT_NEAR(table.torque(0, levels.flexors) + table.torque(1, levels.extensors) + 0.5, 0.0, 1e-9);
+}
+
+TEST(PostureTrim, AsksForTorqueAgainstALastingDrift) {
+  PostureTrim trim;
+  trim.restart(0.1);
+  double torque = 0.0;
+  for (int i = 0; i < 100; ++i) torque = trim.update(0.11, 0.01);
+  EXPECT_LT(torque, 0.0);
+  EXPECT_NEAR(trim.update(0.1, 0.01), torque, 1e-12);
+}
+
+}  // namespace
+}  // namespace myotact::scene

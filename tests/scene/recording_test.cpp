@@ -1,0 +1,82 @@
+#include "scene/recording.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/file.h"
+
+namespace myotact::scene {
+namespace {
+
+std::filesystem::path temporary_file(const std::string& name) {
+  return std::filesystem::temp_directory_path() / ("myotact_" + std::to_string(::getpid()) + "_" + name);
+}
+
+StepRecord sample_step(std::uint64_t number) {
+  StepRecord step;
+  step.excitations = {0.25, 0.5};
+  step.joint_torques_Nm = {static_cast<double>(number)};
+  step.gravity_m_s2 = {0.0, 0.0, -9.81};
+  step.tool.sequence = number;
+  step.state_hash = 1000 + number;
+  return step;
+}
+
+std::filesystem::path write_sample(const std::string& name) {
+  const auto path = temporary_file(name);
+  RecordingWriter writer(path, R"({"seed": 1})");
+  writer.add(sample_step(1));
+  TickRecord tick;
+  tick.device.buttons = 1;
+  tick.model_sequence = 7;
+  writer.add(std::vector<TickRecord>{tick, tick});
+  writer.add(sample_step(2));
+  writer.close();
+  return path;
+}
+
+TEST(Recording, ReadsBackWhatWasWritten) {
+  const auto path = write_sample("whole.rec");
+  const Recording recording = read_recording(path);
+  std::filesystem::remove(path);
+  EXPECT_TRUE(recording.complete);
+  EXPECT_EQ(recording.header_json, R"({"seed": 1})");
+  ASSERT_EQ(recording.steps.size(), 2u);
+  EXPECT_EQ(recording.steps[1].excitations, (std::vector<double>{0.25, 0.5}));
+  EXPECT_EQ(recording.steps[1].joint_torques_Nm, std::vector<double>{2.0});
+  EXPECT_EQ(recording.steps[1].tool.sequence, 2u);
+  EXPECT_EQ(recording.steps[1].state_hash, 1002u);
+  ASSERT_EQ(recording.ticks.size(), 2u);
+  EXPECT_EQ(recording.ticks[0].model_sequence, 7u);
+}
+
+TEST(Recording, CutAnywhereIsReadableUpToTheLastWholeChunk) {
+  const auto path = write_sample("cut.rec");
+  const std::string bytes = read_file(path);
+  std::size_t most_steps = 0;
+  for (std::size_t length = bytes.size() - 1; length > 40; length -= 7) {
+    std::filesystem::resize_file(path, length);
+    const Recording recording = read_recording(path);
+    EXPECT_FALSE(recording.complete);
+    most_steps = std::max(most_steps, recording.steps.size());
+  }
+  std::filesystem::remove(path);
+  EXPECT_EQ(most_steps, 2u);
+}
+
+TEST(Recording, RefusesAFileThatIsNone) {
+  const auto path = temporary_file("none.rec");
+  std::ofstream(path) << "t_s,x\n";
+  EXPECT_THROW(read_recording(path), Error);
+  std::filesystem::remove(path);
+  EXPECT_THROW(read_recording(path), Error);
+}
+
+}  // namespace
+}  // namespace myotact::scene

@@ -1,0 +1,87 @@
+#include "scene/scene_file.h"
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <functional>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "support/synthetic_specimen.h"
+
+namespace myotact::scene {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A folder with the two-muscle specimen, removed at the end.
+class SceneFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() / ("myotact_scene_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder_);
+    anatomy::save_specimen(myotact::testing::antagonist_hinge(), folder_ / "hinge");
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  Scene parse(const std::string& more, const Overrides& overrides = {}) const {
+    return parse_scene(R"({"schema": 1, "name": "s", "specimen": "hinge")" + more + "}", folder_ / "s.json", overrides);
+  }
+
+  std::string complaint(const std::string& more) const {
+    try {
+      parse(more);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.status(), ExitStatus::BadData);
+      return error.what();
+    }
+    return "nothing";
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(SceneFile, FillsDefaultsAndResolvesNames) {
+  const Scene scene = parse(R"(, "co_contraction": {"joint": "elbow", "common": 0.5},
+    "activations": {"extensor": 0.25}, // as at rest
+    "script": [{"t_s": 1, "do": "activate", "muscle": "flexor", "to": 1, "duration_s": 2}])");
+  ASSERT_EQ(scene.tools.size(), 1u);
+  ASSERT_TRUE(scene.co_contraction.has_value());
+  EXPECT_EQ(scene.co_contraction->flexors.size(), 1u);
+  EXPECT_DOUBLE_EQ(scene.settings.dt_s, 0.01);
+  ASSERT_EQ(scene.script.size(), 1u);
+  EXPECT_DOUBLE_EQ(scene.script[0].end_s(), 3.0);
+  EXPECT_DOUBLE_EQ(scene.activations[static_cast<std::size_t>(anatomy::find_muscle(scene.specimen, "extensor"))], 0.25);
+}
+
+TEST_F(SceneFile, OverridesReplaceKeys) { EXPECT_DOUBLE_EQ(parse("", {{"dt_s", "0.005"}}).settings.dt_s, 0.005); }
+
+TEST_F(SceneFile, ErrorsNamePlaceAndNearestWord) {
+  EXPECT_THAT(complaint(R"(, "activations": {"flexer": 1})"), HasSubstr("nearest is \"flexor\""));
+  EXPECT_THAT(complaint(R"(, "activations": {"flexor": 2})"), HasSubstr("/activations/flexor: is 2; must be between 0"));
+  EXPECT_THAT(complaint(R"(, "activation": {})"), HasSubstr("nearest known one is \"activations\""));
+  EXPECT_THAT(complaint(R"(, "dt_s": "fast")"), HasSubstr("/dt_s"));
+  EXPECT_THAT(complaint(R"(, "script": [{"t_s": 0, "do": "tuch"}])"), HasSubstr("nearest: \"touch\""));
+  EXPECT_THAT(complaint(R"(, "script": [{"t_s": 1, "do": "release"}, {"t_s": 0, "do": "release"}])"),
+              HasSubstr("/script/1"));
+  EXPECT_THAT(complaint(R"(, "joints": {"elbow": {"q_rad": 9}})"), HasSubstr("/joints/elbow/q_rad"));
+  EXPECT_THAT(complaint(R"(, "co_contraction": {"joint": "knee"})"), HasSubstr("nearest is \"elbow\""));
+}
+
+TEST_F(SceneFile, MissingThingsAreNoInput) {
+  for (const auto& make : {std::function<void()>([&] { load_scene("elbo"); }),
+                           std::function<void()>([&] { parse("", {{"specimen", "nowhere"}}); })}) {
+    try {
+      make();
+      FAIL() << "no error";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.status(), ExitStatus::NoInput);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace myotact::scene
