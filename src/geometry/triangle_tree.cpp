@@ -26,7 +26,7 @@ TriangleTree::TriangleTree(const TriangleMesh& mesh) : triangles_(mesh.triangles
 }
 
 /// Splits at the median along the longest side of the centroids' box; equal centroids fall apart by their index, so
-/// that the tree is the same everywhere.
+/// that the tree depends on the mesh alone.
 int TriangleTree::build(int first, int count, const std::vector<Vec3>& centroids) {
   const int node = static_cast<int>(nodes_.size());
   nodes_.push_back({first, count});

@@ -6,6 +6,7 @@
 #include "geometry/triangle_mesh.h"
 #include "geometry/triangle_tree.h"
 #include "messages/local_model.h"
+#include "simulation/line_model.h"
 
 namespace myotact::simulation {
 

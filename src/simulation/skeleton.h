@@ -3,8 +3,6 @@
 #include <span>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "anatomy/specimen.h"
 #include "core/pose.h"
 
@@ -47,6 +45,8 @@ class Skeleton {
   /// d2p/(dq_a dq_b) [m/rad^2], symmetric in the joints.
   Vec3 point_second_derivative(int body, int joint_a, int joint_b, const Vec3& p_W) const;
 
+  Vec3 com_W(int body) const;
+  Mat3 inertia_W_kg_m2(int body) const;  // about the body's centre of mass
   /// Inertia of everything distal about the joint's axis [kg m^2].
   double inertia_kg_m2(int joint) const;
 
@@ -64,33 +64,6 @@ class Skeleton {
   std::vector<double> angles_rad_;
   std::vector<Pose> poses_;  // bodies
   std::vector<Vec3> axes_W_, centres_W_;
-};
-
-/// What acts on the bones besides muscles.
-struct SkeletonInput {
-  Vec3 gravity_m_s2 = Vec3::Zero();
-  std::span<const double> velocities_rad_s;     // joints
-  std::span<const double> external_torque_Nm;   // joints
-};
-
-/// Stop at the end of a joint's range: a one-sided spring and damper. 500 N m/rad yields 1.4 degrees under 12 N m (600 N
-/// at 20 mm, a strong canine triceps); softer, and the elbow visibly passes its range. Chosen, not measured: bone on bone is
-/// far stiffer, which an implicit step would stand but a hand could not tell.
-inline constexpr double kRangeStiffness_Nm_rad = 500.0;
-/// Near critical for a canine forearm (0.003 kg m^2): 2 sqrt(500 * 0.003), so that the limb does not bounce off the stop.
-inline constexpr double kRangeDamping_Nms_rad = 2.5;
-
-/// What an implicit step of the angles needs: mass(q) qddot = force(q, qdot). One row a joint; welds and locked joints
-/// have their entries as if free (identity mass for a weld), and the caller leaves those rows out (Skeleton::moves).
-struct SkeletonLoads {
-  Eigen::MatrixXd mass_kg_m2;
-  Eigen::VectorXd force_Nm;          // gravity, passive joint, range stop, external torque, centrifugal terms
-  Eigen::MatrixXd stiffness_Nm_rad;  // -d force / dq without the centrifugal terms
-  Eigen::VectorXd damping_Nms_rad;   // -d force / d qdot, diagonal, likewise
-  Eigen::VectorXd passive_Nm_rad;    // the part of the diagonal stiffness that is the joint's own (spring and stop)
-
-  /// Fills all in the pose set last. Allocates on the first call only.
-  void compute(const Skeleton& skeleton, const SkeletonInput& input);
 };
 
 }  // namespace myotact::simulation

@@ -1,0 +1,212 @@
+#include "simulation/local_patch.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <tuple>
+
+#include "geometry/closest_point.h"
+
+namespace myotact::simulation {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// A triangle that the tool may meet, ordered by how near it may come.
+struct Candidate {
+  double reach_m = 0.0;
+  int surface = -1;
+  int triangle = -1;
+
+  bool operator<(const Candidate& other) const {
+    return std::tie(reach_m, surface, triangle) < std::tie(other.reach_m, other.surface, other.triangle);
+  }
+};
+
+/// The nearest triangles so far, farthest on top. One more than a patch holds: it tells how far the coverage goes.
+class NearestTriangles {
+ public:
+  double radius_m() const { return full() ? heap_.front().reach_m : LocalPatch::kSearchRadius_m; }
+
+  void offer(const Candidate& candidate) {
+    if (candidate.reach_m > LocalPatch::kSearchRadius_m) return;
+    if (full()) {
+      if (!(candidate < heap_.front())) return;
+      std::pop_heap(heap_.begin(), heap_.end());
+      --count_;
+    }
+    heap_[count_++] = candidate;
+    std::push_heap(heap_.begin(), heap_.begin() + static_cast<std::ptrdiff_t>(count_));
+  }
+
+  std::span<const Candidate> sorted() {
+    std::sort_heap(heap_.begin(), heap_.begin() + static_cast<std::ptrdiff_t>(count_));
+    return {heap_.data(), count_};
+  }
+
+ private:
+  bool full() const { return count_ == heap_.size(); }
+
+  std::array<Candidate, messages::kMaxLocalTriangles + 1> heap_;
+  std::size_t count_ = 0;
+};
+
+/// Numbers the vertices of a patch: an open-addressing table on the stack, never more than half full.
+class VertexNumbers {
+ public:
+  /// Place of the vertex in the table; number(place) is -1 when it is new.
+  std::size_t place(int surface, int vertex) const {
+    const std::uint64_t key = key_of(surface, vertex);
+    std::size_t slot = static_cast<std::size_t>((key * 0x9E3779B97F4A7C15ULL) >> 55U);  // 9 bits
+    while (numbers_[slot] >= 0 && keys_[slot] != key) slot = (slot + 1) % kSlots;
+    return slot;
+  }
+  int number(std::size_t place) const { return numbers_[place]; }
+  void set(std::size_t place, int surface, int vertex, int number) {
+    keys_[place] = key_of(surface, vertex);
+    numbers_[place] = static_cast<std::int16_t>(number);
+  }
+  VertexNumbers() { numbers_.fill(-1); }
+
+ private:
+  static constexpr std::size_t kSlots = 512;
+  static_assert(kSlots >= 2 * messages::kMaxLocalVertices);
+
+  static std::uint64_t key_of(int surface, int vertex) {
+    return (static_cast<std::uint64_t>(surface) << 32U) | static_cast<std::uint32_t>(vertex);
+  }
+  std::array<std::uint64_t, kSlots> keys_{};
+  std::array<std::int16_t, kSlots> numbers_{};
+};
+
+/// A lower bound of the distance to the triangle at any time between the frames: between them no vertex is farther than
+/// half its way from its nearer frame.
+double reach_m(const Vec3& p, const std::array<int, 3>& triangle, std::span<const Vec3> previous_m,
+               std::span<const Vec3> current_m) {
+  const auto& [a, b, c] = triangle;
+  const auto distance = [&](std::span<const Vec3> x) {
+    return (geometry::closest_point_on_triangle(p, x[at(a)], x[at(b)], x[at(c)]).position_m - p).norm();
+  };
+  double way_m2 = 0.0;
+  for (const int vertex : triangle) way_m2 = std::max(way_m2, (current_m[at(vertex)] - previous_m[at(vertex)]).squaredNorm());
+  if (way_m2 == 0.0) return distance(current_m);
+  return std::max(0.0, std::min(distance(previous_m), distance(current_m)) - 0.5 * std::sqrt(way_m2));
+}
+
+/// A surface's vertices at the last two frames.
+struct Frames {
+  std::span<const Vec3> previous_m, current_m;
+};
+
+/// Adds a triangle and its new vertices, or returns false when the vertices would not fit.
+bool add_triangle(const Candidate& candidate, const std::array<int, 3>& triangle, const Frames& frames,
+                  VertexNumbers& numbers, messages::LocalModel& model) {
+  int fresh = 0;
+  for (const int vertex : triangle) fresh += numbers.number(numbers.place(candidate.surface, vertex)) < 0 ? 1 : 0;
+  if (model.vertex_count + fresh > messages::kMaxLocalVertices) return false;
+  messages::LocalModel::Triangle& out = model.triangles[at(model.triangle_count++)];
+  out.surface = candidate.surface;
+  out.triangle = candidate.triangle;
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    const int vertex = triangle[corner];
+    const std::size_t place = numbers.place(candidate.surface, vertex);
+    if (numbers.number(place) < 0) {
+      numbers.set(place, candidate.surface, vertex, model.vertex_count);
+      model.previous_world_m[at(model.vertex_count)] = to_array(frames.previous_m[at(vertex)]);
+      model.current_world_m[at(model.vertex_count)] = to_array(frames.current_m[at(vertex)]);
+      ++model.vertex_count;
+    }
+    out.vertices[corner] = numbers.number(place);
+  }
+  return true;
+}
+
+/// Walks from the place along the line until the string is long enough: +1 towards the insertion, -1 to the origin.
+Vec3 string_end(const LineView& line, const LinePlace& place, int direction) {
+  const int last = static_cast<int>(line.points_m.size()) - 1;
+  int point = direction > 0 ? std::min(place.segment + 1, last) : place.segment;
+  double length_m = (line.points_m[at(point)] - place.position_m).norm();
+  while (length_m < kShortestString_m && point + direction >= 0 && point + direction <= last) {
+    length_m += (line.points_m[at(point + direction)] - line.points_m[at(point)]).norm();
+    point += direction;
+  }
+  return line.points_m[at(point)];
+}
+
+}  // namespace
+
+LocalPatch::LocalPatch(std::span<const geometry::TriangleMesh* const> surfaces) {
+  surfaces_.reserve(surfaces.size());
+  for (const geometry::TriangleMesh* mesh : surfaces) surfaces_.push_back({geometry::TriangleTree(*mesh), {}, {}});
+}
+
+void LocalPatch::update_surface(int surface, std::span<const Vec3> previous_m,
+                                std::span<const Vec3> current_m) noexcept {
+  Surface& here = surfaces_[at(surface)];
+  here.previous_m = previous_m;
+  here.current_m = current_m;
+  here.tree.refit(previous_m, current_m);
+}
+
+void LocalPatch::write(const Vec3& centre_m, messages::LocalModel& model) const noexcept {
+  NearestTriangles nearest;
+  for (int s = 0; s < surface_count(); ++s) {
+    const Surface& surface = surfaces_[at(s)];
+    if (surface.current_m.empty()) continue;
+    surface.tree.visit_within(centre_m, nearest.radius_m(), [&](int t) {
+      nearest.offer({reach_m(centre_m, surface.tree.triangle(t), surface.previous_m, surface.current_m), s, t});
+      return nearest.radius_m();
+    });
+  }
+  VertexNumbers numbers;
+  model.vertex_count = 0;
+  model.triangle_count = 0;
+  model.coverage_centre_world_m = to_array(centre_m);
+  model.coverage_radius_m = kSearchRadius_m;
+  for (const Candidate& candidate : nearest.sorted()) {
+    const Surface& surface = surfaces_[at(candidate.surface)];
+    const bool room = model.triangle_count < messages::kMaxLocalTriangles;
+    const Frames frames{surface.previous_m, surface.current_m};
+    if (!room || !add_triangle(candidate, surface.tree.triangle(candidate.triangle), frames, numbers, model)) {
+      model.coverage_radius_m = candidate.reach_m;
+      return;
+    }
+  }
+}
+
+messages::LocalLine local_line(std::span<const LineView> lines, const LineHand& hand) noexcept {
+  messages::LocalLine result;
+  const LineView* chosen = nullptr;
+  LinePlace place;
+  place.distance_m = kLineReach_m;
+  for (const LineView& line : lines) {
+    if (line.points_m.size() < 2) continue;
+    if (line.muscle == hand.grabbed_muscle && line.muscle >= 0) {
+      chosen = &line;
+      place = place_at_fraction(line.points_m, line.fractions, hand.grab_fraction);
+      break;
+    }
+    const LinePlace here = nearest_place(line.points_m, line.fractions, hand.tool_m);
+    if (here.distance_m > place.distance_m) continue;
+    chosen = &line;
+    place = here;
+  }
+  if (chosen == nullptr) return result;
+  const bool in_hand = hand.grabbed_muscle >= 0 && chosen->muscle == hand.grabbed_muscle;
+  const Vec3 proximal_m = string_end(*chosen, place, -1);
+  const Vec3 distal_m = string_end(*chosen, place, +1);
+  const Vec3 bend_m = in_hand ? hand.tool_m : place.position_m;
+  result.muscle = chosen->muscle;
+  result.fraction = place.fraction;
+  result.grab_point_world_m = to_array(place.position_m);
+  result.proximal_point_world_m = to_array(proximal_m);
+  result.distal_point_world_m = to_array(distal_m);
+  result.tension_N = chosen->tension_N;
+  result.length_m = (bend_m - proximal_m).norm() + (distal_m - bend_m).norm();
+  result.stiffness_N_m = std::max(0.0, chosen->stiffness_N_m);
+  result.damping_Ns_m = std::max(0.0, chosen->damping_Ns_m);
+  return result;
+}
+
+}  // namespace myotact::simulation
