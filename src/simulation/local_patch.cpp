@@ -13,6 +13,9 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+/// Skins have edges of about 3 mm: a patch of them is filled within 15 mm in most places.
+constexpr double kFirstRadius_m = 0.015;
+
 /// A triangle that the tool may meet, ordered by how near it may come.
 struct Candidate {
   double reach_m = 0.0;
@@ -22,34 +25,6 @@ struct Candidate {
   bool operator<(const Candidate& other) const {
     return std::tie(reach_m, surface, triangle) < std::tie(other.reach_m, other.surface, other.triangle);
   }
-};
-
-/// The nearest triangles so far, farthest on top. One more than a patch holds: it tells how far the coverage goes.
-class NearestTriangles {
- public:
-  double radius_m() const { return full() ? heap_.front().reach_m : LocalPatch::kSearchRadius_m; }
-
-  void offer(const Candidate& candidate) {
-    if (candidate.reach_m > LocalPatch::kSearchRadius_m) return;
-    if (full()) {
-      if (!(candidate < heap_.front())) return;
-      std::pop_heap(heap_.begin(), heap_.end());
-      --count_;
-    }
-    heap_[count_++] = candidate;
-    std::push_heap(heap_.begin(), heap_.begin() + static_cast<std::ptrdiff_t>(count_));
-  }
-
-  std::span<const Candidate> sorted() {
-    std::sort_heap(heap_.begin(), heap_.begin() + static_cast<std::ptrdiff_t>(count_));
-    return {heap_.data(), count_};
-  }
-
- private:
-  bool full() const { return count_ == heap_.size(); }
-
-  std::array<Candidate, messages::kMaxLocalTriangles + 1> heap_;
-  std::size_t count_ = 0;
 };
 
 /// Numbers the vertices of a patch: an open-addressing table on the stack, never more than half full.
@@ -136,6 +111,36 @@ Vec3 string_end(const LineView& line, const LinePlace& place, int direction) {
 
 }  // namespace
 
+/// The nearest triangles so far, farthest on top. One more than a patch holds: it tells how far the coverage goes.
+class LocalPatch::NearestTriangles {
+ public:
+  explicit NearestTriangles(double search_radius_m) : search_radius_m_(search_radius_m) {}
+
+  bool full() const { return count_ == heap_.size(); }
+  double radius_m() const { return full() ? heap_.front().reach_m : search_radius_m_; }
+
+  void offer(const Candidate& candidate) {
+    if (candidate.reach_m > search_radius_m_) return;
+    if (full()) {
+      if (!(candidate < heap_.front())) return;
+      std::pop_heap(heap_.begin(), heap_.end());
+      --count_;
+    }
+    heap_[count_++] = candidate;
+    std::push_heap(heap_.begin(), heap_.begin() + static_cast<std::ptrdiff_t>(count_));
+  }
+
+  std::span<const Candidate> sorted() {
+    std::sort_heap(heap_.begin(), heap_.begin() + static_cast<std::ptrdiff_t>(count_));
+    return {heap_.data(), count_};
+  }
+
+ private:
+  double search_radius_m_;
+  std::array<Candidate, messages::kMaxLocalTriangles + 1> heap_;
+  std::size_t count_ = 0;
+};
+
 LocalPatch::LocalPatch(std::span<const geometry::TriangleMesh* const> surfaces) {
   surfaces_.reserve(surfaces.size());
   for (const geometry::TriangleMesh* mesh : surfaces) surfaces_.push_back({geometry::TriangleTree(*mesh), {}, {}});
@@ -149,8 +154,7 @@ void LocalPatch::update_surface(int surface, std::span<const Vec3> previous_m,
   here.tree.refit(previous_m, current_m);
 }
 
-void LocalPatch::write(const Vec3& centre_m, messages::LocalModel& model) const noexcept {
-  NearestTriangles nearest;
+void LocalPatch::collect(const Vec3& centre_m, NearestTriangles& nearest) const noexcept {
   for (int s = 0; s < surface_count(); ++s) {
     const Surface& surface = surfaces_[at(s)];
     if (surface.current_m.empty()) continue;
@@ -158,6 +162,16 @@ void LocalPatch::write(const Vec3& centre_m, messages::LocalModel& model) const 
       nearest.offer({reach_m(centre_m, surface.tree.triangle(t), surface.previous_m, surface.current_m), s, t});
       return nearest.radius_m();
     });
+  }
+}
+
+void LocalPatch::write(const Vec3& centre_m, messages::LocalModel& model) const noexcept {
+  // A small radius first: where it fills the patch, most triangles are never measured.
+  NearestTriangles nearest(kFirstRadius_m);
+  for (const double radius_m : {kFirstRadius_m, 3.0 * kFirstRadius_m, kSearchRadius_m}) {
+    nearest = NearestTriangles(radius_m);
+    collect(centre_m, nearest);
+    if (nearest.full()) break;
   }
   VertexNumbers numbers;
   model.vertex_count = 0;

@@ -38,6 +38,10 @@ class LocalPatch {
     geometry::TriangleTree tree;
     std::span<const Vec3> previous_m, current_m;  // empty until the first update: left out of patches
   };
+  class NearestTriangles;
+
+  void collect(const Vec3& centre_m, NearestTriangles& nearest) const noexcept;
+
   std::vector<Surface> surfaces_;
 };
 
