@@ -72,6 +72,7 @@ class Simulation {
   std::vector<Vec3> line_world_m(int muscle) const;
   double smallest_volume_ratio(int muscle) const;  // smallest J over the integration points
   std::uint64_t state_hash() const;
+  int failed_steps() const;                  // that had to be repeated in shorter parts, since construction
 
   /// The surface near the tool, its compliance at the contact, the line nearest to (or in) the hand, the joint.
   void write_local_model(const messages::ToolState& tool, messages::LocalModel& model) const;

@@ -1,0 +1,80 @@
+#include "simulation/limb.h"
+
+namespace myotact::simulation {
+
+Limb::Limb(const anatomy::Specimen& specimen) : skeleton(specimen) {
+  now.angle_rad = now.velocity_rad_s = Eigen::VectorXd::Zero(skeleton.joint_count());
+  last = before = now;
+  external_torque_Nm = now.angle_rad;
+  for (int m = 0; m < static_cast<int>(specimen.muscles.size()); ++m) {
+    LimbMuscle muscle;
+    muscle.tissue = build_muscle_tissue(specimen, m);
+    muscle.state = make_state(muscle.tissue);
+    muscle.system = make_system(muscle.tissue, skeleton);
+    muscle.factor = std::make_unique<TissueFactor>();
+    muscle.factor->analyzePattern(muscle.tissue.pattern.lower());
+    muscle.stiffness_Nm_rad = muscle.readout.torque_Nm = Eigen::VectorXd::Zero(skeleton.joint_count());
+    muscles.push_back(std::move(muscle));
+  }
+}
+
+Vec3 spring_point(const Limb& limb, const ToolSpring& spring) {
+  if (spring.muscle < 0) return limb.skeleton.body_pose(spring.body) * spring.body_rest_m;
+  const LimbMuscle& muscle = limb.muscles[static_cast<std::size_t>(spring.muscle)];
+  Vec3 p = Vec3::Zero();
+  for (std::size_t k = 0; k < static_cast<std::size_t>(spring.point.count); ++k) {
+    p += spring.point.weights[k] * node_vector(muscle.state.now.position_m, spring.point.nodes[k]);
+  }
+  return p;
+}
+
+Vec3 spring_slope(const Limb& limb, const ToolSpring& spring, int joint) {
+  if (spring.muscle < 0) return limb.skeleton.point_derivative(spring.body, joint, spring_point(limb, spring));
+  const LimbMuscle& muscle = limb.muscles[static_cast<std::size_t>(spring.muscle)];
+  Vec3 slope = Vec3::Zero();
+  for (std::size_t k = 0; k < static_cast<std::size_t>(spring.point.count); ++k) {
+    const int node = spring.point.nodes[k];
+    const int body = muscle.tissue.body[static_cast<std::size_t>(node)];
+    if (body < 0) continue;
+    const Vec3 x = node_vector(muscle.state.now.position_m, node);
+    slope += spring.point.weights[k] * limb.skeleton.point_derivative(body, joint, x);
+  }
+  return slope;
+}
+
+void follow_angles(Limb& limb) {
+  limb.skeleton.set_pose(limb.angles());
+  for (LimbMuscle& muscle : limb.muscles) {
+    if (!muscle.rigid) {
+      place_clamped(muscle.tissue, limb.skeleton, muscle.state);
+      continue;
+    }
+    for (std::size_t node = 0; node < muscle.tissue.body.size(); ++node) {
+      Vec3 p = Vec3::Zero();
+      for (std::size_t k = 0; k < muscle.tissue.bodies.size(); ++k) {
+        const double share = muscle.tissue.blend(static_cast<Eigen::Index>(node), static_cast<Eigen::Index>(k));
+        p += share * (limb.skeleton.body_pose(muscle.tissue.bodies[k]) * muscle.tissue.mesh.nodes_m[node]);
+      }
+      muscle.state.now.position_m.segment<3>(static_cast<Eigen::Index>(3 * node)) = p;
+    }
+  }
+}
+
+void read_out(Limb& limb) {
+  for (LimbMuscle& muscle : limb.muscles) {
+    if (muscle.rigid) continue;
+    muscle.readout = {muscle.system.muscle_torque_Nm, muscle.system.tension_N, muscle.system.smallest_J};
+  }
+  const auto span = [](const Eigen::VectorXd& v) {
+    return std::span<const double>(v.data(), static_cast<std::size_t>(v.size()));
+  };
+  limb.loads.compute(limb.skeleton, {limb.gravity_m_s2, span(limb.now.velocity_rad_s), span(limb.external_torque_Nm)});
+}
+
+bool factor_definite(LimbMuscle& muscle) {
+  muscle.factor->factorize(muscle.system.matrix.lower());
+  if (muscle.factor->info() != Eigen::Success) return false;
+  return muscle.factor->vectorD().minCoeff() > 0.0;  // false for NaN too
+}
+
+}  // namespace myotact::simulation

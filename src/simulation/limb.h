@@ -1,0 +1,93 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <Eigen/SparseCholesky>
+
+#include "simulation/skeleton_loads.h"
+#include "simulation/skin_embedding.h"
+#include "simulation/tissue_system.h"
+#include "simulation/worker_pool.h"
+
+namespace myotact::simulation {
+
+using TissueFactor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
+
+/// A spring between a place in the world and a material point of a muscle or a point of a body.
+struct ToolSpring {
+  int muscle = -1;                    // or -1: `body` and `body_rest_m` say where
+  MaterialPoint point;                // of the muscle's mesh
+  int body = -1;
+  Vec3 body_rest_m = Vec3::Zero();
+  Vec3 target_W_m = Vec3::Zero();
+  double stiffness_N_m = 0.0;
+};
+
+/// What a muscle does at the end of a step or settle.
+struct MuscleReadout {
+  Eigen::VectorXd torque_Nm;          // one a joint, positive flexes
+  double tension_N = 0.0;             // on its insertion
+  double smallest_J = 1.0;            // volume ratio over the integration points
+};
+
+/// One muscle: model, state, and what a solve leaves behind. Owned by one task at a time.
+struct LimbMuscle {
+  MuscleTissue tissue;
+  bool rigid = false;                 // follows the bones, exerts nothing
+  TissueState state;
+  TissueSystem system;
+  std::unique_ptr<TissueFactor> factor;
+  Eigen::VectorXd free_solution;      // matrix^-1 residual
+  Eigen::MatrixXd borders;            // free dofs x unknowns of the small system
+  Eigen::MatrixXd border_solution;    // matrix^-1 borders
+  Eigen::MatrixXd reduced;            // borders^T matrix^-1 borders
+  Eigen::VectorXd reduced_residual;   // borders^T matrix^-1 residual
+  double residual_share = 0.0;        // out-of-balance force over the size of the forces, springs included
+  bool made_definite = false;         // the last tangent had to be
+  bool sound = true;                  // the last factorisation and state were finite
+  MuscleReadout readout;
+  Eigen::VectorXd stiffness_Nm_rad;   // quasi-static, one a joint, of the last refresh
+};
+
+/// Angles of all joints at one instant.
+struct JointFrameState {
+  Eigen::VectorXd angle_rad;
+  Eigen::VectorXd velocity_rad_s;
+};
+
+/// Everything that moves, and what a step needs. See step.h and settle.h.
+struct Limb {
+  explicit Limb(const anatomy::Specimen& specimen);
+
+  Skeleton skeleton;
+  SkeletonLoads loads;
+  JointFrameState now, last, before;
+  Eigen::VectorXd external_torque_Nm;
+  Vec3 gravity_m_s2 = Vec3::Zero();
+  std::vector<LimbMuscle> muscles;
+  std::vector<ToolSpring> springs;      // of the present step
+  std::vector<Vec3> spring_force_N;     // on the tissue or bone
+  std::vector<Mat3> spring_compliance_m_N;  // of the tissue under each spring in the present step
+
+  std::span<const double> angles() const {
+    return {now.angle_rad.data(), static_cast<std::size_t>(now.angle_rad.size())};
+  }
+};
+
+/// Where the material point of a spring is in the present iterate.
+Vec3 spring_point(const Limb& limb, const ToolSpring& spring);
+/// d(spring point)/d(angle) with the free nodes held.
+Vec3 spring_slope(const Limb& limb, const ToolSpring& spring, int joint);
+
+/// Puts the bodies and all clamped nodes where the present angles say; rigid muscles whole.
+void follow_angles(Limb& limb);
+
+/// Copies the outcome of the last forces pass to the muscles' readouts, and the bones' loads to `limb.loads`.
+void read_out(Limb& limb);
+
+/// Factors the system's matrix; false when a pivot is not positive.
+bool factor_definite(LimbMuscle& muscle);
+
+}  // namespace myotact::simulation

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "anatomy/specimen.h"
+#include "geometry/tet_mesh.h"
+#include "simulation/block_matrix.h"
+#include "simulation/quadratic_tet.h"
+#include "simulation/tendon_strand.h"
+
+namespace myotact::simulation {
+
+/// One element of a muscle's mesh, as it is at rest.
+struct TissueElement {
+  std::array<int, kTetNodes> nodes{};
+  TetRest rest;
+  Vec3 fibre = Vec3::UnitX();
+  double section_m2 = 0.0;  // of the muscle here, along the fibres
+  double peak_Pa = 0.0;     // nominal fibre stress at full activation and optimal length; 0: no fibres (sheath)
+  bool sheath = false;
+  /// Slots of the pairs (a, b), a <= b, row by row, in the matrix of free nodes; base -1 where a node is clamped.
+  std::array<BlockSlot, kTetNodes * (kTetNodes + 1) / 2> slots{};
+};
+
+/// Normalised fibre length n = rest_stretch + gain (stretch - 1).
+struct FibreMap {
+  double rest_stretch = 0.8;
+  double gain = 1.0;  // belly length over (optimal fibre length x cos pennation)
+};
+
+/// A muscle as the solver sees it: everything that does not change while it moves. n nodes, of which some are clamped
+/// to bodies and move exactly with them; the rest are free and numbered in the order of the nodes.
+struct MuscleTissue {
+  geometry::TetMesh mesh;           // quadratic, rest position
+  std::vector<int> body;            // n: body that clamps the node, or -1
+  std::vector<int> free_index;      // n: number among the free nodes, or -1
+  int free_nodes = 0;
+  std::vector<double> mass_kg;      // n, lumped
+  std::vector<TissueElement> elements;
+  FibreMap fibre_map;
+  std::vector<TendonStrand> strands;
+  std::vector<int> bodies;          // that clamp nodes
+  Eigen::MatrixXd blend;            // n x bodies: share of each body's motion in a smooth guess, rows sum to 1
+  BlockMatrix pattern;              // of the free nodes, zero
+  int insertion_body = -1;
+  Vec3 insertion_rest_m = Vec3::Zero();  // where the muscle's line ends, and the point before it
+  int before_insertion_body = -1;
+  Vec3 before_insertion_rest_m = Vec3::Zero();
+};
+
+/// Throws Error BadData naming the muscle when it cannot be simulated: no tets, nothing clamped, a tet of no volume.
+MuscleTissue build_muscle_tissue(const anatomy::Specimen& specimen, int muscle);
+
+}  // namespace myotact::simulation

@@ -1,0 +1,231 @@
+#include "simulation/quadratic_tet.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include "geometry/tet_mesh.h"
+
+namespace myotact::simulation {
+namespace {
+
+/// Rows of the low-rank part: shear, volume fluctuation and fibre at each point, and the element's mean volume.
+constexpr int kRankRows = 3 * kTetPoints + 1;
+
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// Pressure-like factor of the cofactor at a point: L (mean J - rest) + c (J - mean J).
+double volume_stress(const TissueMaterial& m, const TetPoints& points, std::size_t p) {
+  return m.volume_term_Pa() * (points.mean_J - m.rest_ratio()) + m.fluctuation_Pa * (points.J[p] - points.mean_J);
+}
+
+/// out[i * 10 + a] = scale * sum_A matrix(i, A) dN_a/dX_A.
+void push_gradients(const std::array<double, 9>& matrix, const TetVector& gradients, double scale, double* out) {
+  for (int i = 0; i < 3; ++i) {
+    const double m0 = scale * matrix[at(3 * i)], m1 = scale * matrix[at(3 * i + 1)], m2 = scale * matrix[at(3 * i + 2)];
+    for (int a = 0; a < kTetNodes; ++a) {
+      out[i * kTetNodes + a] =
+          m0 * gradients[at(a)] + m1 * gradients[at(kTetNodes + a)] + m2 * gradients[at(2 * kTetNodes + a)];
+    }
+  }
+}
+
+/// sum[c] += factor * row[c] for one block of 10 columns; kept in registers by the compiler.
+inline void accumulate(double factor, const double* row, std::array<double, kTetNodes>& sum) {
+  for (int c = 0; c < kTetNodes; ++c) sum[at(c)] += factor * row[c];
+}
+
+struct RankRows {
+  std::array<TetVector, kRankRows> row;
+  std::array<double, kRankRows> factor;
+};
+
+/// Every term of the tangent that is a scaled outer product of a vector with itself.
+RankRows rank_rows(const ElementInputs& in, bool definite) {
+  RankRows rows{};
+  const double volume = in.rest.point_volume_m3;
+  const double c = in.material.fluctuation_Pa;
+  TetVector& mean = rows.row[kRankRows - 1];
+  mean.fill(0.0);
+  for (int p = 0; p < kTetPoints; ++p) {
+    const TetVector& gradients = in.rest.gradients_1_m[at(p)];
+    const double ic1 = in.points.F_squared[at(p)] + 1.0;
+    push_gradients(in.points.F[at(p)], gradients, 1.0, rows.row[at(3 * p)].data());
+    rows.factor[at(3 * p)] = volume * 2.0 * in.material.shear_term_Pa() / (ic1 * ic1);
+    push_gradients(in.points.cofactor[at(p)], gradients, 1.0, rows.row[at(3 * p + 1)].data());
+    rows.factor[at(3 * p + 1)] = volume * c;
+    for (int k = 0; k < kTetDofs; ++k) mean[at(k)] += 0.25 * rows.row[at(3 * p + 1)][at(k)];
+
+    const double geometric = in.stress.stress_Pa[at(p)] / in.points.stretch[at(p)];
+    const double slope = in.stress.slope_Pa[at(p)];
+    rows.factor[at(3 * p + 2)] =
+        volume * (definite ? std::max(slope, 0.0) - std::max(geometric, 0.0) : slope - geometric);
+    for (int a = 0; a < kTetNodes; ++a) {
+      const double along = in.fibre.x() * gradients[at(a)] + in.fibre.y() * gradients[at(kTetNodes + a)] +
+                           in.fibre.z() * gradients[at(2 * kTetNodes + a)];
+      for (int i = 0; i < 3; ++i) rows.row[at(3 * p + 2)][at(i * kTetNodes + a)] = in.points.fibre[at(p)][i] * along;
+    }
+  }
+  rows.factor[kRankRows - 1] = kTetPoints * volume * (in.material.volume_term_Pa() - c);
+  return rows;
+}
+
+void fill_outer_products(const RankRows& rows, TetMatrix& stiffness) {
+  for (int r = 0; r < kTetDofs; ++r) {
+    std::array<double, kRankRows> factor;
+    for (std::size_t k = 0; k < kRankRows; ++k) factor[k] = rows.factor[k] * rows.row[k][at(r)];
+    for (int block = r / kTetNodes; block < 3; ++block) {
+      std::array<double, kTetNodes> sum{};
+      for (std::size_t k = 0; k < kRankRows; ++k) accumulate(factor[k], &rows.row[k][at(block * kTetNodes)], sum);
+      std::copy(sum.begin(), sum.end(), &stiffness[at(r * kTetDofs + block * kTetNodes)]);
+    }
+  }
+}
+
+struct PointScales {
+  double identity = 0.0;   // of grad a . grad b
+  double along = 0.0;      // of the gradients' fibre components
+  double curvature = 0.0;  // of the second derivative of J
+};
+
+PointScales point_scales(const ElementInputs& in, int p, bool definite) {
+  const double volume = in.rest.point_volume_m3;
+  const double f2 = in.points.F_squared[at(p)];
+  const double pressure = volume_stress(in.material, in.points, at(p));
+  double identity = in.material.shear_term_Pa() * (1.0 - 1.0 / (f2 + 1.0));
+  double along = in.stress.stress_Pa[at(p)] / in.points.stretch[at(p)];
+  if (definite) {
+    // The eigenvalues of d2J/dF2 lie within +-sqrt(4/3 F:F); this much of the identity outweighs them.
+    identity = std::max(identity, std::abs(pressure) * std::sqrt(4.0 / 3.0 * f2));
+    along = std::max(along, 0.0);
+  }
+  return {volume * identity, volume * along, volume * pressure};
+}
+
+/// Adds, for one node a, the terms that are a multiple of the unit matrix (same in every component block) and the
+/// skew terms of the second derivative of J: block (i, j) gets eps_ijk v_k, v = F (grad a x grad b).
+void add_node_terms(const ElementInputs& in, const std::array<PointScales, kTetPoints>& scales, int a,
+                    TetMatrix& stiffness) {
+  std::array<double, kTetNodes> unit{};
+  std::array<std::array<double, kTetNodes>, 3> skew{};
+  for (int p = 0; p < kTetPoints; ++p) {
+    const TetVector& g = in.rest.gradients_1_m[at(p)];
+    const std::array<double, 9>& F = in.points.F[at(p)];
+    const Vec3 own(g[at(a)], g[at(kTetNodes + a)], g[at(2 * kTetNodes + a)]);
+    const PointScales& scale = scales[at(p)];
+    const Vec3 direct = scale.identity * own + scale.along * own.dot(in.fibre) * in.fibre;
+    for (int A = 0; A < 3; ++A) accumulate(direct[A], &g[at(A * kTetNodes)], unit);
+    for (int k = 0; k < 3; ++k) {
+      // Row k of F times the cross-product matrix of own: (F_k x own) . grad b, up to the scale.
+      const Vec3 row(F[at(3 * k)], F[at(3 * k + 1)], F[at(3 * k + 2)]);
+      const Vec3 factor = scale.curvature * row.cross(own);
+      for (int A = 0; A < 3; ++A) accumulate(factor[A], &g[at(A * kTetNodes)], skew[at(k)]);
+    }
+  }
+  const auto row = [&](int i, int j) { return &stiffness[at((i * kTetNodes + a) * kTetDofs + j * kTetNodes)]; };
+  for (int b = 0; b < kTetNodes; ++b) {
+    for (int i = 0; i < 3; ++i) row(i, i)[b] += unit[at(b)];
+    row(0, 1)[b] += skew[2][at(b)];
+    row(0, 2)[b] -= skew[1][at(b)];
+    row(1, 2)[b] += skew[0][at(b)];
+  }
+}
+
+}  // namespace
+
+TetRest make_tet_rest(const std::array<Vec3, 4>& corners_m) {
+  Mat3 edges;
+  for (int k = 0; k < 3; ++k) edges.col(k) = corners_m[at(k + 1)] - corners_m[0];
+  const Mat3 inverse = edges.inverse();
+  std::array<Vec3, 4> slopes;  // of the barycentric coordinates
+  for (int k = 0; k < 3; ++k) slopes[at(k + 1)] = inverse.row(k).transpose();
+  slopes[0] = -(slopes[1] + slopes[2] + slopes[3]);
+
+  // The 4-point rule of degree 2: each point has one coordinate `far` and three `near`.
+  const double far = (5.0 + 3.0 * std::sqrt(5.0)) / 20.0;
+  const double near = (5.0 - std::sqrt(5.0)) / 20.0;
+  TetRest rest;
+  rest.point_volume_m3 = edges.determinant() / 6.0 / kTetPoints;
+  for (int p = 0; p < kTetPoints; ++p) {
+    const auto coordinate = [&](int corner) { return corner == p ? far : near; };
+    std::array<Vec3, kTetNodes> gradient;
+    for (int a = 0; a < 4; ++a) gradient[at(a)] = (4.0 * coordinate(a) - 1.0) * slopes[at(a)];
+    for (std::size_t e = 0; e < geometry::kTetEdges.size(); ++e) {
+      const auto [i, j] = geometry::kTetEdges[e];
+      gradient[4 + e] = 4.0 * (coordinate(i) * slopes[at(j)] + coordinate(j) * slopes[at(i)]);
+    }
+    for (int a = 0; a < kTetNodes; ++a) {
+      for (int A = 0; A < 3; ++A) rest.gradients_1_m[at(p)][at(A * kTetNodes + a)] = gradient[at(a)][A];
+    }
+  }
+  return rest;
+}
+
+void deform(const TetRest& rest, const Vec3& fibre, const TetVector& position_m, TetPoints& points) {
+  points.mean_J = 0.0;
+  for (int p = 0; p < kTetPoints; ++p) {
+    std::array<double, 9>& F = points.F[at(p)];
+    for (int i = 0; i < 3; ++i) {
+      for (int A = 0; A < 3; ++A) {
+        double sum = 0.0;
+        const double* x = &position_m[at(i * kTetNodes)];
+        const double* g = &rest.gradients_1_m[at(p)][at(A * kTetNodes)];
+        for (int a = 0; a < kTetNodes; ++a) sum += x[a] * g[a];
+        F[at(3 * i + A)] = sum;
+      }
+    }
+    const Vec3 r0(F[0], F[1], F[2]), r1(F[3], F[4], F[5]), r2(F[6], F[7], F[8]);
+    const Vec3 c0 = r1.cross(r2), c1 = r2.cross(r0), c2 = r0.cross(r1);
+    points.cofactor[at(p)] = {c0[0], c0[1], c0[2], c1[0], c1[1], c1[2], c2[0], c2[1], c2[2]};
+    points.J[at(p)] = r0.dot(c0);
+    points.mean_J += points.J[at(p)] / kTetPoints;
+    points.F_squared[at(p)] = r0.squaredNorm() + r1.squaredNorm() + r2.squaredNorm();
+    const Vec3 stretched(r0.dot(fibre), r1.dot(fibre), r2.dot(fibre));
+    const double length = std::max(stretched.norm(), kShortestStretch);
+    points.stretch[at(p)] = length;
+    points.fibre[at(p)] = stretched / length;
+  }
+}
+
+TetVector elastic_forces(const ElementInputs& in) {
+  TetVector forces{};
+  for (int p = 0; p < kTetPoints; ++p) {
+    const double shear = in.material.shear_term_Pa() * (1.0 - 1.0 / (in.points.F_squared[at(p)] + 1.0));
+    const double pressure = volume_stress(in.material, in.points, at(p));
+    std::array<double, 9> P{};  // nominal stress
+    for (int i = 0; i < 3; ++i) {
+      const double pull = in.stress.stress_Pa[at(p)] * in.points.fibre[at(p)][i];
+      for (int A = 0; A < 3; ++A) {
+        const std::size_t k = at(3 * i + A);
+        P[k] = shear * in.points.F[at(p)][k] + pressure * in.points.cofactor[at(p)][k] + pull * in.fibre[A];
+      }
+    }
+    TetVector pushed;
+    push_gradients(P, in.rest.gradients_1_m[at(p)], in.rest.point_volume_m3, pushed.data());
+    for (std::size_t k = 0; k < pushed.size(); ++k) forces[k] += pushed[k];
+  }
+  return forces;
+}
+
+void elastic_stiffness(const ElementInputs& inputs, bool definite, TetMatrix& stiffness_N_m) {
+  fill_outer_products(rank_rows(inputs, definite), stiffness_N_m);
+  std::array<PointScales, kTetPoints> scales;
+  for (int p = 0; p < kTetPoints; ++p) scales[at(p)] = point_scales(inputs, p, definite);
+  for (int a = 0; a < kTetNodes; ++a) add_node_terms(inputs, scales, a, stiffness_N_m);
+}
+
+TetVector multiply(const TetMatrix& stiffness, const TetVector& vector) {
+  TetVector product{};
+  for (int r = 0; r < kTetDofs; ++r) {
+    const int first = r / kTetNodes * kTetNodes;
+    for (int c = first; c < kTetDofs; ++c) product[at(r)] += stiffness[at(r * kTetDofs + c)] * vector[at(c)];
+    for (int c = first + kTetNodes; c < kTetDofs; ++c) {
+      product[at(c)] += stiffness[at(r * kTetDofs + c)] * vector[at(r)];
+    }
+  }
+  return product;
+}
+
+}  // namespace myotact::simulation

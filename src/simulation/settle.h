@@ -1,0 +1,18 @@
+#pragma once
+
+#include "simulation/limb.h"
+#include "simulation/worker_pool.h"
+
+namespace myotact::simulation {
+
+/// Static equilibrium of all muscles at the given joint angles and the activations set in their states: everything at
+/// rest, fibres at isometric force. Starts from the present state, carried along with the bones. False when a muscle
+/// did not come to rest; the state is then its best one.
+bool settle_limb(Limb& limb, std::span<const double> angles_rad, WorkerPool& workers);
+
+/// Refreshes the quasi-static stiffness of one muscle about every joint: -d(torque)/d(angle) at held activation with the
+/// tissue following in equilibrium (Schur complement of the static tangent, no inertia, no force-velocity). Keeps the
+/// old value when the tangent is singular.
+void refresh_muscle_stiffness(const Limb& limb, LimbMuscle& muscle);
+
+}  // namespace myotact::simulation

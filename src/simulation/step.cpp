@@ -1,0 +1,267 @@
+#include "simulation/step.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/LU>
+
+namespace myotact::simulation {
+namespace {
+
+/// Newton steps at most; the second one is needed only when a hand yanks or an activation jumps.
+constexpr int kMostIterations = 3;
+/// Out-of-balance force, over the size of the elements' forces, at which a step counts as solved. Below the 3 % that
+/// one linearised step costs in force anyway (measured on twitches against steps of 1 ms).
+constexpr double kSolvedShare = 0.01;
+/// A joint that turns farther than this in one Newton step is linearised once more [rad].
+constexpr double kLargestTurn_rad = 0.05;
+/// Nearer than this to folding over at worst; beyond, the step is taken back.
+constexpr double kSmallestJ = -1.0;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// The unknowns of the small system: angles of the joints that may turn, then 3 numbers a spring.
+struct SmallSystem {
+  std::vector<int> joints;
+  Eigen::MatrixXd matrix;
+  Eigen::VectorXd right;
+
+  Eigen::Index size() const { return right.size(); }
+  Eigen::Index spring_row(std::size_t spring) const {
+    return static_cast<Eigen::Index>(joints.size() + 3 * spring);
+  }
+};
+
+SmallSystem make_small_system(const Limb& limb) {
+  SmallSystem small;
+  for (int j = 0; j < limb.skeleton.joint_count(); ++j) {
+    if (limb.skeleton.moves(j)) small.joints.push_back(j);
+  }
+  const auto size = static_cast<Eigen::Index>(small.joints.size() + 3 * limb.springs.size());
+  small.matrix = Eigen::MatrixXd::Zero(size, size);
+  small.right = Eigen::VectorXd::Zero(size);
+  return small;
+}
+
+/// Columns by which the small unknowns enter a muscle's equations.
+void fill_borders(const Limb& limb, const SmallSystem& small, int index, LimbMuscle& muscle) {
+  muscle.borders.setZero(muscle.system.residual_N.size(), small.size());
+  for (std::size_t k = 0; k < small.joints.size(); ++k) {
+    muscle.borders.col(static_cast<Eigen::Index>(k)) = muscle.system.coupling_N_rad.col(small.joints[k]);
+  }
+  for (std::size_t s = 0; s < limb.springs.size(); ++s) {
+    const ToolSpring& spring = limb.springs[s];
+    if (spring.muscle != index) continue;
+    for (std::size_t k = 0; k < at(spring.point.count); ++k) {
+      const int f = muscle.tissue.free_index[at(spring.point.nodes[k])];
+      if (f < 0) continue;
+      for (int i = 0; i < 3; ++i) muscle.borders(3 * f + i, small.spring_row(s) + i) = -spring.point.weights[k];
+    }
+  }
+}
+
+/// Tangent, factor, border solutions of one muscle.
+void eliminate(const Limb& limb, const SmallSystem& small, TissueLoad load, int index, LimbMuscle& muscle) {
+  compute_system(muscle.tissue, limb.skeleton, load, muscle.state, muscle.system);
+  muscle.made_definite = !factor_definite(muscle);
+  if (muscle.made_definite) {
+    load.definite = true;
+    compute_system(muscle.tissue, limb.skeleton, load, muscle.state, muscle.system);
+    muscle.sound = factor_definite(muscle);
+    if (!muscle.sound) return;
+  }
+  fill_borders(limb, small, index, muscle);
+  muscle.free_solution = muscle.factor->solve(muscle.system.residual_N);
+  muscle.border_solution = muscle.factor->solve(muscle.borders);
+  muscle.reduced.noalias() = muscle.borders.transpose() * muscle.border_solution;
+  muscle.reduced_residual.noalias() = muscle.borders.transpose() * muscle.free_solution;
+  muscle.sound = muscle.free_solution.allFinite() && muscle.reduced.allFinite();
+}
+
+/// Residual and tangent of the bones themselves; also sets the joints' velocities.
+void add_skeleton(Limb& limb, const TimeRule& rule, SmallSystem& small) {
+  const Eigen::VectorXd& q = limb.now.angle_rad;
+  const Eigen::VectorXd velocity =
+      rule.rate_1_s * q - rule.now_1_s * limb.last.angle_rad + rule.before_1_s * limb.before.angle_rad;
+  const Eigen::VectorXd acceleration = rule.rate_1_s * velocity - rule.now_1_s * limb.last.velocity_rad_s +
+                                       rule.before_1_s * limb.before.velocity_rad_s;
+  const auto span = [](const Eigen::VectorXd& v) {
+    return std::span<const double>(v.data(), static_cast<std::size_t>(v.size()));
+  };
+  limb.loads.compute(limb.skeleton, {limb.gravity_m_s2, span(velocity), span(limb.external_torque_Nm)});
+  Eigen::VectorXd residual = limb.loads.mass_kg_m2 * acceleration - limb.loads.force_Nm;
+  Eigen::MatrixXd tangent =
+      limb.loads.mass_kg_m2 * rule.rate_1_s * rule.rate_1_s + limb.loads.stiffness_Nm_rad;
+  tangent.diagonal() += limb.loads.damping_Nms_rad * rule.rate_1_s;
+  for (std::size_t a = 0; a < small.joints.size(); ++a) {
+    const auto row = static_cast<Eigen::Index>(a);
+    small.right[row] -= residual[small.joints[a]];
+    for (std::size_t b = 0; b < small.joints.size(); ++b) {
+      small.matrix(row, static_cast<Eigen::Index>(b)) += tangent(small.joints[a], small.joints[b]);
+    }
+  }
+}
+
+/// What a muscle adds to the small system once its nodes are eliminated.
+void add_muscle(const LimbMuscle& muscle, SmallSystem& small) {
+  small.matrix -= muscle.reduced;
+  small.right += muscle.reduced_residual;
+  for (std::size_t a = 0; a < small.joints.size(); ++a) {
+    const auto row = static_cast<Eigen::Index>(a);
+    small.right[row] -= muscle.system.joint_residual_Nm[small.joints[a]];
+    for (std::size_t b = 0; b < small.joints.size(); ++b) {
+      small.matrix(row, static_cast<Eigen::Index>(b)) +=
+          muscle.system.joint_stiffness_Nm_rad(small.joints[a], small.joints[b]);
+    }
+  }
+}
+
+/// The springs' forces f are unknowns: -(U^T du + J dq + f / k) = -(target - point), symmetric with the rest.
+void add_springs(const Limb& limb, SmallSystem& small) {
+  for (std::size_t s = 0; s < limb.springs.size(); ++s) {
+    const ToolSpring& spring = limb.springs[s];
+    const Eigen::Index row = small.spring_row(s);
+    small.matrix.block<3, 3>(row, row).diagonal().array() -= 1.0 / spring.stiffness_N_m;
+    small.right.segment<3>(row) -= spring.target_W_m - spring_point(limb, spring);
+    for (std::size_t a = 0; a < small.joints.size(); ++a) {
+      const Vec3 slope = spring_slope(limb, spring, small.joints[a]);
+      const auto column = static_cast<Eigen::Index>(a);
+      small.matrix.block<3, 1>(row, column) -= slope;
+      small.matrix.block<1, 3>(column, row) -= slope.transpose();
+    }
+  }
+}
+
+/// Compliance of the tissue under each spring: U^T matrix^-1 U of the muscle alone.
+void read_compliance(Limb& limb, const SmallSystem& small) {
+  for (std::size_t s = 0; s < limb.springs.size(); ++s) {
+    const int muscle = limb.springs[s].muscle;
+    const Eigen::Index row = small.spring_row(s);
+    limb.spring_compliance_m_N[s].setZero();
+    if (muscle < 0 || limb.muscles[at(muscle)].rigid) continue;
+    limb.spring_compliance_m_N[s] = limb.muscles[at(muscle)].reduced.block<3, 3>(row, row);
+  }
+}
+
+/// Moves a muscle's nodes by the solution, computes its forces there and how far they are from balance.
+void substitute(const Limb& limb, const Eigen::VectorXd& small_solution, const TissueLoad& load, int index,
+                LimbMuscle& muscle) {
+  const Eigen::VectorXd change = -muscle.free_solution - muscle.border_solution * small_solution;
+  for (std::size_t node = 0; node < muscle.tissue.body.size(); ++node) {
+    const int f = muscle.tissue.free_index[node];
+    if (f < 0) continue;
+    muscle.state.now.position_m.segment<3>(static_cast<Eigen::Index>(3 * node)) += change.segment<3>(3 * f);
+  }
+  compute_forces(muscle.tissue, limb.skeleton, load, muscle.state, muscle.system);
+  Eigen::VectorXd unbalanced = muscle.system.residual_N;
+  for (const ToolSpring& spring : limb.springs) {
+    if (spring.muscle != index) continue;
+    const Vec3 force = spring.stiffness_N_m * (spring.target_W_m - spring_point(limb, spring));
+    for (std::size_t k = 0; k < at(spring.point.count); ++k) {
+      const int f = muscle.tissue.free_index[at(spring.point.nodes[k])];
+      if (f >= 0) unbalanced.segment<3>(3 * f) -= spring.point.weights[k] * force;
+    }
+  }
+  muscle.residual_share = unbalanced.norm() / (muscle.system.force_scale_N + 1e-6);
+  muscle.sound = std::isfinite(muscle.residual_share) && muscle.system.smallest_J > kSmallestJ;
+}
+
+struct Iteration {
+  bool sound = true;
+  double residual_share = 0.0;
+  double turn_rad = 0.0;
+};
+
+Iteration newton_step(Limb& limb, const TissueLoad& load, WorkerPool& workers, int& definite_solves) {
+  SmallSystem small = make_small_system(limb);
+  const int muscles = static_cast<int>(limb.muscles.size());
+  workers.run(muscles, [&](int m) {
+    if (!limb.muscles[at(m)].rigid) eliminate(limb, small, load, m, limb.muscles[at(m)]);
+  });
+  add_skeleton(limb, load.rule, small);
+  for (const LimbMuscle& muscle : limb.muscles) {
+    if (muscle.rigid) continue;
+    if (!muscle.sound) return {false, 0.0, 0.0};
+    definite_solves += muscle.made_definite;
+    add_muscle(muscle, small);
+  }
+  add_springs(limb, small);
+  read_compliance(limb, small);
+  const Eigen::VectorXd solution =
+      small.size() > 0 ? Eigen::VectorXd(small.matrix.partialPivLu().solve(small.right)) : small.right;
+  if (!solution.allFinite()) return {false, 0.0, 0.0};
+
+  Iteration result;
+  for (std::size_t a = 0; a < small.joints.size(); ++a) {
+    const double turn = solution[static_cast<Eigen::Index>(a)];
+    limb.now.angle_rad[small.joints[a]] += turn;
+    result.turn_rad = std::max(result.turn_rad, std::abs(turn));
+  }
+  follow_angles(limb);
+  workers.run(muscles, [&](int m) {
+    if (!limb.muscles[at(m)].rigid) substitute(limb, solution, load, m, limb.muscles[at(m)]);
+  });
+  for (const LimbMuscle& muscle : limb.muscles) {
+    if (muscle.rigid) continue;
+    result.sound = result.sound && muscle.sound;
+    result.residual_share = std::max(result.residual_share, muscle.residual_share);
+  }
+  return result;
+}
+
+/// Rates that the next step starts from.
+void finish(Limb& limb, const TimeRule& rule) {
+  limb.now.velocity_rad_s = rule.rate_1_s * limb.now.angle_rad - rule.now_1_s * limb.last.angle_rad +
+                            rule.before_1_s * limb.before.angle_rad;
+  for (LimbMuscle& muscle : limb.muscles) {
+    TissueState& state = muscle.state;
+    for (std::size_t p = 0; p < state.stretch_rate_1_s.size(); ++p) {
+      state.stretch_rate_1_s[p] =
+          rule.rate_1_s * state.now.stretch[p] - rule.history(state.last.stretch[p], state.before.stretch[p]);
+    }
+  }
+  for (std::size_t s = 0; s < limb.springs.size(); ++s) {
+    const ToolSpring& spring = limb.springs[s];
+    limb.spring_force_N[s] = spring.stiffness_N_m * (spring.target_W_m - spring_point(limb, spring));
+  }
+  read_out(limb);
+}
+
+}  // namespace
+
+StepReport advance(Limb& limb, const StepInput& input, WorkerPool& workers) {
+  TissueLoad load;
+  load.rule = input.second_order_in_time ? second_order(input.dt_s) : backward_euler(input.dt_s);
+  load.gravity_m_s2 = limb.gravity_m_s2;
+  limb.spring_force_N.assign(limb.springs.size(), Vec3::Zero());
+  limb.spring_compliance_m_N.assign(limb.springs.size(), Mat3::Zero());
+  follow_angles(limb);
+  StepReport report;
+  for (report.iterations = 1; report.iterations <= kMostIterations; ++report.iterations) {
+    const Iteration iteration = newton_step(limb, load, workers, report.definite_solves);
+    report.residual_share = iteration.residual_share;
+    report.sound = iteration.sound;
+    if (!iteration.sound) return report;
+    if (iteration.residual_share < kSolvedShare && iteration.turn_rad < kLargestTurn_rad) break;
+  }
+  report.sound = report.residual_share < 1.0;
+  finish(limb, load.rule);
+  return report;
+}
+
+void push_history(Limb& limb) {
+  limb.before = limb.last;
+  limb.last = limb.now;
+  for (LimbMuscle& muscle : limb.muscles) {
+    std::swap(muscle.state.before, muscle.state.last);
+    muscle.state.last = muscle.state.now;
+  }
+}
+
+void restore_last(Limb& limb) {
+  limb.now = limb.last;
+  for (LimbMuscle& muscle : limb.muscles) muscle.state.now = muscle.state.last;
+  follow_angles(limb);
+}
+
+}  // namespace myotact::simulation

@@ -1,0 +1,177 @@
+#include "simulation/strand_layout.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "simulation/muscle_tissue.h"
+
+namespace myotact::simulation {
+namespace {
+
+/// Tendon strands are this many times stiffer than the muscle at its stiffest: nearly rigid beside it, still soft
+/// enough for the solve.
+constexpr double kStrandOverMuscle = 50.0;
+/// Largest active stiffness of a fibre in F0 / lo: the steepest slope of the force-length curve is below 4; over the
+/// range that the joints use, about 2.
+constexpr double kMuscleStiffness_F0_lo = 2.0;
+/// Extension over which a strand becomes taut, in optimal fibre lengths; it then carries a tenth of F0.
+constexpr double kToe_lo = 0.002;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// Arc length of the place on the rest line nearest to p [m].
+double place_on_line_m(const anatomy::MuscleLine& line, const Vec3& p) {
+  double best_m = 0.0, nearest = 1e300, before_m = 0.0;
+  for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
+    const Vec3& a = line.points[k].position_m;
+    const Vec3 step = line.points[k + 1].position_m - a;
+    const double share = std::clamp(step.dot(p - a) / std::max(step.squaredNorm(), 1e-18), 0.0, 1.0);
+    const double distance = (p - a - share * step).norm();
+    if (distance < nearest) {
+      nearest = distance;
+      best_m = before_m + share * step.norm();
+    }
+    before_m += step.norm();
+  }
+  return best_m;
+}
+
+/// Connected tendon tets, by the smallest tet of each group.
+std::vector<int> tendon_groups(const MuscleTissue& tissue) {
+  std::vector<int> owner(tissue.mesh.nodes_m.size());
+  std::iota(owner.begin(), owner.end(), 0);
+  const auto root = [&](int node) {
+    while (owner[at(node)] != node) node = owner[at(node)] = owner[at(owner[at(node)])];
+    return node;
+  };
+  for (const TissueElement& element : tissue.elements) {
+    if (!element.sheath) continue;
+    for (int node : element.nodes) owner[at(root(node))] = root(element.nodes[0]);
+  }
+  std::vector<int> group;
+  for (const TissueElement& element : tissue.elements) group.push_back(element.sheath ? root(element.nodes[0]) : -1);
+  return group;
+}
+
+Vec3 middle_of(const TissueElement& element, const MuscleTissue& tissue) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t c = 0; c < 4; ++c) sum += tissue.mesh.nodes_m[at(element.nodes[c])];
+  return sum / 4.0;
+}
+
+/// Mean place along the line of the tets for which `pick` holds.
+template <class Pick>
+double mean_place_m(const MuscleTissue& tissue, const anatomy::MuscleLine& line, Pick&& pick) {
+  double sum = 0.0, volume = 0.0;
+  for (std::size_t t = 0; t < tissue.elements.size(); ++t) {
+    if (!pick(t)) continue;
+    const double v = tissue.elements[t].rest.point_volume_m3;
+    sum += v * place_on_line_m(line, middle_of(tissue.elements[t], tissue));
+    volume += v;
+  }
+  return volume > 0.0 ? sum / volume : 0.0;
+}
+
+/// Force at each node along the fibres when every section of the belly carries 1 N.
+std::vector<double> unit_pull(const MuscleTissue& tissue) {
+  std::vector<double> pull(tissue.mesh.nodes_m.size(), 0.0);
+  for (const TissueElement& element : tissue.elements) {
+    if (element.sheath) continue;
+    for (std::size_t p = 0; p < kTetPoints; ++p) {
+      for (std::size_t a = 0; a < kTetNodes; ++a) {
+        double along = 0.0;
+        for (std::size_t A = 0; A < 3; ++A) {
+          along += element.rest.gradients_1_m[p][A * kTetNodes + a] * element.fibre[static_cast<Eigen::Index>(A)];
+        }
+        pull[at(element.nodes[a])] += element.rest.point_volume_m3 * along / element.section_m2;
+      }
+    }
+  }
+  return pull;
+}
+
+/// Border nodes and weights of one end. Empty when the tendon does not touch the belly with free nodes.
+TendonStrand border(const MuscleTissue& tissue, const std::vector<char>& of_end, double sign) {
+  std::vector<char> belly(tissue.body.size(), 0), tendon(tissue.body.size(), 0);
+  for (std::size_t t = 0; t < tissue.elements.size(); ++t) {
+    if (tissue.elements[t].sheath && of_end[t] == 0) continue;
+    for (int node : tissue.elements[t].nodes) (tissue.elements[t].sheath ? tendon : belly)[at(node)] = 1;
+  }
+  const std::vector<double> pull = unit_pull(tissue);
+  TendonStrand strand;
+  double sum = 0.0;
+  for (std::size_t node = 0; node < belly.size(); ++node) {
+    if (belly[node] == 0 || tendon[node] == 0 || tissue.body[node] >= 0) continue;
+    const double weight = std::max(sign * pull[node], 0.0);
+    if (!(weight > 0.0)) continue;
+    strand.nodes.push_back(static_cast<int>(node));
+    strand.weights.push_back(weight);
+    sum += weight;
+  }
+  for (double& weight : strand.weights) weight /= sum;
+  return strand;
+}
+
+Vec3 border_middle(const TendonStrand& strand, const MuscleTissue& tissue) {
+  Vec3 p = Vec3::Zero();
+  for (std::size_t k = 0; k < strand.nodes.size(); ++k) p += strand.weights[k] * tissue.mesh.nodes_m[at(strand.nodes[k])];
+  return p;
+}
+
+/// The points of the line beyond the border, from the border to the bone; at least the line's end.
+void add_points(const anatomy::MuscleLine& line, double border_place_m, bool at_insertion, TendonStrand& strand) {
+  double place_m = 0.0;
+  for (std::size_t k = 0; k < line.points.size(); ++k) {
+    if (k > 0) place_m += (line.points[k].position_m - line.points[k - 1].position_m).norm();
+    const bool end = at_insertion ? k + 1 == line.points.size() : k == 0;
+    const bool beyond = at_insertion ? place_m > border_place_m : place_m < border_place_m;
+    if (end || beyond) strand.points.push_back({line.points[k].body, line.points[k].position_m});
+  }
+  if (!at_insertion) std::reverse(strand.points.begin(), strand.points.end());
+}
+
+}  // namespace
+
+double line_length_m(const anatomy::MuscleLine& line) {
+  double length = 0.0;
+  for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
+    length += (line.points[k + 1].position_m - line.points[k].position_m).norm();
+  }
+  return length;
+}
+
+std::vector<TendonStrand> lay_strands(const anatomy::Muscle& muscle, const anatomy::MuscleLine& line,
+                                      const MuscleTissue& tissue) {
+  const std::vector<int> group = tendon_groups(tissue);
+  const double belly_place_m = mean_place_m(tissue, line, [&](std::size_t t) { return group[t] < 0; });
+  std::map<int, double> place_of_group;
+  for (int g : group) {
+    if (g < 0 || place_of_group.contains(g)) continue;
+    place_of_group[g] = mean_place_m(tissue, line, [&](std::size_t t) { return group[t] == g; });
+  }
+  std::vector<TendonStrand> strands;
+  for (const bool at_insertion : {false, true}) {
+    std::vector<char> of_end(group.size(), 0);
+    for (std::size_t t = 0; t < group.size(); ++t) {
+      of_end[t] = group[t] >= 0 && (place_of_group[group[t]] > belly_place_m) == at_insertion;
+    }
+    // Unit stress pulls the nodes at the insertion towards the origin: holding them takes a force along the fibres.
+    TendonStrand strand = border(tissue, of_end, at_insertion ? 1.0 : -1.0);
+    if (strand.nodes.empty()) continue;
+    const Vec3 p = border_middle(strand, tissue);
+    add_points(line, place_on_line_m(line, p), at_insertion, strand);
+    Vec3 from = p;
+    for (const TendonStrand::BodyPoint& point : strand.points) {
+      strand.rest_length_m += (point.rest_m - from).norm();
+      from = point.rest_m;
+    }
+    strand.stiffness_N_m = kStrandOverMuscle * kMuscleStiffness_F0_lo * muscle.peak_force_N / muscle.optimal_fibre_m;
+    strand.at_insertion = at_insertion;
+    strand.toe_m = kToe_lo * muscle.optimal_fibre_m;
+    strands.push_back(strand);
+  }
+  return strands;
+}
+
+}  // namespace myotact::simulation

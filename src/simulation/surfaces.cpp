@@ -1,0 +1,54 @@
+#include "simulation/surfaces.h"
+
+namespace myotact::simulation {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+std::vector<const geometry::TriangleMesh*> all_surfaces(const anatomy::Specimen& specimen) {
+  std::vector<const geometry::TriangleMesh*> surfaces;
+  for (const anatomy::Muscle& muscle : specimen.muscles) surfaces.push_back(&muscle.skin);
+  for (const anatomy::Bone& bone : specimen.bones) surfaces.push_back(&bone.surface);
+  return surfaces;
+}
+
+/// Nodal positions as points. Vec3 is three packed doubles.
+std::span<const Vec3> as_points(const Eigen::VectorXd& values) {
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
+  return {reinterpret_cast<const Vec3*>(values.data()), static_cast<std::size_t>(values.size() / 3)};
+}
+
+}  // namespace
+
+Surfaces::Surfaces(const anatomy::Specimen& specimen, const Limb& limb) : specimen_(specimen) {
+  for (std::size_t m = 0; m < specimen.muscles.size(); ++m) {
+    skins_.push_back(embed_skin(specimen.muscles[m].skin, limb.muscles[m].tissue.mesh));
+  }
+  const std::vector<const geometry::TriangleMesh*> surfaces = all_surfaces(specimen);
+  for (const geometry::TriangleMesh* surface : surfaces) frames_.push_back({surface->positions_m, surface->positions_m});
+  patch_ = std::make_unique<LocalPatch>(surfaces);
+}
+
+void Surfaces::update(const Limb& limb, int surface) {
+  Frame& frame = frames_[at(surface)];
+  const int muscles = static_cast<int>(specimen_.muscles.size());
+  if (surface < muscles) {
+    update_skin(skins_[at(surface)], as_points(limb.muscles[at(surface)].state.now.position_m), frame.current_m);
+    return;
+  }
+  const anatomy::Bone& bone = specimen_.bones[at(surface - muscles)];
+  const Pose& pose = limb.skeleton.body_pose(bone.body);
+  for (std::size_t v = 0; v < frame.current_m.size(); ++v) frame.current_m[v] = pose * bone.surface.positions_m[v];
+}
+
+void Surfaces::follow(const Limb& limb, bool restart, WorkerPool& workers) {
+  workers.run(static_cast<int>(frames_.size()), [&](int surface) {
+    Frame& frame = frames_[at(surface)];
+    frame.previous_m.swap(frame.current_m);
+    update(limb, surface);
+    if (restart) frame.previous_m = frame.current_m;
+    patch_->update_surface(surface, frame.previous_m, frame.current_m);
+  });
+}
+
+}  // namespace myotact::simulation

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "simulation/limb.h"
+#include "simulation/local_patch.h"
+
+namespace myotact::simulation {
+
+/// Positions of all skins and bone surfaces at the last two frames, and the trees over them.
+/// Numbering of the scene: muscles first, then bones.
+class Surfaces {
+ public:
+  /// Embeds the skins in the limb's meshes; everything stands at the specimen's pose. `specimen` must outlive this.
+  Surfaces(const anatomy::Specimen& specimen, const Limb& limb);
+
+  const std::vector<SkinEmbedding>& skins() const { return skins_; }
+  std::span<const Vec3> current_m(int surface) const { return frames_[static_cast<std::size_t>(surface)].current_m; }
+  const LocalPatch& patch() const { return *patch_; }
+
+  /// The current frame becomes the previous one, and the present state of the limb the current one. With `restart` both
+  /// frames become the present state: after a jump there is no motion to play.
+  void follow(const Limb& limb, bool restart, WorkerPool& workers);
+
+ private:
+  struct Frame {
+    std::vector<Vec3> previous_m, current_m;
+  };
+  void update(const Limb& limb, int surface);
+
+  const anatomy::Specimen& specimen_;
+  std::vector<SkinEmbedding> skins_;
+  std::vector<Frame> frames_;
+  std::unique_ptr<LocalPatch> patch_;
+};
+
+}  // namespace myotact::simulation

@@ -1,0 +1,22 @@
+#pragma once
+
+namespace myotact::simulation {
+
+/// How a rate follows from the last values: dy/dt = rate y - now y_n + before y_(n-1). All zero: a static problem.
+struct TimeRule {
+  double rate_1_s = 0.0;
+  double now_1_s = 0.0;
+  double before_1_s = 0.0;
+
+  template <class Value>
+  Value history(const Value& last, const Value& before_last) const {
+    return now_1_s * last - before_1_s * before_last;
+  }
+};
+
+/// First order; needs one past value.
+inline TimeRule backward_euler(double dt_s) { return {1.0 / dt_s, 1.0 / dt_s, 0.0}; }
+/// Second order (BDF2); the two past values must be dt_s apart.
+inline TimeRule second_order(double dt_s) { return {1.5 / dt_s, 2.0 / dt_s, 0.5 / dt_s}; }
+
+}  // namespace myotact::simulation

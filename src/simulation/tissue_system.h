@@ -1,0 +1,73 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "simulation/muscle_tissue.h"
+#include "simulation/skeleton.h"
+#include "simulation/time_rule.h"
+
+namespace myotact::simulation {
+
+/// One instant of a muscle. 3 numbers a node, 4 stretches an element.
+struct TissueFrame {
+  Eigen::VectorXd position_m;
+  Eigen::VectorXd velocity_m_s;
+  std::vector<double> stretch;
+};
+
+/// A muscle in motion: the iterate of the present step and the two instants before it.
+struct TissueState {
+  TissueFrame now, last, before;
+  std::vector<double> stretch_rate_1_s;  // of the last step, where the force-velocity curve is linearised
+  double activation = 0.0;
+};
+
+/// At rest in the rest position.
+TissueState make_state(const MuscleTissue& tissue);
+
+inline Vec3 node_vector(const Eigen::VectorXd& values, int node) { return values.segment<3>(3 * node); }
+
+/// Puts every clamped node of the present iterate where its body is.
+void place_clamped(const MuscleTissue& tissue, const Skeleton& skeleton, TissueState& state);
+
+/// What a solve is made of besides elasticity.
+struct TissueLoad {
+  TimeRule rule;                  // all zero: static, no inertia, no force-velocity
+  bool force_velocity = true;     // false in static solves that use the rule as a damper only
+  Vec3 gravity_m_s2 = Vec3::Zero();
+  bool definite = false;          // build a safe positive definite tangent
+};
+
+/// One muscle's part of the arrow system
+///
+///   | matrix      coupling        | | d nodes  |      | residual       |
+///   | coupling^T  joint_stiffness | | d angles | =  - | joint_residual |
+///
+/// over its free nodes and all joint angles.
+struct TissueSystem {
+  BlockMatrix matrix;
+  Eigen::VectorXd residual_N;
+  Eigen::MatrixXd coupling_N_rad;
+  Eigen::MatrixXd joint_stiffness_Nm_rad;
+  Eigen::VectorXd joint_residual_Nm;
+  // of the forces pass alone
+  Eigen::VectorXd internal_N;         // at all nodes: elastic forces and strands
+  Eigen::VectorXd muscle_torque_Nm;   // that the tissue exerts on the joints, positive flexes
+  double tension_N = 0.0;             // on the insertion, along the line's last segment
+  double force_scale_N = 0.0;         // size of the nodal forces, to judge a residual by
+  double smallest_J = 1.0;            // over the integration points
+};
+
+TissueSystem make_system(const MuscleTissue& tissue, const Skeleton& skeleton);
+
+/// Forces, residual and torques of the present iterate; stores its stretches in `state.now`, and its velocities unless
+/// the load is static.
+void compute_forces(const MuscleTissue& tissue, const Skeleton& skeleton, const TissueLoad& load, TissueState& state,
+                    TissueSystem& system);
+/// The same and the tangent.
+void compute_system(const MuscleTissue& tissue, const Skeleton& skeleton, const TissueLoad& load, TissueState& state,
+                    TissueSystem& system);
+
+}  // namespace myotact::simulation

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "messages/tool_state.h"
+#include "simulation/limb.h"
+
+namespace myotact::simulation {
+
+/// What the springs of tools hang on: skins and bones in the scene's numbering of surfaces (muscles, then bones).
+struct TouchableParts {
+  const anatomy::Specimen& specimen;
+  std::span<const SkinEmbedding> skins;  // one a muscle
+};
+
+/// Springs that the tools' states ask for: the coupling spring of each contact and of each muscle line in hand. States
+/// that name something that does not exist, or numbers that are not finite, give no spring: a client may send anything.
+std::vector<ToolSpring> tool_springs(std::span<const messages::ToolState> tools, const TouchableParts& parts,
+                                     const Limb& limb);
+
+}  // namespace myotact::simulation
