@@ -6,7 +6,9 @@
 namespace myotact::geometry {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 }  // namespace
 
@@ -71,7 +73,8 @@ SurfacePlace TriangleTree::nearest(const Vec3& p, std::span<const Vec3> position
   double reach_m = radius_m;
   visit_within(p, radius_m, [&](int t) {
     const auto& [a, b, c] = triangles_[at(t)];
-    const TrianglePoint point = closest_point_on_triangle(p, positions_m[at(a)], positions_m[at(b)], positions_m[at(c)]);
+    const TrianglePoint point =
+        closest_point_on_triangle(p, positions_m[at(a)], positions_m[at(b)], positions_m[at(c)]);
     const double distance_m = (point.position_m - p).norm();
     const bool nearer = distance_m < best.distance_m || (distance_m == best.distance_m && t < best.triangle);
     if (distance_m <= reach_m && nearer) {

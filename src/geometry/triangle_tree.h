@@ -36,7 +36,8 @@ class TriangleTree {
   /// Boxes that hold the triangles at both frames, hence everywhere on the straight way between.
   void refit(std::span<const Vec3> previous_m, std::span<const Vec3> current_m) noexcept;
 
-  /// Closest place within `radius_m` on the surface at `positions_m`, which must be those (or one of those) last fitted.
+  /// Closest place within `radius_m` on the surface at `positions_m`, which must be those (or one of those) last
+  /// fitted.
   SurfacePlace nearest(const Vec3& p, std::span<const Vec3> positions_m,
                        double radius_m = std::numeric_limits<double>::infinity()) const noexcept;
 

@@ -10,8 +10,8 @@ struct ActivationTimes {
 
 /// Activation after dt_s under the constant excitation, both 0 .. 1:
 ///   da/dt = (u - a) / tau,  tau = activation (1/2 + 3/2 a) when u > a, deactivation / (1/2 + 3/2 a) when u < a
-/// (Thelen, J Biomech Eng 125:70, 2003). The exact solution of the step, so any dt_s is stable. Arguments outside 0 .. 1
-/// are clamped; a time constant <= 0 follows the excitation at once. Real-time safe.
+/// (Thelen, J Biomech Eng 125:70, 2003). The exact solution of the step, so any dt_s is stable. Arguments outside 0 ..
+/// 1 are clamped; a time constant <= 0 follows the excitation at once. Real-time safe.
 double step_activation(double activation, double excitation, const ActivationTimes& times, double dt_s) noexcept;
 
 }  // namespace myotact::simulation

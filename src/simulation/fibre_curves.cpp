@@ -21,8 +21,8 @@ constexpr std::array<Bell, 3> kBells = {{
 constexpr double kFarthestDeviation = 37.0;
 
 constexpr double kPassiveShape = 4.0;
-constexpr double kPassiveStrain = 0.6;    // at peak isometric force
-constexpr double kPassiveZero_lo = 0.2;   // the curve passes 0 here
+constexpr double kPassiveStrain = 0.6;   // at peak isometric force
+constexpr double kPassiveZero_lo = 0.2;  // the curve passes 0 here
 constexpr double kPassiveStraight_lo = 2.0;
 
 constexpr std::array<double, 4> kVelocity = {-0.3211346127989808, -8.149, -0.374, 0.8825327733249912};
@@ -35,7 +35,9 @@ bool deviation(const Bell& bell, double n, double& x) noexcept {
   return true;
 }
 
-double passive_exponential(double n) noexcept { return std::exp(kPassiveShape * (n - 1.0) / kPassiveStrain); }
+double passive_exponential(double n) noexcept {
+  return std::exp(kPassiveShape * (n - 1.0) / kPassiveStrain);
+}
 
 double passive_scale() noexcept {
   static const double scale = 1.0 / (std::exp(kPassiveShape) - passive_exponential(kPassiveZero_lo));

@@ -8,7 +8,9 @@
 namespace myotact::simulation {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 /// A point on a body, where it is now.
 struct BodyPoint {
@@ -36,8 +38,8 @@ void add_segment(const Skeleton& skeleton, const BodyPoint& a, const BodyPoint& 
     geometry.slope_m_rad[j] += u.dot(de_j);
     for (int k = 0; k < skeleton.joint_count(); ++k) {
       const Vec3 de_k = spread(skeleton, a, b, k);
-      const Vec3 d2e = skeleton.point_second_derivative(b.body, j, k, b.p_W) -
-                       skeleton.point_second_derivative(a.body, j, k, a.p_W);
+      const Vec3 d2e =
+          skeleton.point_second_derivative(b.body, j, k, b.p_W) - skeleton.point_second_derivative(a.body, j, k, a.p_W);
       geometry.curvature_m_rad2(j, k) += u.dot(d2e) + (de_j.dot(de_k) - u.dot(de_j) * u.dot(de_k)) / s;
     }
   }
@@ -73,8 +75,8 @@ LineForce line_force(const anatomy::Muscle& muscle, double elongation_m, double 
   LineForce force;
   force.fibre_stretch = n;
   force.force_N = peak_N * (length_factor * velocity_factor + passive_force_length(n));
-  force.stiffness_N_m = peak_N / fibre_m *
-                        (activation * active_force_length_slope(n) * velocity_factor + passive_force_length_slope(n));
+  force.stiffness_N_m =
+      peak_N / fibre_m * (activation * active_force_length_slope(n) * velocity_factor + passive_force_length_slope(n));
   force.damping_Ns_m = peak_N * length_factor * force_velocity_slope(v) / (fibre_m * kLargestShortening_lo_s);
   return force;
 }

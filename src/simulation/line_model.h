@@ -14,8 +14,8 @@ namespace myotact::simulation {
 /// turn (welds) are 0; locked joints have theirs.
 struct LineGeometry {
   double length_m = 0.0;
-  Eigen::VectorXd slope_m_rad;        // dl/dq; the moment arm is r = -dl/dq, positive flexes
-  Eigen::MatrixXd curvature_m_rad2;   // d2l/dq2 = -dr/dq
+  Eigen::VectorXd slope_m_rad;       // dl/dq; the moment arm is r = -dl/dq, positive flexes
+  Eigen::MatrixXd curvature_m_rad2;  // d2l/dq2 = -dr/dq
 };
 
 /// Exact for straight segments between points that ride on bodies. Two points that coincide add nothing.
@@ -27,10 +27,10 @@ std::vector<Vec3> line_points_W(const anatomy::MuscleLine& line, const Skeleton&
 
 /// The pull of a Hill muscle whose tendon is rigid, along its line.
 struct LineForce {
-  double fibre_stretch = 0.0;    // fibre length over the optimal one
-  double force_N = 0.0;          // >= 0 unless the fibre is far below any living length
-  double stiffness_N_m = 0.0;    // dF/dl at held activation; negative beyond the optimum length
-  double damping_Ns_m = 0.0;     // dF/d(dl/dt), >= 0
+  double fibre_stretch = 0.0;  // fibre length over the optimal one
+  double force_N = 0.0;        // >= 0 unless the fibre is far below any living length
+  double stiffness_N_m = 0.0;  // dF/dl at held activation; negative beyond the optimum length
+  double damping_Ns_m = 0.0;   // dF/d(dl/dt), >= 0
 };
 
 /// n = rest_stretch + elongation / (lo cos alpha), F = F0 cos alpha (a fL(n) fV(v) + fP(n)): the linear map that the
@@ -40,9 +40,9 @@ LineForce line_force(const anatomy::Muscle& muscle, double elongation_m, double 
 
 /// What one muscle line does to one joint: tau = r F, K = r^2 k - (dr/dq) F, B = r^2 b.
 struct LineJointTerms {
-  double torque_Nm = 0.0;           // positive flexes
-  double muscle_Nm_rad = 0.0;       // r^2 k
-  double geometry_Nm_rad = 0.0;     // -(dr/dq) F
+  double torque_Nm = 0.0;        // positive flexes
+  double muscle_Nm_rad = 0.0;    // r^2 k
+  double geometry_Nm_rad = 0.0;  // -(dr/dq) F
   double damping_Nms_rad = 0.0;
 
   double stiffness_Nm_rad() const { return muscle_Nm_rad + geometry_Nm_rad; }
@@ -58,9 +58,9 @@ std::vector<double> arc_fractions(std::span<const Vec3> points_m);
 
 /// A place on a polyline.
 struct LinePlace {
-  int segment = 0;         // between points segment and segment + 1
-  double along = 0.0;      // 0 .. 1 within the segment
-  double fraction = 0.0;   // by `fractions`, usually arc length at rest
+  int segment = 0;        // between points segment and segment + 1
+  double along = 0.0;     // 0 .. 1 within the segment
+  double fraction = 0.0;  // by `fractions`, usually arc length at rest
   Vec3 position_m = Vec3::Zero();
   double distance_m = 0.0;  // from the point asked for; 0 for place_at_fraction
 };

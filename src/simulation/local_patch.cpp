@@ -11,7 +11,9 @@
 namespace myotact::simulation {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 /// Skins have edges of about 3 mm: a patch of them is filled within 15 mm in most places.
 constexpr double kFirstRadius_m = 0.015;
@@ -59,12 +61,13 @@ class VertexNumbers {
 /// half its way from its nearer frame.
 double reach_m(const Vec3& p, const std::array<int, 3>& triangle, std::span<const Vec3> previous_m,
                std::span<const Vec3> current_m) {
-  const auto& [a, b, c] = triangle;
   const auto distance = [&](std::span<const Vec3> x) {
+    const auto& [a, b, c] = triangle;
     return (geometry::closest_point_on_triangle(p, x[at(a)], x[at(b)], x[at(c)]).position_m - p).norm();
   };
   double way_m2 = 0.0;
-  for (const int vertex : triangle) way_m2 = std::max(way_m2, (current_m[at(vertex)] - previous_m[at(vertex)]).squaredNorm());
+  for (const int vertex : triangle)
+    way_m2 = std::max(way_m2, (current_m[at(vertex)] - previous_m[at(vertex)]).squaredNorm());
   if (way_m2 == 0.0) return distance(current_m);
   return std::max(0.0, std::min(distance(previous_m), distance(current_m)) - 0.5 * std::sqrt(way_m2));
 }

@@ -48,8 +48,8 @@ class LocalPatch {
 /// A muscle line as the patch sees it, in the world now.
 struct LineView {
   int muscle = -1;
-  std::span<const Vec3> points_m;         // from origin to insertion, at least 2
-  std::span<const double> fractions;      // of the points, arc length at rest
+  std::span<const Vec3> points_m;     // from origin to insertion, at least 2
+  std::span<const double> fractions;  // of the points, arc length at rest
   double tension_N = 0.0;
   double stiffness_N_m = 0.0;
   double damping_Ns_m = 0.0;
@@ -58,14 +58,14 @@ struct LineView {
 /// A hand at the lines.
 struct LineHand {
   Vec3 tool_m = Vec3::Zero();
-  int grabbed_muscle = -1;     // -1: none in hand
+  int grabbed_muscle = -1;  // -1: none in hand
   double grab_fraction = 0.0;
 };
 
 /// A line farther than this from the tool is not offered.
 inline constexpr double kLineReach_m = 0.030;
-/// The string's ends lie at least this far from the place in hand, where the line is long enough: a closer end would make
-/// a small sideways pull a steep one.
+/// The string's ends lie at least this far from the place in hand, where the line is long enough: a closer end would
+/// make a small sideways pull a steep one.
 inline constexpr double kShortestString_m = 0.020;
 
 /// The line in hand, else the nearest within reach, else muscle -1. Negative stiffness or damping is sent as 0, which

@@ -121,7 +121,9 @@ Vec3 Skeleton::point_second_derivative(int body, int joint_a, int joint_b, const
   return axes_W_[index(proximal)].cross(axes_W_[index(distal)].cross(p_W - centres_W_[index(distal)]));
 }
 
-Vec3 Skeleton::com_W(int body) const { return poses_[index(body)] * bodies_[index(body)].com_m; }
+Vec3 Skeleton::com_W(int body) const {
+  return poses_[index(body)] * bodies_[index(body)].com_m;
+}
 
 Mat3 Skeleton::inertia_W_kg_m2(int body) const {
   const auto& [xx, yy, zz, xy, xz, yz] = bodies_[index(body)].inertia_kg_m2;

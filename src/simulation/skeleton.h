@@ -35,7 +35,7 @@ class Skeleton {
   // ---- in the pose set last
   /// X_WL: maps a body point's rest position to where it is now.
   const Pose& body_pose(int body) const { return poses_[index(body)]; }
-  Vec3 axis_W(int joint) const { return axes_W_[index(joint)]; }      // unit; 0 for a weld
+  Vec3 axis_W(int joint) const { return axes_W_[index(joint)]; }  // unit; 0 for a weld
   Vec3 centre_W(int joint) const { return centres_W_[index(joint)]; }
   /// True when turning `joint` moves `body` (locked or not).
   bool is_distal(int body, int joint) const { return distal_[index(body) * joints_.size() + index(joint)]; }
@@ -57,8 +57,8 @@ class Skeleton {
 
   std::vector<anatomy::Joint> joints_;
   std::vector<anatomy::Body> bodies_;
-  std::vector<int> order_;   // joints, proximal before distal
-  std::vector<int> place_;   // of a joint in order_
+  std::vector<int> order_;    // joints, proximal before distal
+  std::vector<int> place_;    // of a joint in order_
   std::vector<char> distal_;  // bodies x joints
   std::vector<char> locked_;  // joints
   std::vector<double> angles_rad_;

@@ -12,15 +12,16 @@ namespace myotact::simulation {
 /// What acts on the bones besides muscles.
 struct SkeletonInput {
   Vec3 gravity_m_s2 = Vec3::Zero();
-  std::span<const double> velocities_rad_s;     // joints
-  std::span<const double> external_torque_Nm;   // joints
+  std::span<const double> velocities_rad_s;    // joints
+  std::span<const double> external_torque_Nm;  // joints
 };
 
-/// Stop at the end of a joint's range: a one-sided spring and damper. 500 N m/rad yields 1.4 degrees under 12 N m (600 N
-/// at 20 mm, a strong canine triceps); softer, and the elbow visibly passes its range. Chosen, not measured: bone on bone is
-/// far stiffer, which an implicit step would stand but a hand could not tell.
+/// Stop at the end of a joint's range: a one-sided spring and damper. 500 N m/rad yields 1.4 degrees under 12 N m (600
+/// N at 20 mm, a strong canine triceps); softer, and the elbow visibly passes its range. Chosen, not measured: bone on
+/// bone is far stiffer, which an implicit step would stand but a hand could not tell.
 inline constexpr double kRangeStiffness_Nm_rad = 500.0;
-/// Near critical for a canine forearm (0.003 kg m^2): 2 sqrt(500 * 0.003), so that the limb does not bounce off the stop.
+/// Near critical for a canine forearm (0.003 kg m^2): 2 sqrt(500 * 0.003), so that the limb does not bounce off the
+/// stop.
 inline constexpr double kRangeDamping_Nms_rad = 2.5;
 
 /// What an implicit step of the angles needs: mass(q) qddot = force(q, qdot). One row a joint; welds and locked joints

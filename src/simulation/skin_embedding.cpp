@@ -14,7 +14,9 @@ namespace {
 
 using Barycentric = std::array<double, 4>;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 /// Maps a point to the barycentric coordinates 1 .. 3 of a straight-sided tet.
 struct TetFrame {
@@ -27,7 +29,9 @@ struct TetFrame {
   }
 };
 
-double lowest(const Barycentric& b) { return *std::min_element(b.begin(), b.end()); }
+double lowest(const Barycentric& b) {
+  return *std::min_element(b.begin(), b.end());
+}
 
 TetFrame make_frame(const geometry::TetMesh& tets, std::size_t tet) {
   const auto& corner = tets.corners[tet];
@@ -128,7 +132,8 @@ NodeWeights embed_outside(const geometry::TetMesh& tets, const TetFinder& finder
   embedding.farthest_m = std::max(embedding.farthest_m, (p - foot).norm());
   double keep = 1.0;  // of the way from the foot to p
   for (std::size_t i = 0; i < 4; ++i) {
-    if (wanted[i] < -kLargestOvershoot) keep = std::min(keep, (kLargestOvershoot + inside[i]) / (inside[i] - wanted[i]));
+    if (wanted[i] < -kLargestOvershoot)
+      keep = std::min(keep, (kLargestOvershoot + inside[i]) / (inside[i] - wanted[i]));
   }
   if (keep < 1.0) ++embedding.clamped_count;
   for (std::size_t i = 0; i < 4; ++i) wanted[i] = inside[i] + keep * (wanted[i] - inside[i]);
@@ -157,7 +162,8 @@ NodeWeights shape_weights(const geometry::TetMesh& tets, int tet, const std::arr
 
 SkinEmbedding embed_skin(const geometry::TriangleMesh& skin, const geometry::TetMesh& tets) {
   if (tets.corners.empty()) {
-    throw bad_data("specimen", "muscle mesh", "has no tetrahedra, so its skin has nothing to follow; run myotact-prepare");
+    throw bad_data("specimen", "muscle mesh",
+                   "has no tetrahedra, so its skin has nothing to follow; run myotact-prepare");
   }
   const TetFinder finder(tets);
   SkinEmbedding embedding;

@@ -28,8 +28,9 @@ struct SkinEmbedding {
   double farthest_m = 0.0;            // largest distance of an outside vertex from the tets
 };
 
-/// A vertex may lie outside its tet until a barycentric coordinate falls to minus this; then it is pulled in towards the
-/// tet. Half a tet's height: larger, and bending the tissue would swing the vertex more than the tissue itself moves.
+/// A vertex may lie outside its tet until a barycentric coordinate falls to minus this; then it is pulled in towards
+/// the tet. Half a tet's height: larger, and bending the tissue would swing the vertex more than the tissue itself
+/// moves.
 inline constexpr double kLargestOvershoot = 0.5;
 
 /// Finds for each vertex the tet that contains it, else the nearest. `tets` in its rest shape, quadratic tets

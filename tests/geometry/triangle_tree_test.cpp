@@ -9,7 +9,9 @@
 namespace myotact::geometry {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 /// A wavy sheet of 2 n^2 triangles over the unit square.
 TriangleMesh sheet(int n) {

@@ -68,12 +68,8 @@ TEST(LineModel, StraightLineHasTheClosedFormArm) {
 // Straight antagonists at their optimum length: published closed form (De Groote-Fregly curves, rigid tendon).
 TEST(LineModel, StraightAntagonistsDestabiliseTheJointAsInTheClosedForm) {
   const StraightPair pair = straight_pair();
-  constexpr std::array<std::array<double, 2>, 6> kExpected = {{{0.0, -0.39024},
-                                                               {0.01, -1.12742},
-                                                               {0.1, -7.76207},
-                                                               {0.25, -18.8198},
-                                                               {0.5, -37.2494},
-                                                               {1.0, -74.1086}}};
+  constexpr std::array<std::array<double, 2>, 6> kExpected = {
+      {{0.0, -0.39024}, {0.01, -1.12742}, {0.1, -7.76207}, {0.25, -18.8198}, {0.5, -37.2494}, {1.0, -74.1086}}};
   for (const auto& [activation, stiffness] : kExpected) {
     EXPECT_NEAR(pair_terms(pair, 0.0, activation).stiffness_Nm_rad(), stiffness, 1e-4) << activation;
     EXPECT_NEAR(pair_terms(pair, 0.0, activation).torque_Nm, 0.0, 1e-12);
@@ -133,8 +129,10 @@ TEST(LineModel, DampingMatchesTheSlopeOfForceVelocity) {
   muscle.pennation_rad = 0.3;
   constexpr double h = 1e-6;
   const LineForce here = line_force(muscle, 0.005, -0.1, 0.7);
-  const double by_speed = (line_force(muscle, 0.005, -0.1 + h, 0.7).force_N - line_force(muscle, 0.005, -0.1 - h, 0.7).force_N) / (2 * h);
-  const double by_length = (line_force(muscle, 0.005 + h, -0.1, 0.7).force_N - line_force(muscle, 0.005 - h, -0.1, 0.7).force_N) / (2 * h);
+  const double by_speed =
+      (line_force(muscle, 0.005, -0.1 + h, 0.7).force_N - line_force(muscle, 0.005, -0.1 - h, 0.7).force_N) / (2 * h);
+  const double by_length =
+      (line_force(muscle, 0.005 + h, -0.1, 0.7).force_N - line_force(muscle, 0.005 - h, -0.1, 0.7).force_N) / (2 * h);
   EXPECT_NEAR(here.damping_Ns_m, by_speed, 1e-4);
   EXPECT_NEAR(here.stiffness_N_m, by_length, 1e-4);
   EXPECT_NEAR(line_force(muscle, 0.0, 0.0, 1.0).force_N,

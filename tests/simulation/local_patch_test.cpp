@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <memory>
 #include <numbers>
 #include <set>
@@ -16,7 +17,9 @@
 namespace myotact::simulation {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 /// A closed tube about z: `around` x `along` quads, open ends (the patch does not care).
 geometry::TriangleMesh tube(const Vec3& centre_m, int around, int along) {
@@ -54,7 +57,8 @@ Scene tubes(int count, int around, int along, double motion_m) {
     for (Vec3& p : scene.current_m.back()) p += motion_m * Vec3(std::sin(400 * p.z()), std::cos(300 * p.x()), 0.5);
   }
   scene.patch = std::make_unique<LocalPatch>(pointers);
-  for (int s = 0; s < count; ++s) scene.patch->update_surface(s, scene.meshes[at(s)].positions_m, scene.current_m[at(s)]);
+  for (int s = 0; s < count; ++s)
+    scene.patch->update_surface(s, scene.meshes[at(s)].positions_m, scene.current_m[at(s)]);
   return scene;
 }
 
@@ -125,7 +129,8 @@ TEST(LocalPatch, RefittingAndWritingTenSurfacesIsQuick) {
   double best_s = 1.0, best_write_s = 1.0;
   for (int round = 0; round < 20; ++round) {
     const auto start = std::chrono::steady_clock::now();
-    for (int s = 0; s < 10; ++s) scene.patch->update_surface(s, scene.meshes[at(s)].positions_m, scene.current_m[at(s)]);
+    for (int s = 0; s < 10; ++s)
+      scene.patch->update_surface(s, scene.meshes[at(s)].positions_m, scene.current_m[at(s)]);
     const auto refitted = std::chrono::steady_clock::now();
     scene.patch->write(Vec3(0.1, 0.02, 0.07), *model);
     const auto end = std::chrono::steady_clock::now();

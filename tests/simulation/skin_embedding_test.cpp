@@ -1,6 +1,7 @@
 #include "simulation/skin_embedding.h"
 
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -83,7 +84,8 @@ TEST(SkinEmbedding, AMaterialPointIsThePointOfItsTriangle) {
   const geometry::TetMesh mesh = geometry::make_quadratic(two_tets());
   const SkinEmbedding embedding = embed_skin(skin_of(kInside), mesh);
   std::vector<Vec3> nodes_m = mesh.nodes_m;
-  for (std::size_t i = 0; i < nodes_m.size(); ++i) nodes_m[i] += Vec3(std::sin(double(i)), std::cos(double(i)), 0.1) * 0.1;
+  for (std::size_t i = 0; i < nodes_m.size(); ++i)
+    nodes_m[i] += Vec3(std::sin(double(i)), std::cos(double(i)), 0.1) * 0.1;
   const std::vector<Vec3> skin_m = moved(embedding, nodes_m);
   const MaterialPoint point = material_point(embedding, {0, 1, 2}, {0.2, 0.5, 0.3});
   Vec3 sum = Vec3::Zero();

@@ -1,8 +1,10 @@
 #include "simulation/worker_pool.h"
 
+#include <atomic>
 #include <chrono>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
