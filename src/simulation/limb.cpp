@@ -11,8 +11,7 @@ Limb::Limb(const anatomy::Specimen& specimen) : skeleton(specimen) {
     muscle.tissue = build_muscle_tissue(specimen, m);
     muscle.state = make_state(muscle.tissue);
     muscle.system = make_system(muscle.tissue, skeleton);
-    muscle.factor = std::make_unique<TissueFactor>();
-    muscle.factor->analyzePattern(muscle.tissue.pattern.lower());
+    muscle.factor = BlockFactor(muscle.tissue.pattern);
     muscle.stiffness_Nm_rad = muscle.readout.torque_Nm = Eigen::VectorXd::Zero(skeleton.joint_count());
     muscles.push_back(std::move(muscle));
   }
@@ -72,9 +71,7 @@ void read_out(Limb& limb) {
 }
 
 bool factor_definite(LimbMuscle& muscle) {
-  muscle.factor->factorize(muscle.system.matrix.lower());
-  if (muscle.factor->info() != Eigen::Success) return false;
-  return muscle.factor->vectorD().minCoeff() > 0.0;  // false for NaN too
+  return muscle.factor.factor(muscle.system.matrix) && muscle.factor.positive();
 }
 
 }  // namespace myotact::simulation

@@ -1,19 +1,15 @@
 #pragma once
 
-#include <memory>
 #include <span>
 #include <vector>
 
-#include <Eigen/SparseCholesky>
-
+#include "simulation/block_factor.h"
 #include "simulation/skeleton_loads.h"
 #include "simulation/skin_embedding.h"
 #include "simulation/tissue_system.h"
 #include "simulation/worker_pool.h"
 
 namespace myotact::simulation {
-
-using TissueFactor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
 
 /// A spring between a place in the world and a material point of a muscle or a point of a body.
 struct ToolSpring {
@@ -38,7 +34,7 @@ struct LimbMuscle {
   bool rigid = false;                 // follows the bones, exerts nothing
   TissueState state;
   TissueSystem system;
-  std::unique_ptr<TissueFactor> factor;
+  BlockFactor factor;
   Eigen::VectorXd free_solution;      // matrix^-1 residual
   Eigen::MatrixXd borders;            // free dofs x unknowns of the small system
   Eigen::MatrixXd border_solution;    // matrix^-1 borders

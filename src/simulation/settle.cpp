@@ -43,7 +43,7 @@ bool damped_step(const Limb& limb, double time_s, LimbMuscle& muscle) {
     compute_system(muscle.tissue, limb.skeleton, load, muscle.state, muscle.system);
     if (!factor_definite(muscle)) return false;
   }
-  const Eigen::VectorXd change = muscle.factor->solve(muscle.system.residual_N);
+  const Eigen::VectorXd change = muscle.factor.solve(muscle.system.residual_N);
   if (!change.allFinite()) return false;
   for (std::size_t node = 0; node < muscle.tissue.body.size(); ++node) {
     const int f = muscle.tissue.free_index[node];
@@ -149,9 +149,8 @@ void refresh_muscle_stiffness(const Limb& limb, LimbMuscle& muscle) {
   TissueLoad load;
   load.gravity_m_s2 = limb.gravity_m_s2;
   compute_system(muscle.tissue, limb.skeleton, load, muscle.state, muscle.system);
-  muscle.factor->factorize(muscle.system.matrix.lower());
-  if (muscle.factor->info() != Eigen::Success) return;
-  const Eigen::MatrixXd solution = muscle.factor->solve(muscle.system.coupling_N_rad);
+  if (!muscle.factor.factor(muscle.system.matrix)) return;
+  const Eigen::MatrixXd solution = muscle.factor.solve(muscle.system.coupling_N_rad);
   const Eigen::MatrixXd whole =
       muscle.system.joint_stiffness_Nm_rad - muscle.system.coupling_N_rad.transpose() * solution;
   if (whole.allFinite()) muscle.stiffness_Nm_rad = whole.diagonal();

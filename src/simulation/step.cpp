@@ -71,8 +71,8 @@ void eliminate(const Limb& limb, const SmallSystem& small, TissueLoad load, int 
     if (!muscle.sound) return;
   }
   fill_borders(limb, small, index, muscle);
-  muscle.free_solution = muscle.factor->solve(muscle.system.residual_N);
-  muscle.border_solution = muscle.factor->solve(muscle.borders);
+  muscle.free_solution = muscle.factor.solve(muscle.system.residual_N);
+  muscle.border_solution = muscle.factor.solve(muscle.borders);
   muscle.reduced.noalias() = muscle.borders.transpose() * muscle.border_solution;
   muscle.reduced_residual.noalias() = muscle.borders.transpose() * muscle.free_solution;
   muscle.sound = muscle.free_solution.allFinite() && muscle.reduced.allFinite();

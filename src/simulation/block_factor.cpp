@@ -1,0 +1,300 @@
+#include "simulation/block_factor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <Eigen/OrderingMethods>
+
+namespace myotact::simulation {
+namespace {
+
+/// Columns of a front that are eliminated together before the rest is updated: wide enough for matrix products, narrow
+/// enough for the unblocked part to stay small.
+constexpr Eigen::Index kPanel = 24;
+/// A front joins the one above it when the zeros that this stores are below this share of the joint front's columns, or
+/// when both are so small that bookkeeping would cost more than the zeros.
+constexpr double kLargestZeroShare = 0.15;
+constexpr int kSmallFront = 6;  // nodes
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+using Lists = std::vector<std::vector<int>>;
+
+/// Neighbours of each node, both ways, from the stored lower blocks.
+Lists neighbours_of(const BlockMatrix& matrix) {
+  Lists neighbours(at(matrix.nodes()));
+  const Eigen::SparseMatrix<double>& lower = matrix.lower();
+  for (int column = 0; column < matrix.nodes(); ++column) {
+    for (int k = lower.outerIndexPtr()[3 * column]; k < lower.outerIndexPtr()[3 * column + 1]; k += 3) {
+      const int row = lower.innerIndexPtr()[k] / 3;
+      if (row == column) continue;
+      neighbours[at(column)].push_back(row);
+      neighbours[at(row)].push_back(column);
+    }
+  }
+  return neighbours;
+}
+
+/// Position of each node in a minimum-degree order.
+std::vector<int> minimum_degree(const Lists& neighbours) {
+  const int n = static_cast<int>(neighbours.size());
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int node = 0; node < n; ++node) {
+    entries.emplace_back(node, node, 1.0);
+    for (int other : neighbours[at(node)]) entries.emplace_back(other, node, 1.0);
+  }
+  Eigen::SparseMatrix<double> graph(n, n);
+  graph.setFromTriplets(entries.begin(), entries.end());
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
+  Eigen::AMDOrdering<int>()(graph, permutation);
+  std::vector<int> position(at(n));
+  for (int k = 0; k < n; ++k) position[at(permutation.indices()[k])] = k;
+  return position;
+}
+
+Lists renumbered(const Lists& neighbours, const std::vector<int>& position) {
+  Lists result(neighbours.size());
+  for (std::size_t node = 0; node < neighbours.size(); ++node) {
+    for (int other : neighbours[node]) result[at(position[node])].push_back(position[at(other)]);
+  }
+  return result;
+}
+
+/// Parent of each column in the elimination tree (Liu 1990, with path compression); -1 for a root.
+std::vector<int> elimination_tree(const Lists& neighbours) {
+  std::vector<int> parent(neighbours.size(), -1), ancestor(neighbours.size(), -1);
+  for (int j = 0; j < static_cast<int>(neighbours.size()); ++j) {
+    for (int i : neighbours[at(j)]) {
+      while (i >= 0 && i < j) {
+        const int next = ancestor[at(i)];
+        ancestor[at(i)] = j;
+        if (next < 0) parent[at(i)] = j;
+        i = next;
+      }
+    }
+  }
+  return parent;
+}
+
+/// Positions that put every column right after its last descendant.
+std::vector<int> postorder(const std::vector<int>& parent) {
+  const int n = static_cast<int>(parent.size());
+  Lists children(parent.size());
+  std::vector<int> stack;
+  for (int j = n - 1; j >= 0; --j) {
+    if (parent[at(j)] >= 0) children[at(parent[at(j)])].push_back(j);
+    else stack.push_back(j);
+  }
+  std::vector<int> position(parent.size());
+  int next = n;  // parents are met before their children: number from the end
+  while (!stack.empty()) {
+    const int j = stack.back();
+    stack.pop_back();
+    position[at(j)] = --next;
+    stack.insert(stack.end(), children[at(j)].begin(), children[at(j)].end());
+  }
+  return position;
+}
+
+/// Rows below the diagonal of each column of L, rising.
+Lists column_structures(const Lists& neighbours, const std::vector<int>& parent) {
+  Lists rows(neighbours.size());
+  for (int j = 0; j < static_cast<int>(neighbours.size()); ++j) {
+    for (int i : neighbours[at(j)]) {
+      if (i > j) rows[at(j)].push_back(i);
+    }
+  }
+  for (int j = 0; j < static_cast<int>(neighbours.size()); ++j) {
+    std::vector<int>& own = rows[at(j)];
+    std::sort(own.begin(), own.end());
+    own.erase(std::unique(own.begin(), own.end()), own.end());
+    if (parent[at(j)] < 0) continue;
+    std::vector<int>& above = rows[at(parent[at(j)])];
+    std::copy_if(own.begin(), own.end(), std::back_inserter(above), [&](int i) { return i > parent[at(j)]; });
+  }
+  return rows;
+}
+
+}  // namespace
+
+BlockFactor::BlockFactor(const BlockMatrix& pattern) {
+  Lists neighbours = neighbours_of(pattern);
+  order_ = minimum_degree(neighbours);
+  const std::vector<int> post = postorder(elimination_tree(renumbered(neighbours, order_)));
+  for (int& position : order_) position = post[at(position)];
+  neighbours = renumbered(neighbours, order_);
+  make_fronts(neighbours);
+  place_entries(pattern);
+}
+
+void BlockFactor::make_fronts(const std::vector<std::vector<int>>& neighbours) {
+  const std::vector<int> parent = elimination_tree(neighbours);
+  const Lists rows = column_structures(neighbours, parent);
+  const int n = static_cast<int>(neighbours.size());
+  std::vector<int> front_of(at(n));
+  int zeros = 0;  // stored in the front being grown, in blocks
+  for (int j = 0; j < n; ++j) {
+    const int below = static_cast<int>(rows[at(j)].size());
+    bool joins = j > 0 && parent[at(j - 1)] == j;
+    if (joins) {
+      const Front& last = fronts_.back();
+      const int extra = below + 1 - static_cast<int>(rows[at(j - 1)].size());  // rows that the columns so far lack
+      const int more = zeros + extra * last.own;
+      const int stored = (last.own + 1) * (last.own + 1 + below);
+      joins = extra == 0 || more < kLargestZeroShare * stored || last.own + 1 + below <= kSmallFront;
+      if (joins) zeros = more;
+    }
+    if (!joins) {
+      fronts_.push_back({});
+      zeros = 0;
+    }
+    Front& front = fronts_.back();
+    front.nodes.resize(at(front.own));
+    front.nodes.push_back(j);
+    ++front.own;
+    front.nodes.insert(front.nodes.end(), rows[at(j)].begin(), rows[at(j)].end());
+    front_of[at(j)] = static_cast<int>(fronts_.size()) - 1;
+  }
+  for (std::size_t f = 0; f < fronts_.size(); ++f) {
+    Front& front = fronts_[f];
+    const auto dofs = static_cast<Eigen::Index>(3 * front.nodes.size());
+    dense_.push_back(Eigen::MatrixXd::Zero(dofs, dofs));
+    if (at(front.own) == front.nodes.size()) continue;
+    Front& above = fronts_[at(front_of[at(front.nodes[at(front.own)])])];
+    above.children.push_back(static_cast<int>(f));
+    for (std::size_t k = at(front.own); k < front.nodes.size(); ++k) {
+      const auto found = std::lower_bound(above.nodes.begin(), above.nodes.end(), front.nodes[k]);
+      front.place_in_parent.push_back(static_cast<int>(found - above.nodes.begin()));
+    }
+  }
+}
+
+void BlockFactor::place_entries(const BlockMatrix& pattern) {
+  std::vector<int> front_of(order_.size());
+  for (std::size_t f = 0; f < fronts_.size(); ++f) {
+    for (int k = 0; k < fronts_[f].own; ++k) front_of[at(fronts_[f].nodes[at(k)])] = static_cast<int>(f);
+  }
+  entries_.resize(fronts_.size());
+  const Eigen::SparseMatrix<double>& lower = pattern.lower();
+  for (int column = 0; column < pattern.nodes(); ++column) {
+    for (int k = lower.outerIndexPtr()[3 * column]; k < lower.outerIndexPtr()[3 * column + 1]; k += 3) {
+      const int row = lower.innerIndexPtr()[k] / 3;
+      const int p = order_[at(row)], q = order_[at(column)];
+      const int first = std::min(p, q), second = std::max(p, q);
+      const std::size_t f = at(front_of[at(first)]);
+      const std::vector<int>& nodes = fronts_[f].nodes;
+      const auto place = [&](int node) {
+        return static_cast<int>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
+      };
+      entries_[f].push_back({pattern.slot(row, column), place(second), place(first), p < q});
+    }
+  }
+}
+
+void BlockFactor::assemble_front(std::size_t f, const double* values) {
+  const Front& front = fronts_[f];
+  Eigen::MatrixXd& dense = dense_[f];
+  for (Eigen::Index c = 0; c < dense.cols(); ++c) dense.col(c).tail(dense.rows() - c).setZero();
+  for (const Entry& entry : entries_[f]) {
+    for (int j = 0; j < 3; ++j) {
+      for (int i = 0; i < 3; ++i) {
+        const double value = values[entry.slot.base + j * entry.slot.stride + i];
+        if (entry.transposed) dense(3 * entry.row + j, 3 * entry.column + i) += value;
+        else dense(3 * entry.row + i, 3 * entry.column + j) += value;
+      }
+    }
+  }
+  for (int child : front.children) {
+    const Eigen::MatrixXd& remainder = dense_[at(child)];
+    const std::vector<int>& place = fronts_[at(child)].place_in_parent;
+    const Eigen::Index first = 3 * fronts_[at(child)].own;
+    for (std::size_t b = 0; b < place.size(); ++b) {
+      for (int j = 0; j < 3; ++j) {
+        const double* from = &remainder(first, first + 3 * static_cast<Eigen::Index>(b) + j);
+        double* to = &dense(0, 3 * place[b] + j);
+        for (std::size_t a = b; a < place.size(); ++a) {
+          for (int i = 0; i < 3; ++i) to[3 * place[a] + i] += from[3 * a + at(i)];
+        }
+      }
+    }
+  }
+}
+
+/// Eliminates the front's own columns, panel by panel; what is left below is the remainder for the parent.
+bool BlockFactor::factor_front(std::size_t f) {
+  Eigen::MatrixXd& dense = dense_[f];
+  const Eigen::Index size = dense.rows(), own = 3 * fronts_[f].own;
+  for (Eigen::Index start = 0; start < own; start += kPanel) {
+    const Eigen::Index width = std::min(kPanel, own - start), below = size - start - width;
+    auto corner = dense.block(start, start, width, width);
+    for (Eigen::Index c = 0; c < width; ++c) {
+      const double pivot = corner(c, c);
+      if (!std::isfinite(pivot) || pivot == 0.0) return false;
+      positive_ = positive_ && pivot > 0.0;
+      const Eigen::Index left = width - c - 1;
+      const Eigen::VectorXd column = corner.col(c).tail(left);
+      corner.col(c).tail(left) /= pivot;
+      for (Eigen::Index k = 0; k < left; ++k) {
+        corner.col(c + 1 + k).tail(left - k) -= column[k] * corner.col(c).tail(left - k);
+      }
+    }
+    if (below == 0) continue;
+    auto under = dense.block(start + width, start, below, width);
+    corner.transpose().template triangularView<Eigen::UnitUpper>().template solveInPlace<Eigen::OnTheRight>(under);
+    const Eigen::MatrixXd scaled = under;  // L D
+    under.array().rowwise() /= corner.diagonal().transpose().array();
+    dense.block(start + width, start + width, below, below).template triangularView<Eigen::Lower>() -=
+        scaled * under.transpose();
+  }
+  return true;
+}
+
+bool BlockFactor::factor(const BlockMatrix& matrix) {
+  positive_ = true;
+  for (std::size_t f = 0; f < fronts_.size(); ++f) {
+    assemble_front(f, matrix.lower().valuePtr());
+    if (!factor_front(f)) return positive_ = false;
+  }
+  return true;
+}
+
+Eigen::MatrixXd BlockFactor::solve(const Eigen::MatrixXd& right) const {
+  Eigen::MatrixXd x(right.rows(), right.cols());
+  for (std::size_t node = 0; node < order_.size(); ++node) {
+    x.middleRows<3>(3 * order_[node]) = right.middleRows<3>(static_cast<Eigen::Index>(3 * node));
+  }
+  const auto gather = [&](const Front& front, Eigen::MatrixXd& local) {
+    local.resize(static_cast<Eigen::Index>(3 * front.nodes.size()), x.cols());
+    for (std::size_t k = 0; k < front.nodes.size(); ++k) {
+      local.middleRows<3>(static_cast<Eigen::Index>(3 * k)) = x.middleRows<3>(3 * front.nodes[k]);
+    }
+  };
+  Eigen::MatrixXd local;
+  for (std::size_t f = 0; f < fronts_.size(); ++f) {
+    const Eigen::Index own = 3 * fronts_[f].own, below = dense_[f].rows() - own;
+    gather(fronts_[f], local);
+    auto top = local.topRows(own);
+    dense_[f].topLeftCorner(own, own).triangularView<Eigen::UnitLower>().solveInPlace(top);
+    local.bottomRows(below).noalias() -= dense_[f].bottomLeftCorner(below, own) * top;
+    for (std::size_t k = 0; k < fronts_[f].nodes.size(); ++k) {
+      x.middleRows<3>(3 * fronts_[f].nodes[k]) = local.middleRows<3>(static_cast<Eigen::Index>(3 * k));
+    }
+  }
+  for (std::size_t f = fronts_.size(); f-- > 0;) {
+    const Eigen::Index own = 3 * fronts_[f].own, below = dense_[f].rows() - own;
+    gather(fronts_[f], local);
+    auto top = local.topRows(own);
+    top.array().colwise() /= dense_[f].diagonal().head(own).array();
+    top.noalias() -= dense_[f].bottomLeftCorner(below, own).transpose() * local.bottomRows(below);
+    dense_[f].topLeftCorner(own, own).transpose().triangularView<Eigen::UnitUpper>().solveInPlace(top);
+    x.middleRows(3 * fronts_[f].nodes[0], own) = top;
+  }
+  Eigen::MatrixXd result(right.rows(), right.cols());
+  for (std::size_t node = 0; node < order_.size(); ++node) {
+    result.middleRows<3>(static_cast<Eigen::Index>(3 * node)) = x.middleRows<3>(3 * order_[node]);
+  }
+  return result;
+}
+
+}  // namespace myotact::simulation

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "simulation/block_matrix.h"
+
+namespace myotact::simulation {
+
+/// L D L^T of a symmetric BlockMatrix by the multifrontal method: nodes are ordered by minimum degree, neighbouring
+/// columns of like structure are eliminated together in dense fronts. The pattern is analysed once; every factorisation
+/// after that allocates no fronts. No pivoting: meant for positive definite matrices; an indefinite one is factored too
+/// as long as no pivot vanishes.
+class BlockFactor {
+ public:
+  BlockFactor() = default;
+  /// Analyses the pattern.
+  explicit BlockFactor(const BlockMatrix& pattern);
+
+  /// Factors a matrix of that pattern. False when a pivot is zero or not finite; solve() must not be called then.
+  bool factor(const BlockMatrix& matrix);
+  /// Every pivot of the last factorisation was positive.
+  bool positive() const { return positive_; }
+
+  /// matrix^-1 right, column by column. Rows as in the matrix.
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;
+
+ private:
+  /// A group of neighbouring columns with one dense front: its own nodes first, then the nodes below that it touches.
+  struct Front {
+    std::vector<int> nodes;           // in elimination order's numbering; the first `own` are eliminated here
+    int own = 0;
+    std::vector<int> children;        // fronts whose remainder is added here
+    std::vector<int> place_in_parent;  // of each node after the own ones, in the parent's list
+  };
+  /// A block of the matrix and where it goes.
+  struct Entry {
+    BlockSlot slot;
+    int row = 0, column = 0;  // in the front's list of nodes
+    bool transposed = false;
+  };
+
+  void make_fronts(const std::vector<std::vector<int>>& neighbours);
+  void place_entries(const BlockMatrix& pattern);
+  bool factor_front(std::size_t front);
+  void assemble_front(std::size_t front, const double* values);
+
+  std::vector<int> order_;                  // elimination position of each node
+  std::vector<Front> fronts_;
+  std::vector<std::vector<Entry>> entries_;  // one list a front
+  std::vector<Eigen::MatrixXd> dense_;      // lower triangles; after factor(): L with D on the diagonal, and the remainder
+  bool positive_ = false;
+};
+
+}  // namespace myotact::simulation
