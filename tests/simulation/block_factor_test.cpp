@@ -1,0 +1,81 @@
+#include "simulation/block_factor.h"
+
+#include <random>
+
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+namespace myotact::simulation {
+namespace {
+
+/// A ladder of overlapping cliques with two long-distance ones: fronts of many sizes.
+std::vector<std::vector<int>> ladder(int nodes) {
+  std::vector<std::vector<int>> cliques;
+  for (int i = 0; i + 4 < nodes; i += 2) cliques.push_back({i, i + 1, i + 2, i + 4, -1});
+  cliques.push_back({0, nodes / 2, nodes - 1});
+  cliques.push_back({1, nodes / 3});
+  return cliques;
+}
+
+BlockMatrix random_matrix(int nodes, double diagonal) {
+  BlockMatrix matrix(nodes, ladder(nodes));
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> value(-1.0, 1.0);
+  for (const auto& clique : ladder(nodes)) {
+    for (int row : clique) {
+      for (int column : clique) {
+        if (column < 0 || row <= column) continue;
+        matrix.add(row, column, Mat3::NullaryExpr([&] { return value(random); }));
+      }
+    }
+  }
+  for (int node = 0; node < nodes; ++node) matrix.add_diagonal(node, diagonal);
+  return matrix;
+}
+
+Eigen::MatrixXd dense(const BlockMatrix& matrix) {
+  return Eigen::MatrixXd(matrix.lower()).selfadjointView<Eigen::Lower>();
+}
+
+double solve_error(const BlockMatrix& matrix) {
+  BlockFactor factor(matrix);
+  if (!factor.factor(matrix)) return 1e300;
+  const Eigen::MatrixXd wanted = Eigen::MatrixXd::Random(3 * matrix.nodes(), 3);
+  return (factor.solve(dense(matrix) * wanted) - wanted).norm() / wanted.norm();
+}
+
+}  // namespace
+
+TEST(BlockFactor, SolvesAPositiveDefiniteMatrix) {
+  for (int nodes : {5, 11, 60}) EXPECT_LT(solve_error(random_matrix(nodes, 30.0)), 1e-12) << nodes << " nodes";
+}
+
+TEST(BlockFactor, SolvesAnIndefiniteMatrixAndSaysSo) {
+  const BlockMatrix matrix = random_matrix(60, -30.0);
+  BlockFactor factor(matrix);
+  EXPECT_TRUE(factor.factor(matrix));
+  EXPECT_FALSE(factor.positive());
+  EXPECT_LT(solve_error(matrix), 1e-12);
+}
+
+TEST(BlockFactor, RefusesASingularMatrixAndOneWithNaN) {
+  BlockMatrix matrix = random_matrix(20, 30.0);
+  BlockFactor factor(matrix);
+  EXPECT_TRUE(factor.factor(matrix));
+  EXPECT_TRUE(factor.positive());
+  matrix.set_zero();
+  EXPECT_FALSE(factor.factor(matrix));
+  matrix.add_diagonal(5, std::nan(""));
+  EXPECT_FALSE(factor.factor(matrix));
+}
+
+TEST(BlockMatrix, NamesTheSameBlockInBothOrders) {
+  BlockMatrix matrix(3, std::vector<std::vector<int>>{{0, 2}});
+  Mat3 block;
+  block << 1, 2, 3, 4, 5, 6, 7, 8, 9;
+  matrix.add(0, 2, block);
+  EXPECT_EQ(dense(matrix).block(0, 6, 3, 3), Eigen::MatrixXd(block));
+  EXPECT_EQ(matrix.slot(2, 1).base, -1);
+}
+
+}  // namespace myotact::simulation

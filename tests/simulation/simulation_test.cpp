@@ -1,0 +1,255 @@
+#include "simulation/simulation.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "simulation/fibre_curves.h"
+#include "support/synthetic_specimen.h"
+
+namespace myotact::simulation {
+namespace {
+
+using messages::ToolState;
+
+/// Coarse bars: what these tests compare does not depend on the mesh.
+testing::BarShape coarse_bar() {
+  testing::BarShape shape;
+  shape.cells = {4, 1, 1};
+  return shape;
+}
+
+anatomy::Specimen coarse_pair() {
+  anatomy::Specimen specimen = testing::antagonist_hinge();
+  testing::BarShape extensor = coarse_bar();
+  extensor.origin_m.z() = -0.03;
+  specimen.muscles = {testing::bar_muscle("flexor", coarse_bar()), testing::bar_muscle("extensor", extensor)};
+  return specimen;
+}
+
+ToolState press(int surface, int triangle, const Vec3& target_m, double stiffness_N_m) {
+  ToolState tool;
+  tool.contact.surface = surface;
+  tool.contact.triangle = triangle;
+  tool.contact.barycentric = {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0};
+  tool.contact.target_world_m = to_array(target_m);
+  tool.contact.stiffness_N_m = stiffness_N_m;
+  return tool;
+}
+
+Vec3 centre_of(const Simulation& simulation, const anatomy::Specimen& specimen, int muscle, int triangle) {
+  Vec3 sum = Vec3::Zero();
+  for (int v : specimen.muscles[static_cast<std::size_t>(muscle)].skin.triangles[static_cast<std::size_t>(triangle)]) {
+    sum += simulation.skin_world_m(muscle)[static_cast<std::size_t>(v)];
+  }
+  return sum / 3.0;
+}
+
+/// A triangle in the middle of the muscle's upper side.
+int top_triangle(const anatomy::Specimen& specimen, int muscle) {
+  const geometry::TriangleMesh& skin = specimen.muscles[static_cast<std::size_t>(muscle)].skin;
+  int best = 0;
+  double nearest = 1e300;
+  for (std::size_t t = 0; t < skin.triangles.size(); ++t) {
+    Vec3 centre = Vec3::Zero();
+    for (int v : skin.triangles[t]) centre += skin.positions_m[static_cast<std::size_t>(v)] / 3.0;
+    const double distance = (centre - Vec3(-0.03, 0.0, 0.04)).norm();
+    if (distance < nearest) {
+      nearest = distance;
+      best = static_cast<int>(t);
+    }
+  }
+  return best;
+}
+
+std::uint64_t hash_after_steps(int workers) {
+  const anatomy::Specimen specimen = coarse_pair();
+  SimulationSettings settings;
+  settings.workers = workers;
+  Simulation simulation(specimen, settings);
+  simulation.set_excitation(0, 0.8);
+  simulation.set_excitation(1, 0.3);
+  for (int i = 0; i < 5; ++i) {
+    const ToolState tool = press(0, 3, Vec3(-0.03, 0.0, 0.035), 200.0);
+    simulation.step({&tool, 1});
+  }
+  return simulation.state_hash();
+}
+
+}  // namespace
+
+TEST(Simulation, IsometricForceOfAStraightBarIsTheLineModels) {
+  const anatomy::Specimen specimen = testing::single_muscle(coarse_bar());
+  Simulation simulation(specimen, {});
+  const double peak_N = specimen.muscles[0].peak_force_N;
+  for (double a : {0.0, 0.5, 1.0}) {
+    const double q = 0.0;
+    ASSERT_TRUE(simulation.settle({&q, 1}, {&a, 1}));
+    const double line_N = peak_N * (a * active_force_length(0.8) + passive_force_length(0.8));
+    EXPECT_NEAR(simulation.muscle_force_N(0), line_N, 1e-6 * peak_N);
+    // Virtual work: the torque of a straight pull is the force times its lever.
+    EXPECT_NEAR(simulation.muscle_torque_Nm(0, 0), 0.03 * line_N, 1e-7 * peak_N);
+  }
+}
+
+TEST(Simulation, StiffnessIsTheSlopeOfTheTorque) {
+  const anatomy::Specimen specimen = coarse_pair();
+  Simulation simulation(specimen, {});
+  const double h = 0.5 * 3.14159265358979 / 180.0;
+  const std::array<double, 2> activations{0.5, 0.3};
+  const auto torque_at = [&](double q) {
+    EXPECT_TRUE(simulation.settle({&q, 1}, activations));
+    return simulation.joint(0).net_torque_Nm;
+  };
+  const double slope = (torque_at(0.1 + h) - torque_at(0.1 - h)) / (2.0 * h);
+  torque_at(0.1);
+  const JointReadout readout = simulation.joint(0);
+  EXPECT_NEAR(readout.stiffness_Nm_rad - readout.passive_Nm_rad, -slope, 0.01 * std::abs(slope));
+}
+
+TEST(Simulation, OneTwoAndFourWorkersGiveTheSameBits) {
+  const std::uint64_t one = hash_after_steps(1);
+  EXPECT_EQ(one, hash_after_steps(2));
+  EXPECT_EQ(one, hash_after_steps(4));
+}
+
+TEST(Simulation, EqualAntagonistsMoveNothingAndALockedJointStays) {
+  const anatomy::Specimen specimen = coarse_pair();
+  Simulation simulation(specimen, {});
+  simulation.set_excitation(0, 0.5);
+  simulation.set_excitation(1, 0.5);
+  for (int i = 0; i < 10; ++i) simulation.step({});
+  EXPECT_NEAR(simulation.joint(0).angle_rad, 0.0, 1e-4);  // the mesh's diagonals are not mirror images
+  simulation.set_joint_locked(0, true);
+  const double angle = simulation.joint(0).angle_rad;
+  simulation.set_excitation(1, 0.0);
+  for (int i = 0; i < 3; ++i) simulation.step({});
+  EXPECT_EQ(simulation.joint(0).angle_rad, angle);
+}
+
+TEST(Simulation, StepsComeToRestWhereSettleDoes) {
+  const anatomy::Specimen specimen = coarse_pair();
+  Simulation simulation(specimen, {});
+  const std::array<double, 2> activations{0.4, 0.2};
+  simulation.set_excitation(0, activations[0]);
+  simulation.set_excitation(1, activations[1]);
+  for (int i = 0; i < 100; ++i) simulation.step({});
+  const double q = simulation.joint(0).angle_rad, torque = simulation.joint(0).net_torque_Nm;
+  EXPECT_NEAR(torque, simulation.joint(0).passive_Nm_rad * q, 1e-3);
+  ASSERT_TRUE(simulation.settle({&q, 1}, activations));
+  EXPECT_NEAR(simulation.joint(0).net_torque_Nm, torque, 1e-3 * torque);
+}
+
+TEST(Simulation, ASpringOnTheSkinPullsAndItsComplianceTellsHowFar) {
+  const anatomy::Specimen specimen = coarse_pair();
+  Simulation simulation(specimen, {});
+  simulation.set_joint_locked(0, true);
+  const double q = 0.0;
+  ASSERT_TRUE(simulation.settle({&q, 1}, {}));
+  const int triangle = top_triangle(specimen, 0);
+  const Vec3 start = centre_of(simulation, specimen, 0, triangle);
+  const double stiffness_N_m = 100.0;
+  const ToolState tool = press(0, triangle, start - Vec3(0.0, 0.0, 1e-4), stiffness_N_m);
+  simulation.step({&tool, 1});
+  const Vec3 moved = centre_of(simulation, specimen, 0, triangle) - start;
+  const Vec3 force = stiffness_N_m * (to_vec3(tool.contact.target_world_m) - start - moved);
+  messages::LocalModel model;
+  simulation.write_local_model(tool, model);
+  const Mat3 compliance = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(model.compliance_m_N.data());
+  EXPECT_LT((compliance * force - moved).norm(), 0.01 * moved.norm());
+  EXPECT_LT(moved.z(), 0.0);
+}
+
+TEST(Simulation, APushOnABoneTurnsTheJoint) {
+  const anatomy::Specimen specimen = testing::hinged_bones();
+  Simulation simulation(specimen, {});
+  ToolState tool = press(1, 0, Vec3::Zero(), 50.0);
+  const std::array<int, 3>& triangle = specimen.bones[1].surface.triangles[0];
+  Vec3 start = Vec3::Zero();
+  for (int v : triangle) start += specimen.bones[1].surface.positions_m[static_cast<std::size_t>(v)] / 3.0;
+  tool.contact.target_world_m = to_array(start + Vec3(0.0, 0.0, 0.01));
+  simulation.step({&tool, 1});
+  EXPECT_GT(simulation.joint(0).angle_rad, 0.0);
+}
+
+// Rod of 0.2 m, hinged at its end, no spring or damper: the mathematical period of small swings is 2 pi sqrt(2 L / 3 g).
+TEST(Simulation, ARodSwingsWithThePeriodOfAPendulum) {
+  anatomy::Specimen specimen = testing::hinged_bones();
+  specimen.joints[0].stiffness_Nm_rad = specimen.joints[0].damping_Nms_rad = 0.0;
+  specimen.bodies[1].inertia_kg_m2[0] = 0.0;
+  SimulationSettings settings;
+  settings.dt_s = 1e-3;
+  settings.gravity_m_s2 = {9.81, 0.0, 0.0};  // along the rod
+  Simulation simulation(specimen, settings);
+  const double amplitude = 0.02;
+  ASSERT_TRUE(simulation.settle({&amplitude, 1}, {}));
+  double last = amplitude, crossing = 0.0;
+  while (crossing == 0.0 && simulation.time_s() < 1.0) {
+    simulation.step({});
+    const double now = simulation.joint(0).angle_rad;
+    if (now <= 0.0) crossing = simulation.time_s() - settings.dt_s * now / (now - last);
+    last = now;
+  }
+  const double period = 2.0 * 3.14159265358979 * std::sqrt(2.0 * 0.2 / (3.0 * 9.81));
+  EXPECT_NEAR(4.0 * crossing, period, 2e-3 * period);  // the first step is of first order
+}
+
+TEST(Simulation, SurvivesJumpsAndNonsense) {
+  const anatomy::Specimen specimen = coarse_pair();
+  Simulation simulation(specimen, {});
+  simulation.set_excitation(0, 1.0);
+  simulation.set_excitation(1, std::nan(""));
+  ToolState yank = press(0, 0, Vec3(0.0, 0.3, 0.3), 5e3);
+  yank.grabbed_line = 1;
+  yank.grab_fraction = 0.5;
+  yank.line_stiffness_N_m = 2e3;
+  ToolState nonsense = press(99, -5, Vec3(std::nan(""), 1e300, 0.0), -1.0);
+  nonsense.grabbed_line = 77;
+  for (int i = 0; i < 8; ++i) {
+    simulation.step(i % 4 < 2 ? std::span<const ToolState>(&yank, 1) : std::span<const ToolState>(&nonsense, 1));
+    EXPECT_TRUE(std::isfinite(simulation.joint(0).angle_rad));
+    for (const Vec3& p : simulation.skin_world_m(0)) ASSERT_TRUE(p.allFinite());
+  }
+  EXPECT_FALSE(simulation.settle({}, {}));
+}
+
+TEST(Simulation, ARigidMuscleFollowsTheBonesAndExertsNothing) {
+  const anatomy::Specimen specimen = coarse_pair();
+  SimulationSettings settings;
+  settings.tissue = {TissueModel::Rigid, TissueModel::Rigid};
+  Simulation simulation(specimen, settings);
+  const double q = 0.3;
+  ASSERT_TRUE(simulation.settle({&q, 1}, {}));
+  EXPECT_EQ(simulation.joint(0).net_torque_Nm, 0.0);
+  EXPECT_GT((simulation.skin_world_m(0)[0] - specimen.muscles[0].skin.positions_m[0]).norm() +
+                (simulation.skin_world_m(0).back() - specimen.muscles[0].skin.positions_m.back()).norm(),
+            1e-3);
+}
+
+TEST(Simulation, RefusesSettingsThatCannotWork) {
+  const anatomy::Specimen specimen = coarse_pair();
+  SimulationSettings settings;
+  settings.dt_s = 0.0;
+  EXPECT_THROW(Simulation(specimen, settings), Error);
+  settings = {};
+  settings.tissue = {TissueModel::Fem};
+  EXPECT_THROW(Simulation(specimen, settings), Error);
+}
+
+TEST(Simulation, WritesAFrameOfTheWholeScene) {
+  const anatomy::Specimen specimen = coarse_pair();
+  Simulation simulation(specimen, {});
+  simulation.step({});
+  messages::SceneFrame frame;
+  simulation.write_frame(frame);
+  EXPECT_EQ(frame.sequence, 1u);
+  EXPECT_NEAR(frame.time_s, 0.01, 1e-12);
+  ASSERT_EQ(frame.skins_world_m.size(), 2u);
+  EXPECT_EQ(frame.skins_world_m[0].size(), specimen.muscles[0].skin.positions_m.size());
+  EXPECT_EQ(frame.body_poses.size(), 2u);
+  EXPECT_EQ(frame.lines_world_m[1].size(), 2u);
+  EXPECT_EQ(frame.joints.size(), 1u);
+}
+
+}  // namespace myotact::simulation
