@@ -7,24 +7,35 @@
 
 namespace myotact::device {
 
-/// What a device can do; the force gate keeps to it.
-struct Profile {
-  std::string name;
+/// What a device can bear and how it moves by itself. Initial values: a desktop stylus of the 3 N class
+/// (reference: makers' data sheets, ranges of identified models).
+struct DeviceProfile {
   double peak_force_N = 3.3;
-  double workspace_m = 0.16;  // smallest extent, for the view
+  double max_stiffness_N_m = 1000.0;
+  double inertia_kg = 0.07;      // felt at the stylus
+  double viscous_Ns_m = 0.05;
+  double coulomb_N = 0.1;
+  double resolution_m = 20e-6;   // of the encoder, at the stylus
 };
 
-/// A force-feedback device of three axes. read() and write() belong to the haptic thread and are real-time safe.
+/// One force-feedback device. open() and close() belong to the thread that owns the device; read() and write() to the
+/// haptic tick: they never allocate, lock, wait, log or throw.
 class Device {
  public:
   virtual ~Device() = default;
 
-  virtual const Profile& profile() const = 0;
-  /// May wait and allocate. Throws Error Unavailable saying why it does not open and what to do.
+  virtual const std::string& name() const = 0;
+  virtual const DeviceProfile& profile() const = 0;
+
+  /// Throws Error Unavailable when the device does not answer.
   virtual void open() = 0;
-  /// False once the device is lost: its force is zero then.
-  virtual bool ready() const noexcept = 0;
+  virtual void close() noexcept = 0;
+  /// False: the states read are not to be trusted; forces must go to zero.
+  virtual bool connected() const noexcept = 0;
+
+  /// The stylus at `now_ns`, which never runs backwards.
   virtual messages::DeviceState read(std::uint64_t now_ns) noexcept = 0;
+  /// The force that acts on the hand until the next write.
   virtual void write(const messages::DeviceCommand& command) noexcept = 0;
 };
 

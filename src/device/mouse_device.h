@@ -1,31 +1,49 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <string>
+
 #include "core/vector.h"
 #include "device/device.h"
-#include "device/simulated_device.h"
 #include "realtime/latest_value.h"
 
 namespace myotact::device {
 
-/// The mouse as a stylus: follows a point that the window sets, smoothed; forces are shown, not felt.
+/// The pointer of the window as a stylus. The force cannot be felt; it is kept for the window to draw.
 class MouseDevice : public Device {
  public:
-  explicit MouseDevice(const Vec3& start_world_m) : position_m_(start_world_m), wanted_m_(start_world_m) {}
+  explicit MouseDevice(const Vec3& start_world_m);
 
-  realtime::LatestValue<HandTarget>& target() noexcept { return target_; }  // written by the window's thread
+  /// Window's thread: where the pointer is in the world, and the buttons as in DeviceState.
+  void set_pointer(const Vec3& position_world_m, std::uint32_t buttons) noexcept;
 
-  const Profile& profile() const override { return profile_; }
+  const std::string& name() const override { return name_; }
+  const DeviceProfile& profile() const override { return profile_; }
   void open() override {}
-  bool ready() const noexcept override { return true; }
+  void close() noexcept override {}
+  bool connected() const noexcept override { return true; }
+  /// The stylus follows the pointer with a lag of first order: a window moves its pointer in jumps at 60 Hz.
   messages::DeviceState read(std::uint64_t now_ns) noexcept override;
-  void write(const messages::DeviceCommand&) noexcept override {}
+  void write(const messages::DeviceCommand& command) noexcept override { forces_.publish(command); }
+
+  /// Window's thread: the newest force written [N].
+  std::array<double, 3> shown_force_world_N() noexcept;
 
  private:
-  Profile profile_{"mouse", 10.0, 0.3};
-  realtime::LatestValue<HandTarget> target_;
+  struct Pointer {
+    std::array<double, 3> position_world_m{};
+    std::uint32_t buttons = 0;
+  };
+
+  std::string name_ = "mouse";
+  DeviceProfile profile_;
+  realtime::LatestValue<Pointer> pointers_;
+  realtime::LatestValue<messages::DeviceCommand> forces_;
   Vec3 position_m_;
-  Vec3 wanted_m_;
+  Pointer pointer_;
   std::uint64_t last_ns_ = 0;
+  bool started_ = false;
 };
 
 }  // namespace myotact::device

@@ -1,29 +1,32 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <string>
 #include <vector>
 
 #include "device/device.h"
 
 namespace myotact::device {
 
-/// Says again what a device said: one recorded state a tick, the last one for ever.
+/// Plays recorded states, one a read, whatever the clock says; afterwards the last one stays. Forces go nowhere.
 class ReplayDevice : public Device {
  public:
-  explicit ReplayDevice(std::vector<messages::DeviceState> states) : states_(std::move(states)) {}
+  ReplayDevice(std::vector<messages::DeviceState> states, const DeviceProfile& profile);
 
-  const Profile& profile() const override { return profile_; }
-  void open() override {}
-  bool ready() const noexcept override { return true; }
-  messages::DeviceState read(std::uint64_t) noexcept override {
-    if (states_.empty()) return {};
-    const messages::DeviceState state = states_[next_];
-    if (next_ + 1 < states_.size()) ++next_;
-    return state;
-  }
+  const std::string& name() const override { return name_; }
+  const DeviceProfile& profile() const override { return profile_; }
+  void open() override { next_ = 0; }
+  void close() noexcept override {}
+  bool connected() const noexcept override { return true; }
+  messages::DeviceState read(std::uint64_t now_ns) noexcept override;
   void write(const messages::DeviceCommand&) noexcept override {}
 
+  bool finished() const noexcept { return next_ >= states_.size(); }
+
  private:
-  Profile profile_{"replay", 10.0, 0.3};
+  std::string name_ = "replay";
+  DeviceProfile profile_;
   std::vector<messages::DeviceState> states_;
   std::size_t next_ = 0;
 };

@@ -1,53 +1,75 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <string>
+
 #include "core/vector.h"
 #include "device/device.h"
 #include "realtime/latest_value.h"
 
 namespace myotact::device {
 
-/// A hand on a stylus: a mass on a spring and a damper to where the person wants it, and the device's own inertia and
-/// friction. Ranges from identified grips at 1 to 3 N and from desktop devices of the 3 N class.
-struct HandAndDevice {
-  double hand_mass_kg = 0.1;
-  double hand_damping_Ns_m = 5.0;
-  double hand_stiffness_N_m = 400.0;
-  double device_mass_kg = 0.07;
-  double device_damping_Ns_m = 0.05;
-  double device_friction_N = 0.1;    // Coulomb
-  double encoder_m = 20e-6;          // resolution of the position
+/// A relaxed hand that holds a stylus and pulls it towards where it wants to be
+/// (reference: 0.05-0.3 kg, 1-10 N s/m, 50-500 N/m).
+struct HandProfile {
+  double mass_kg = 0.1;
+  double damping_Ns_m = 4.0;      // between the stylus and the hand's target
+  double stiffness_N_m = 300.0;   // between the stylus and the hand's target
 };
 
-/// Where the hand wants the stylus; the writer is whoever plays the person.
+/// Where the hand wants the stylus.
 struct HandTarget {
   std::array<double, 3> position_world_m{};
+  std::array<double, 3> velocity_world_m_s{};  // the target runs on with it; the next target comes within 50 ms
   std::uint32_t buttons = 0;
 };
 
-/// Simulated person and device; stands for hardware in tests, headless runs and demonstrations.
+/// A hand on a device, without hardware:
+///
+///   (m_device + m_hand) a = k_hand (target - x) + b_hand (v_target - v) - b_device v - Coulomb + F_command
+///
+/// integrated from one read to the next; the encoder rounds what is read. Same calls, same bits.
 class SimulatedDevice : public Device {
  public:
-  explicit SimulatedDevice(const Vec3& start_world_m, const HandAndDevice& parameters = {});
+  SimulatedDevice(std::string name, const Vec3& start_world_m, const DeviceProfile& profile = {},
+                  const HandProfile& hand = {});
 
-  realtime::LatestValue<HandTarget>& target() noexcept { return target_; }
+  /// One thread, any time, or between ticks. Real-time safe.
+  void set_hand_target(const HandTarget& target) noexcept { targets_.publish(target); }
 
-  const Profile& profile() const override { return profile_; }
+  const std::string& name() const override { return name_; }
+  const DeviceProfile& profile() const override { return profile_; }
   void open() override {}
-  bool ready() const noexcept override { return true; }
+  void close() noexcept override {}
+  bool connected() const noexcept override { return true; }
   messages::DeviceState read(std::uint64_t now_ns) noexcept override;
   void write(const messages::DeviceCommand& command) noexcept override;
 
- private:
-  void integrate(double dt_s) noexcept;
+  /// Truth that the encoder hides, for tests; the thread of read().
+  const Vec3& position_world_m() const { return position_m_; }
 
-  Profile profile_{"simulated", 10.0, 0.3};
-  HandAndDevice parameters_;
-  realtime::LatestValue<HandTarget> target_;
-  Vec3 wanted_m_;
+ private:
+  void advance(double dt_s) noexcept;
+  void integrate(double h_s) noexcept;
+  messages::DeviceState measure(std::uint64_t now_ns, double dt_s) noexcept;
+
+  std::string name_;
+  DeviceProfile profile_;
+  HandProfile hand_;
+  realtime::LatestValue<HandTarget> targets_;
+
   Vec3 position_m_;
   Vec3 velocity_m_s_ = Vec3::Zero();
+  Vec3 target_m_;
+  Vec3 target_velocity_m_s_ = Vec3::Zero();
+  double target_age_s_ = 0.0;
   Vec3 force_N_ = Vec3::Zero();
+  Vec3 measured_m_;
+  Vec3 measured_velocity_m_s_ = Vec3::Zero();
+  std::uint32_t buttons_ = 0;
   std::uint64_t last_ns_ = 0;
+  bool started_ = false;
 };
 
 }  // namespace myotact::device
