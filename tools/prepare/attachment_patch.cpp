@@ -1,0 +1,143 @@
+#include "prepare/attachment_patch.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <queue>
+#include <set>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "geometry/triangle_tree.h"
+
+namespace myotact::prepare {
+
+namespace {
+
+using geometry::TriangleMesh;
+
+/// Least share of the surface and least number of triangles: below, a flux field comes out flat in most of the muscle
+/// (measured on tibialis cranialis with one vertex: 90 % of the volume).
+constexpr double kLeastArea = 0.03;
+constexpr std::size_t kLeastTriangles = 8;
+/// Largest share: an attachment that covered more would leave no free muscle between the ends.
+constexpr double kMostArea = 0.12;
+/// A millimetre from the known middle counts as much as half a millimetre from the bone: bones are known surfaces,
+/// middles are single markers.
+constexpr double kPointWeight = 0.5;
+/// A muscle that ends further from its bone than this hangs in the air [m]. Lofts end up to 15 mm short of it.
+constexpr double kFarthest_m = 0.03;
+
+double triangle_area_m2(const TriangleMesh& mesh, int t) {
+  const auto& c = mesh.triangles[static_cast<std::size_t>(t)];
+  const Vec3& a = mesh.positions_m[static_cast<std::size_t>(c[0])];
+  return 0.5 * (mesh.positions_m[static_cast<std::size_t>(c[1])] - a)
+                   .cross(mesh.positions_m[static_cast<std::size_t>(c[2])] - a).norm();
+}
+
+Vec3 triangle_centre_m(const TriangleMesh& mesh, int t) {
+  const auto& c = mesh.triangles[static_cast<std::size_t>(t)];
+  return (mesh.positions_m[static_cast<std::size_t>(c[0])] + mesh.positions_m[static_cast<std::size_t>(c[1])] +
+          mesh.positions_m[static_cast<std::size_t>(c[2])]) / 3.0;
+}
+
+std::vector<std::vector<int>> triangles_of_vertices(const TriangleMesh& mesh) {
+  std::vector<std::vector<int>> result(mesh.positions_m.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (const int v : mesh.triangles[t]) result[static_cast<std::size_t>(v)].push_back(static_cast<int>(t));
+  }
+  return result;
+}
+
+/// Distance to the bones plus the weighted distance to the guide point, one a vertex [m].
+std::vector<double> vertex_costs_m(const TriangleMesh& surface, const PatchGuide& guide,
+                                   std::vector<double>& bone_distance_m) {
+  const geometry::TriangleTree tree(guide.bones);
+  std::vector<double> costs_m;
+  for (const Vec3& p : surface.positions_m) {
+    bone_distance_m.push_back(tree.nearest(p, guide.bones.positions_m).distance_m);
+    costs_m.push_back(bone_distance_m.back() + kPointWeight * (p - guide.point_m).norm());
+  }
+  return costs_m;
+}
+
+/// Triangles that touch a vertex of `taken`.
+std::set<int> blocked_by(const TriangleMesh& surface, const std::vector<std::vector<int>>& around,
+                         const std::vector<int>& taken) {
+  std::set<int> blocked;
+  for (const int t : taken) {
+    for (const int v : surface.triangles[static_cast<std::size_t>(t)]) {
+      blocked.insert(around[static_cast<std::size_t>(v)].begin(), around[static_cast<std::size_t>(v)].end());
+    }
+  }
+  return blocked;
+}
+
+void finish(const TriangleMesh& surface, const std::vector<double>& bone_distance_m, AttachmentPatch& patch) {
+  std::set<int> vertices;
+  patch.centroid_m = Vec3::Zero();
+  for (const int t : patch.triangles) {
+    patch.centroid_m += triangle_area_m2(surface, t) / patch.area_m2 * triangle_centre_m(surface, t);
+    vertices.insert(surface.triangles[static_cast<std::size_t>(t)].begin(),
+                    surface.triangles[static_cast<std::size_t>(t)].end());
+  }
+  patch.vertices.assign(vertices.begin(), vertices.end());
+  patch.bone_distance_m = std::numeric_limits<double>::infinity();
+  for (const int v : patch.vertices) {
+    patch.bone_distance_m = std::min(patch.bone_distance_m, bone_distance_m[static_cast<std::size_t>(v)]);
+  }
+}
+
+}  // namespace
+
+AttachmentPatch grow_patch(const std::string& name, const TriangleMesh& surface, const PatchGuide& guide,
+                           const std::vector<int>& taken) {
+  std::vector<double> bone_distance_m;
+  const std::vector<double> costs_m = vertex_costs_m(surface, guide, bone_distance_m);
+  const auto around = triangles_of_vertices(surface);
+  const std::set<int> blocked = blocked_by(surface, around, taken);
+  const double whole_m2 = geometry::surface_area_m2(surface);
+  const double wanted_m2 = std::clamp(guide.area_m2, kLeastArea * whole_m2, kMostArea * whole_m2);
+
+  const auto triangle_cost_m = [&](int t) {
+    const auto& c = surface.triangles[static_cast<std::size_t>(t)];
+    return (costs_m[static_cast<std::size_t>(c[0])] + costs_m[static_cast<std::size_t>(c[1])] +
+            costs_m[static_cast<std::size_t>(c[2])]) / 3.0;
+  };
+  using Candidate = std::pair<double, int>;  // cost, triangle
+  std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> frontier;
+  std::set<int> seen = blocked;
+  const auto offer = [&](int t) {
+    if (seen.insert(t).second) frontier.emplace(triangle_cost_m(t), t);
+  };
+  Candidate seed{std::numeric_limits<double>::infinity(), -1};
+  for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
+    if (!blocked.contains(t)) seed = std::min(seed, Candidate(triangle_cost_m(t), t));
+  }
+  if (seed.second >= 0) offer(seed.second);
+  AttachmentPatch patch;
+  while (!frontier.empty() && (patch.area_m2 < wanted_m2 || patch.triangles.size() < kLeastTriangles)) {
+    const int t = frontier.top().second;
+    frontier.pop();
+    patch.triangles.push_back(t);
+    patch.area_m2 += triangle_area_m2(surface, t);
+    for (const int v : surface.triangles[static_cast<std::size_t>(t)]) {
+      for (const int next : around[static_cast<std::size_t>(v)]) offer(next);
+    }
+  }
+  if (patch.triangles.size() < kLeastTriangles) {
+    throw bad_data(name, "attachments", "the surface has too few triangles for two attachments; ask for more tets");
+  }
+  finish(surface, bone_distance_m, patch);
+  if (patch.bone_distance_m > kFarthest_m) {
+    throw bad_data(name, "attachments",
+                   fmt::format("the muscle ends {:.1f} mm from its bone; must be at most {:.0f} mm. Check the bones and "
+                               "the attachment point of the muscle in the anatomy files",
+                               1e3 * patch.bone_distance_m, 1e3 * kFarthest_m));
+  }
+  return patch;
+}
+
+}  // namespace myotact::prepare

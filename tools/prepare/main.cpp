@@ -1,0 +1,103 @@
+// The program myotact-prepare: reads the command line, makes one specimen, turns every error into one line and a status.
+
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <new>
+
+#include <CLI/CLI.hpp>
+#include <spdlog/spdlog.h>
+
+#include "anatomy/specimen.h"
+#include "core/data_folder.h"
+#include "core/error.h"
+#include "core/log.h"
+#include "prepare/anatomy_assets.h"
+#include "prepare/assemble.h"
+#include "prepare/loft/loft.h"
+#include "prepare/read_scan.h"
+#include "prepare/report.h"
+
+namespace {
+
+using namespace myotact;
+
+struct Options {
+  std::filesystem::path scan;
+  std::filesystem::path anatomy;  // empty: the project's
+  std::filesystem::path specimen;
+  prepare::PrepareSettings settings;
+  bool json = false;
+};
+
+void add_common(CLI::App& command, Options& options) {
+  command.add_option("-o,--output", options.specimen, "folder of the specimen to write");
+  command.add_option("--tets", options.settings.tets, "tets of a muscle of 30 cm3; larger ones get more")
+      ->check(CLI::Range(40.0, 20000.0))
+      ->capture_default_str();
+  command.add_flag("--json", options.json, "report as JSON lines");
+}
+
+prepare::PreparedInput read_input(const Options& options, bool loft) {
+  prepare::PreparedInput input;
+  const std::filesystem::path anatomy =
+      options.anatomy.empty() ? data_folder() / "assets" / "canine" : options.anatomy;
+  input.anatomy = prepare::read_anatomy(anatomy);
+  if (loft) {
+    input.bones = prepare::loft_bones(anatomy);
+    input.muscles = prepare::loft_muscles(anatomy);
+  } else {
+    prepare::Scan scan = prepare::read_scan(options.scan, input.anatomy);
+    input.bones = std::move(scan.bones);
+    input.muscles = std::move(scan.muscles);
+  }
+  return input;
+}
+
+int make_specimen(const Options& options, bool loft) {
+  if (options.specimen.empty()) {
+    throw Error(ExitStatus::Usage, "--output: is missing; name the folder of the specimen to write");
+  }
+  if (!loft && options.scan.empty()) {
+    throw Error(ExitStatus::Usage, "the folder of the scan is missing; name one that holds bones/ and muscles/");
+  }
+  const prepare::PreparedInput input = read_input(options, loft);
+  std::vector<prepare::SurfaceReport> reports;
+  const anatomy::Specimen specimen = prepare::assemble_specimen(input, options.settings, reports);
+  anatomy::save_specimen(specimen, options.specimen);
+  std::cout << (options.json ? prepare::report_json_lines(reports) : prepare::report_table(reports)) << std::flush;
+  return static_cast<int>(ExitStatus::Done);
+}
+
+int fail(ExitStatus status, const std::string& text) {
+  spdlog::error("{}", text);
+  return static_cast<int>(status);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App program("Turns scans of a limb into a specimen that can be touched. AGPL-3.0-or-later.", "myotact-prepare");
+  Options options;
+  add_common(program, options);
+  program.add_option("scan", options.scan, "folder with bones/KEY.stl and muscles/KEY.stl, in metres");
+  program.add_option("--anatomy", options.anatomy, "folder with bodies, joints and mechanics of the limb");
+  CLI::App* loft = program.add_subcommand("loft", "make the surfaces from the sections and outlines of the anatomy");
+  loft->add_option("anatomy", options.anatomy, "folder with the anatomy")->required();
+  add_common(*loft, options);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? static_cast<int>(ExitStatus::Done) : static_cast<int>(ExitStatus::Usage);
+  }
+  try {
+    start_log("info");
+    return make_specimen(options, loft->parsed());
+  } catch (const Error& error) {
+    return fail(error.status(), error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(ExitStatus::Internal, "out of memory; use a smaller surface");
+  } catch (const std::exception& error) {
+    return fail(ExitStatus::Internal, error.what());
+  }
+}

@@ -1,0 +1,76 @@
+#include "prepare/report.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace myotact::prepare {
+
+namespace {
+
+nlohmann::ordered_json json_of(const SurfaceReport& r) {
+  nlohmann::ordered_json json = {{"key", r.key},
+                                 {"kind", r.muscle ? "muscle" : "bone"},
+                                 {"input_triangles", r.input_triangles},
+                                 {"welded_vertices", r.repair.welded_vertices},
+                                 {"dropped_triangles", r.repair.dropped_triangles},
+                                 {"turned_triangles", r.repair.turned_triangles},
+                                 {"dropped_pieces", r.repair.dropped_pieces},
+                                 {"skin_triangles", r.skin_triangles},
+                                 {"volume_m3", r.volume_m3},
+                                 {"wall_s", r.wall_s},
+                                 {"notes", r.notes}};
+  if (!r.muscle) return json;
+  json.update({{"tets", r.tets.tets},
+               {"smallest_dihedral_deg", r.tets.smallest_dihedral_deg},
+               {"first_percentile_dihedral_deg", r.tets.first_percentile_dihedral_deg},
+               {"shortest_edge_m", r.tets.shortest_edge_m},
+               {"cage_attempts", r.cage_attempts},
+               {"cage_volume_error", r.cage_volume_error},
+               {"origin_area_m2", r.origin_area_m2},
+               {"insertion_area_m2", r.insertion_area_m2},
+               {"origin_gap_m", r.origin_gap_m},
+               {"insertion_gap_m", r.insertion_gap_m},
+               {"filled_tets", r.filled_tets},
+               {"fibre_angle_deg", r.fibre_angle_deg},
+               {"path_m", r.path_m},
+               {"belly_m", r.belly_m},
+               {"largest_section_m2", r.largest_section_m2},
+               {"levers_m", nlohmann::ordered_json::object()}});
+  for (const auto& [joint, lever_m] : r.levers_m) json["levers_m"][joint] = lever_m;
+  return json;
+}
+
+std::string levers_text(const SurfaceReport& r) {
+  std::string text;
+  for (const auto& [joint, lever_m] : r.levers_m) text += fmt::format(" {} {:+.1f}", joint, 1e3 * lever_m);
+  return text;
+}
+
+}  // namespace
+
+std::string report_table(const std::vector<SurfaceReport>& reports) {
+  std::string text = fmt::format("{:<28} {:>6} {:>6} {:>7} {:>5} {:>6} {:>6} {:>7} {:>11} {:>6} {:>13} {:>6}  {}\n", "surface",
+                                 "tri in", "skin", "cm3", "tets", "min", "1 %", "dV", "gap o/i", "filled", "belly/path",
+                                 "s", "levers, mm");
+  for (const SurfaceReport& r : reports) {
+    text += fmt::format("{:<28} {:>6} {:>6} {:>7.1f} ", r.key, r.input_triangles, r.skin_triangles, 1e6 * r.volume_m3);
+    if (r.muscle) {
+      text += fmt::format("{:>5} {:>5.1f}d {:>5.1f}d {:>6.2f}% {:>4.1f}/{:<4.1f}mm {:>6} {:>5.0f}/{:<4.0f}mm {:>6.2f} ",
+                          r.tets.tets, r.tets.smallest_dihedral_deg, r.tets.first_percentile_dihedral_deg,
+                          100.0 * r.cage_volume_error, 1e3 * r.origin_gap_m, 1e3 * r.insertion_gap_m, r.filled_tets,
+                          1e3 * r.belly_m, 1e3 * r.path_m, r.wall_s);
+      text += levers_text(r);
+    }
+    for (const std::string& note : r.notes) text += "  [" + note + "]";
+    text += "\n";
+  }
+  return text;
+}
+
+std::string report_json_lines(const std::vector<SurfaceReport>& reports) {
+  std::string text;
+  for (const SurfaceReport& r : reports) text += json_of(r).dump() + "\n";
+  return text;
+}
+
+}  // namespace myotact::prepare

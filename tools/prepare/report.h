@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "prepare/surface_check.h"
+#include "prepare/tetrahedralise.h"
+
+namespace myotact::prepare {
+
+/// What came out for one surface, for people who decide whether to trust it.
+struct SurfaceReport {
+  std::string key;
+  bool muscle = false;
+  int input_triangles = 0;
+  SurfaceRepair repair;
+  int skin_triangles = 0;
+  double volume_m3 = 0.0;        // of the cleaned input
+  double wall_s = 0.0;
+  std::vector<std::string> notes;  // what a person should look at
+  // Muscles only.
+  int cage_attempts = 0;
+  double cage_volume_error = 0.0;
+  TetQuality tets;
+  double origin_area_m2 = 0.0, insertion_area_m2 = 0.0;
+  double origin_gap_m = 0.0, insertion_gap_m = 0.0;  // nearest vertex to bone
+  int filled_tets = 0;
+  double fibre_angle_deg = 0.0;  // mean against the straight way from end to end
+  double path_m = 0.0;           // along the fibres
+  double belly_m = 0.0;
+  double largest_section_m2 = 0.0;
+  std::vector<std::pair<std::string, double>> levers_m;  // hinge crossed -> lever, positive flexes
+};
+
+/// One line a surface, with a heading.
+std::string report_table(const std::vector<SurfaceReport>& reports);
+
+/// One JSON object a line and surface.
+std::string report_json_lines(const std::vector<SurfaceReport>& reports);
+
+}  // namespace myotact::prepare

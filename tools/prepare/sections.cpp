@@ -1,0 +1,133 @@
+#include "prepare/sections.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace myotact::prepare {
+
+namespace {
+
+/// Tets a slice: fewer, and the slice surface through the tets is ragged; more, and short tendons are not seen.
+constexpr std::size_t kTetsPerSlice = 10;
+constexpr std::size_t kFewestSlices = 5;
+constexpr std::size_t kMostSlices = 16;
+/// A tet's section stays within these multiples of the median slice: the ends of a field have poles.
+constexpr double kLeastSection = 0.2;
+constexpr double kMostSection = 3.0;
+/// Sections below this part of the largest are tendon. Tapering bellies have more until close to their ends; the
+/// tendons of the canine elbow muscles have 10 .. 40 %.
+constexpr double kTendonSection = 0.45;
+constexpr double kLeastBelly = 0.5;
+
+struct CutTet {
+  double potential = 0.0;  // at the centre
+  std::size_t tet = 0;
+};
+
+std::vector<CutTet> sort_by_potential(const geometry::TetMesh& tets, const FibreField& field) {
+  std::vector<CutTet> sorted;
+  for (std::size_t t = 0; t < tets.corners.size(); ++t) {
+    double potential = 0.0;
+    for (const int n : tets.corners[t]) potential += 0.25 * field.potential[static_cast<std::size_t>(n)];
+    sorted.push_back({potential, t});
+  }
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const CutTet& a, const CutTet& b) { return a.potential < b.potential; });
+  return sorted;
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+/// Value at x of the line through the points (xs rising); constant beyond them.
+double interpolate(const std::vector<double>& xs, const std::vector<double>& ys, double x) {
+  const auto above = static_cast<std::size_t>(std::lower_bound(xs.begin(), xs.end(), x) - xs.begin());
+  if (above == 0) return ys.front();
+  if (above == xs.size()) return ys.back();
+  const double part = (x - xs[above - 1]) / (xs[above] - xs[above - 1]);
+  return ys[above - 1] + part * (ys[above] - ys[above - 1]);
+}
+
+/// Sums over the tets of one slice.
+struct Slice {
+  double volume_m3 = 0.0;
+  double flux_m = 0.0;  // integral of |gradient| over the volume [m, for a flux of 1]
+  Vec3 moment = Vec3::Zero();
+};
+
+}  // namespace
+
+MuscleProfile slice_muscle(const geometry::TetMesh& tets, const FibreField& field) {
+  const std::vector<CutTet> sorted = sort_by_potential(tets, field);
+  const std::size_t count = std::clamp(sorted.size() / kTetsPerSlice, kFewestSlices, kMostSlices);
+  const double whole_m3 = geometry::total_volume_m3(tets);
+  std::vector<Slice> slices(count);
+  std::vector<double> reached(sorted.size());  // part of the volume before the tet's middle
+  double before_m3 = 0.0;
+  for (const CutTet& cut : sorted) {
+    const double volume_m3 = geometry::corner_volume_m3(tets, cut.tet);
+    reached[cut.tet] = (before_m3 + 0.5 * volume_m3) / whole_m3;
+    before_m3 += volume_m3;
+    const auto s = std::min(static_cast<std::size_t>(reached[cut.tet] * static_cast<double>(count)), count - 1);
+    const double flux_m = volume_m3 * field.gradient[cut.tet].norm();
+    Vec3 centre = Vec3::Zero();
+    for (const int n : tets.corners[cut.tet]) centre += 0.25 * tets.nodes_m[static_cast<std::size_t>(n)];
+    slices[s].volume_m3 += volume_m3;
+    slices[s].flux_m += flux_m;
+    slices[s].moment += flux_m * centre;
+  }
+
+  MuscleProfile profile;
+  std::vector<double> middles;  // parts of the volume
+  double part = 0.0;
+  for (const Slice& slice : slices) {
+    if (!(slice.flux_m > 0.0)) continue;  // tets larger than a slice can leave one empty
+    profile.section_m2.push_back(slice.volume_m3 / slice.flux_m);
+    profile.centre_m.push_back(slice.moment / slice.flux_m);
+    profile.arc_m.push_back(profile.length_m + 0.5 * slice.flux_m);
+    profile.length_m += slice.flux_m;  // volume over section
+    middles.push_back(part + 0.5 * slice.volume_m3 / whole_m3);
+    part += slice.volume_m3 / whole_m3;
+  }
+  const double usual_m2 = median(profile.section_m2);
+  for (std::size_t t = 0; t < sorted.size(); ++t) {
+    profile.tet_arc_m.push_back(interpolate(middles, profile.arc_m, reached[t]));
+    profile.tet_section_m2.push_back(std::clamp(interpolate(middles, profile.section_m2, reached[t]),
+                                                kLeastSection * usual_m2, kMostSection * usual_m2));
+  }
+  return profile;
+}
+
+BellySpan find_belly(const MuscleProfile& profile) {
+  const double tendon_m2 = kTendonSection * *std::max_element(profile.section_m2.begin(), profile.section_m2.end());
+  const auto fleshy = [&](double section_m2) { return section_m2 > tendon_m2; };
+  const auto first = std::find_if(profile.section_m2.begin(), profile.section_m2.end(), fleshy);
+  const auto last = std::find_if(profile.section_m2.rbegin(), profile.section_m2.rend(), fleshy);
+  const auto index = static_cast<std::size_t>(first - profile.section_m2.begin());
+  const auto back = static_cast<std::size_t>(last - profile.section_m2.rbegin());
+  const std::size_t n = profile.section_m2.size();
+  // The border lies half-way between the last tendinous slice and the first fleshy one.
+  double head_m = index == 0 ? 0.0 : 0.5 * (profile.arc_m[index - 1] + profile.arc_m[index]);
+  double tail_m = back == 0 ? 0.0 : profile.length_m - 0.5 * (profile.arc_m[n - back - 1] + profile.arc_m[n - back]);
+  const double most_m = (1.0 - kLeastBelly) * profile.length_m;
+  if (head_m + tail_m > most_m) {
+    const double scale = most_m / (head_m + tail_m);
+    head_m *= scale;
+    tail_m *= scale;
+  }
+  return {head_m, profile.length_m - tail_m};
+}
+
+std::vector<anatomy::TissueRegion> mark_regions(const MuscleProfile& profile, const BellySpan& belly) {
+  std::vector<anatomy::TissueRegion> regions;
+  for (const double arc_m : profile.tet_arc_m) {
+    const bool inside = arc_m >= belly.begin_m && arc_m <= belly.end_m;
+    regions.push_back(inside ? anatomy::TissueRegion::Belly : anatomy::TissueRegion::Tendon);
+  }
+  return regions;
+}
+
+}  // namespace myotact::prepare

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "anatomy/specimen.h"
+#include "core/vector.h"
+#include "geometry/tet_mesh.h"
+#include "prepare/fibre_field.h"
+
+namespace myotact::prepare {
+
+/// A muscle cut across its fibres into slices of equal volume, from origin to insertion.
+struct MuscleProfile {
+  std::vector<double> section_m2;  // one a slice: cross-section along the fibres
+  std::vector<double> arc_m;       // one a slice: way along the fibres from the origin to its middle
+  std::vector<Vec3> centre_m;      // one a slice: where the fibres' flux is centred
+  double length_m = 0.0;           // of the whole way along the fibres
+  std::vector<double> tet_arc_m;   // one a tet: way from the origin to the slice surface through its centre
+  std::vector<double> tet_section_m2;  // one a tet: section_m2 between the slices, bounded against the poles
+};
+
+/// Slices by the potential at the tets' centres.
+MuscleProfile slice_muscle(const geometry::TetMesh& tets, const FibreField& field);
+
+/// Ways along the fibres at which the belly begins and ends; 0 and length_m where an end is fleshy.
+struct BellySpan {
+  double begin_m = 0.0;
+  double end_m = 0.0;
+};
+
+/// Tendon is the part from an end to where the section first exceeds 45 % of its largest, but the belly keeps at least
+/// half of the length.
+BellySpan find_belly(const MuscleProfile& profile);
+
+/// Belly or tendon, one a tet.
+std::vector<anatomy::TissueRegion> mark_regions(const MuscleProfile& profile, const BellySpan& belly);
+
+}  // namespace myotact::prepare

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "geometry/triangle_mesh.h"
+
+namespace myotact::prepare {
+
+/// Pairs of triangles that cross each other, or that touch without sharing a corner or an edge. Exact predicates.
+std::vector<std::pair<int, int>> crossing_triangles(const geometry::TriangleMesh& mesh);
+
+/// Triangles of nearly even size on the same surface: edges are split, collapsed, flipped and smoothed towards
+/// `edge_m`, vertices projected back onto the input (Botsch and Kobbelt 2004). The input is closed and manifold. The
+/// result shrinks where the surface is curved, and may cross itself where it is thinner than an edge: check it.
+geometry::TriangleMesh remesh_evenly(const geometry::TriangleMesh& mesh, double edge_m);
+
+/// A closed surface without crossings around `mesh`, at `offset_m` from it, that bridges gaps narrower than `alpha_m`.
+geometry::TriangleMesh wrap(const geometry::TriangleMesh& mesh, double alpha_m, double offset_m);
+
+}  // namespace myotact::prepare
