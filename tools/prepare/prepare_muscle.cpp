@@ -13,6 +13,7 @@
 #include "prepare/fibre_field.h"
 #include "prepare/muscle_line.h"
 #include "prepare/sections.h"
+#include "prepare/surface_pieces.h"
 #include "prepare/tetrahedralise.h"
 
 namespace myotact::prepare {
@@ -27,8 +28,8 @@ constexpr double kUsualVolume_m3 = 30e-6;
 /// Range of that number around the settings': small muscles still need two patches and a belly between.
 constexpr double kFewestTets = 0.4;
 constexpr double kMostTets = 1.25;
-/// A bone's skin has at most about this many triangles.
-constexpr double kBoneTriangles = 1500.0;
+/// A bone's skin has about at most this many triangles.
+constexpr double kBoneTriangles = 1400.0;
 /// Tets with a smaller angle make the solver stiff.
 constexpr double kPoorDihedral_deg = 5.0;
 constexpr double kBadDihedral_deg = 1.0;
@@ -54,10 +55,7 @@ PatchGuide guide_for(const LimbContext& limb, const std::string& name, const Att
   body = -1;
   for (const Bone& bone : limb.bones) {
     if (std::find(site.bones.begin(), site.bones.end(), bone.key) == site.bones.end()) continue;
-    const int base = static_cast<int>(guide.bones.positions_m.size());
-    guide.bones.positions_m.insert(guide.bones.positions_m.end(), bone.surface.positions_m.begin(),
-                                   bone.surface.positions_m.end());
-    for (const auto& [a, b, c] : bone.surface.triangles) guide.bones.triangles.push_back({a + base, b + base, c + base});
+    append(guide.bones, bone.surface);
     if (body >= 0 && body != bone.body) {
       throw bad_data(name, "attachments", "the bones of one end lie on two bodies; name bones of one body");
     }
@@ -164,18 +162,24 @@ TriangleMesh prepare_bone(const NamedSurface& raw, SurfaceReport& report) {
   const Watch watch;
   report.key = raw.key;
   report.input_triangles = static_cast<int>(raw.surface.triangles.size());
-  TriangleMesh surface = clean_surface(raw.key, raw.surface, &report.repair);
+  const TriangleMesh surface = clean_surface(raw.key, raw.surface, &report.repair);
   report.volume_m3 = geometry::enclosed_volume_m3(surface);
   // Equilateral triangles of edge h have area sqrt(3)/4 h^2.
   const double budget_m = std::sqrt(geometry::surface_area_m2(surface) / kBoneTriangles * 4.0 / std::sqrt(3.0));
-  try {
-    surface = even_surface(raw.key, surface, std::max(budget_m, kSkinEdge_m)).mesh;
-  } catch (const Error&) {  // thin blades and hooks: rigid, so uneven triangles do no harm
-    report.notes.emplace_back("triangles kept as they are: thinner than even ones could be");
+  TriangleMesh result;
+  int kept = 0;
+  for (const TriangleMesh& piece : pieces_of(surface)) {  // the bones of a paw may overlap each other
+    try {
+      append(result, even_surface(raw.key, piece, std::max(budget_m, kSkinEdge_m)).mesh);
+    } catch (const Error&) {  // thin blades and hooks: rigid, so uneven triangles do no harm
+      append(result, piece);
+      ++kept;
+    }
   }
-  report.skin_triangles = static_cast<int>(surface.triangles.size());
+  if (kept > 0) report.notes.push_back(fmt::format("{} pieces kept as they are: too thin for even triangles", kept));
+  report.skin_triangles = static_cast<int>(result.triangles.size());
   report.wall_s = watch.seconds();
-  return surface;
+  return result;
 }
 
 }  // namespace myotact::prepare

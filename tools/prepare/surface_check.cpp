@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "prepare/half_edges.h"
+#include "prepare/surface_pieces.h"
 #include "prepare/surface_remesh.h"
 
 namespace myotact::prepare {
@@ -146,26 +147,17 @@ void wind_neighbours(const std::string& name, int triangle, const EdgeMap& edges
   }
 }
 
-TriangleMesh part_of(const TriangleMesh& mesh, const std::vector<int>& triangles) {
-  TriangleMesh part;
-  std::map<int, int> index;
-  for (const int t : triangles) {
-    std::array<int, 3> corners{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int v = mesh.triangles[static_cast<std::size_t>(t)][k];
-      const auto [found, added] = index.try_emplace(v, static_cast<int>(part.positions_m.size()));
-      if (added) part.positions_m.push_back(mesh.positions_m[static_cast<std::size_t>(v)]);
-      corners[k] = found->second;
+/// Winds every piece of the surface one way.
+void wind_alike(const std::string& name, const EdgeMap& edges, TriangleMesh& mesh, SurfaceRepair& repair) {
+  std::vector<bool> seen(mesh.triangles.size(), false);
+  for (std::size_t seed = 0; seed < mesh.triangles.size(); ++seed) {
+    if (seen[seed]) continue;
+    seen[seed] = true;
+    std::vector<int> piece{static_cast<int>(seed)};
+    for (std::size_t next = 0; next < piece.size(); ++next) {
+      wind_neighbours(name, piece[next], edges, mesh, piece, seen, repair);
     }
-    part.triangles.push_back(corners);
   }
-  return part;
-}
-
-void append(TriangleMesh& mesh, const TriangleMesh& part) {
-  const int base = static_cast<int>(mesh.positions_m.size());
-  mesh.positions_m.insert(mesh.positions_m.end(), part.positions_m.begin(), part.positions_m.end());
-  for (const auto& [a, b, c] : part.triangles) mesh.triangles.push_back({a + base, b + base, c + base});
 }
 
 }  // namespace
@@ -176,27 +168,20 @@ TriangleMesh clean_surface(const std::string& name, const TriangleMesh& raw, Sur
   TriangleMesh mesh = weld(raw, repair);
   const EdgeMap edges = edges_of(mesh);
   check_closed(name, mesh, edges);
+  wind_alike(name, edges, mesh, repair);
 
-  std::vector<bool> seen(mesh.triangles.size(), false);
   const double area_m2 = geometry::surface_area_m2(mesh);
   TriangleMesh result;
-  for (std::size_t seed = 0; seed < mesh.triangles.size(); ++seed) {
-    if (seen[seed]) continue;
-    seen[seed] = true;
-    std::vector<int> piece{static_cast<int>(seed)};
-    for (std::size_t next = 0; next < piece.size(); ++next) {
-      wind_neighbours(name, piece[next], edges, mesh, piece, seen, repair);
-    }
-    TriangleMesh part = part_of(mesh, piece);
-    if (geometry::surface_area_m2(part) < kSpeck * area_m2) {
+  for (TriangleMesh& piece : pieces_of(mesh)) {
+    if (geometry::surface_area_m2(piece) < kSpeck * area_m2) {
       ++repair.dropped_pieces;
       continue;
     }
-    if (geometry::enclosed_volume_m3(part) < 0.0) {
-      for (auto& triangle : part.triangles) std::swap(triangle[1], triangle[2]);
-      repair.turned_triangles += static_cast<int>(part.triangles.size());
+    if (geometry::enclosed_volume_m3(piece) < 0.0) {
+      for (auto& triangle : piece.triangles) std::swap(triangle[1], triangle[2]);
+      repair.turned_triangles += static_cast<int>(piece.triangles.size());
     }
-    append(result, part);
+    append(result, piece);
   }
   check_half_edges(name, result);
   if (repair_out) *repair_out = repair;

@@ -1,0 +1,71 @@
+#include "prepare/surface_pieces.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+namespace myotact::prepare {
+
+namespace {
+
+using geometry::TriangleMesh;
+
+/// Lowest vertex that hangs together with `v`; shortens the way for the next call.
+int root_of(std::vector<int>& parent, int v) {
+  while (parent[static_cast<std::size_t>(v)] != v) {
+    int& up = parent[static_cast<std::size_t>(v)];
+    up = parent[static_cast<std::size_t>(up)];
+    v = up;
+  }
+  return v;
+}
+
+std::vector<int> roots_of(const TriangleMesh& mesh) {
+  std::vector<int> parent(mesh.positions_m.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  for (const auto& triangle : mesh.triangles) {
+    for (std::size_t k = 1; k < 3; ++k) {
+      const int a = root_of(parent, triangle[0]), b = root_of(parent, triangle[k]);
+      parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    }
+  }
+  for (int v = 0; v < static_cast<int>(parent.size()); ++v) parent[static_cast<std::size_t>(v)] = root_of(parent, v);
+  return parent;
+}
+
+}  // namespace
+
+std::vector<TriangleMesh> pieces_of(const TriangleMesh& mesh) {
+  const std::vector<int> root = roots_of(mesh);
+  std::map<int, std::size_t> piece_of_root;
+  std::vector<TriangleMesh> pieces;
+  std::vector<int> index(mesh.positions_m.size(), -1);  // in its piece
+  const auto piece_at = [&](int vertex) -> TriangleMesh& {
+    const auto [found, added] = piece_of_root.try_emplace(root[static_cast<std::size_t>(vertex)], pieces.size());
+    if (added) pieces.emplace_back();
+    return pieces[found->second];
+  };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) piece_at(mesh.triangles[t][0]);  // order of first triangles
+  for (const auto& triangle : mesh.triangles) {
+    for (const int v : triangle) index[static_cast<std::size_t>(v)] = 0;
+  }
+  for (int v = 0; v < static_cast<int>(index.size()); ++v) {
+    if (index[static_cast<std::size_t>(v)] < 0) continue;  // no triangle uses it
+    TriangleMesh& piece = piece_at(v);
+    index[static_cast<std::size_t>(v)] = static_cast<int>(piece.positions_m.size());
+    piece.positions_m.push_back(mesh.positions_m[static_cast<std::size_t>(v)]);
+  }
+  for (const auto& [a, b, c] : mesh.triangles) {
+    piece_at(a).triangles.push_back({index[static_cast<std::size_t>(a)], index[static_cast<std::size_t>(b)],
+                                     index[static_cast<std::size_t>(c)]});
+  }
+  return pieces;
+}
+
+void append(TriangleMesh& mesh, const TriangleMesh& part) {
+  const int base = static_cast<int>(mesh.positions_m.size());
+  mesh.positions_m.insert(mesh.positions_m.end(), part.positions_m.begin(), part.positions_m.end());
+  for (const auto& [a, b, c] : part.triangles) mesh.triangles.push_back({a + base, b + base, c + base});
+}
+
+}  // namespace myotact::prepare
