@@ -9,9 +9,6 @@
 namespace myotact::simulation {
 namespace {
 
-/// Columns of a front that are eliminated together before the rest is updated: wide enough for matrix products, narrow
-/// enough for the unblocked part to stay small.
-constexpr Eigen::Index kPanel = 24;
 /// A front joins the one above it when the zeros that this stores are below this share of the joint front's columns, or
 /// when both are so small that bookkeeping would cost more than the zeros.
 constexpr double kLargestZeroShare = 0.15;
@@ -158,8 +155,9 @@ void BlockFactor::make_fronts(const std::vector<std::vector<int>>& neighbours) {
   }
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
     Front& front = fronts_[f];
-    const auto dofs = static_cast<Eigen::Index>(3 * front.nodes.size());
-    dense_.push_back(Eigen::MatrixXd::Zero(dofs, dofs));
+    const std::size_t size = 3 * front.nodes.size(), stride = size + kFrontPadding;
+    values_.emplace_back(size * stride, 0.0);
+    work_.resize(std::max(work_.size(), kFrontPanel * stride));
     if (at(front.own) == front.nodes.size()) continue;
     Front& above = fronts_[at(front_of[at(front.nodes[at(front.own)])])];
     above.children.push_back(static_cast<int>(f));
@@ -192,69 +190,48 @@ void BlockFactor::place_entries(const BlockMatrix& pattern) {
   }
 }
 
+DenseFront BlockFactor::dense(std::size_t f) const {
+  const int size = 3 * static_cast<int>(fronts_[f].nodes.size());
+  // The values are this object's own; const callers only read them.
+  return {const_cast<double*>(values_[f].data()), size + kFrontPadding, size, 3 * fronts_[f].own};
+}
+
 void BlockFactor::assemble_front(std::size_t f, const double* values) {
   const Front& front = fronts_[f];
-  Eigen::MatrixXd& dense = dense_[f];
-  for (Eigen::Index c = 0; c < dense.cols(); ++c) dense.col(c).tail(dense.rows() - c).setZero();
+  const DenseFront to = dense(f);
+  for (int c = 0; c < to.size; ++c) std::fill(to.column(c) + c, to.column(c) + to.size, 0.0);
   for (const Entry& entry : entries_[f]) {
     for (int j = 0; j < 3; ++j) {
       for (int i = 0; i < 3; ++i) {
         const double value = values[entry.slot.base + j * entry.slot.stride + i];
-        if (entry.transposed) dense(3 * entry.row + j, 3 * entry.column + i) += value;
-        else dense(3 * entry.row + i, 3 * entry.column + j) += value;
+        const int row = 3 * entry.row + (entry.transposed ? j : i), column = 3 * entry.column + (entry.transposed ? i : j);
+        to.column(column)[row] += value;
       }
     }
   }
   for (int child : front.children) {
-    const Eigen::MatrixXd& remainder = dense_[at(child)];
+    const DenseFront from = dense(at(child));
     const std::vector<int>& place = fronts_[at(child)].place_in_parent;
-    const Eigen::Index first = 3 * fronts_[at(child)].own;
-    for (std::size_t b = 0; b < place.size(); ++b) {
+    const int count = static_cast<int>(place.size());
+    for (int b = 0; b < count; ++b) {
       for (int j = 0; j < 3; ++j) {
-        const double* from = &remainder(first, first + 3 * static_cast<Eigen::Index>(b) + j);
-        double* to = &dense(0, 3 * place[b] + j);
-        for (std::size_t a = b; a < place.size(); ++a) {
-          for (int i = 0; i < 3; ++i) to[3 * place[a] + i] += from[3 * a + at(i)];
+        const double* remainder = from.column(from.own + 3 * b + j) + from.own;
+        double* column = to.column(3 * place[at(b)] + j);
+        for (int a = b; a < count; ++a) {
+          for (int i = 0; i < 3; ++i) column[3 * place[at(a)] + i] += remainder[3 * a + i];
         }
       }
     }
   }
 }
 
-/// Eliminates the front's own columns, panel by panel; what is left below is the remainder for the parent.
-bool BlockFactor::factor_front(std::size_t f) {
-  Eigen::MatrixXd& dense = dense_[f];
-  const Eigen::Index size = dense.rows(), own = 3 * fronts_[f].own;
-  for (Eigen::Index start = 0; start < own; start += kPanel) {
-    const Eigen::Index width = std::min(kPanel, own - start), below = size - start - width;
-    auto corner = dense.block(start, start, width, width);
-    for (Eigen::Index c = 0; c < width; ++c) {
-      const double pivot = corner(c, c);
-      if (!std::isfinite(pivot) || pivot == 0.0) return false;
-      positive_ = positive_ && pivot > 0.0;
-      const Eigen::Index left = width - c - 1;
-      const Eigen::VectorXd column = corner.col(c).tail(left);
-      corner.col(c).tail(left) /= pivot;
-      for (Eigen::Index k = 0; k < left; ++k) {
-        corner.col(c + 1 + k).tail(left - k) -= column[k] * corner.col(c).tail(left - k);
-      }
-    }
-    if (below == 0) continue;
-    auto under = dense.block(start + width, start, below, width);
-    corner.transpose().template triangularView<Eigen::UnitUpper>().template solveInPlace<Eigen::OnTheRight>(under);
-    const Eigen::MatrixXd scaled = under;  // L D
-    under.array().rowwise() /= corner.diagonal().transpose().array();
-    dense.block(start + width, start + width, below, below).template triangularView<Eigen::Lower>() -=
-        scaled * under.transpose();
-  }
-  return true;
-}
-
 bool BlockFactor::factor(const BlockMatrix& matrix) {
   positive_ = true;
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
     assemble_front(f, matrix.lower().valuePtr());
-    if (!factor_front(f)) return positive_ = false;
+    const Pivots pivots = eliminate_front(dense(f), work_.data());
+    if (pivots != Pivots::Positive) positive_ = false;
+    if (pivots == Pivots::Unusable) return false;
   }
   return true;
 }
@@ -264,31 +241,23 @@ Eigen::MatrixXd BlockFactor::solve(const Eigen::MatrixXd& right) const {
   for (std::size_t node = 0; node < order_.size(); ++node) {
     x.middleRows<3>(3 * order_[node]) = right.middleRows<3>(static_cast<Eigen::Index>(3 * node));
   }
-  const auto gather = [&](const Front& front, Eigen::MatrixXd& local) {
-    local.resize(static_cast<Eigen::Index>(3 * front.nodes.size()), x.cols());
-    for (std::size_t k = 0; k < front.nodes.size(); ++k) {
-      local.middleRows<3>(static_cast<Eigen::Index>(3 * k)) = x.middleRows<3>(3 * front.nodes[k]);
+  Eigen::VectorXd local(static_cast<Eigen::Index>(work_.size()));
+  const auto sweep = [&](const Front& front, auto&& solve_front) {
+    for (Eigen::Index column = 0; column < x.cols(); ++column) {
+      for (std::size_t k = 0; k < front.nodes.size(); ++k) {
+        local.segment<3>(static_cast<Eigen::Index>(3 * k)) = x.col(column).segment<3>(3 * front.nodes[k]);
+      }
+      solve_front(local.data());
+      for (std::size_t k = 0; k < front.nodes.size(); ++k) {
+        x.col(column).segment<3>(3 * front.nodes[k]) = local.segment<3>(static_cast<Eigen::Index>(3 * k));
+      }
     }
   };
-  Eigen::MatrixXd local;
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
-    const Eigen::Index own = 3 * fronts_[f].own, below = dense_[f].rows() - own;
-    gather(fronts_[f], local);
-    auto top = local.topRows(own);
-    dense_[f].topLeftCorner(own, own).triangularView<Eigen::UnitLower>().solveInPlace(top);
-    local.bottomRows(below).noalias() -= dense_[f].bottomLeftCorner(below, own) * top;
-    for (std::size_t k = 0; k < fronts_[f].nodes.size(); ++k) {
-      x.middleRows<3>(3 * fronts_[f].nodes[k]) = local.middleRows<3>(static_cast<Eigen::Index>(3 * k));
-    }
+    sweep(fronts_[f], [this, f](double* values) { solve_forward(dense(f), values); });
   }
   for (std::size_t f = fronts_.size(); f-- > 0;) {
-    const Eigen::Index own = 3 * fronts_[f].own, below = dense_[f].rows() - own;
-    gather(fronts_[f], local);
-    auto top = local.topRows(own);
-    top.array().colwise() /= dense_[f].diagonal().head(own).array();
-    top.noalias() -= dense_[f].bottomLeftCorner(below, own).transpose() * local.bottomRows(below);
-    dense_[f].topLeftCorner(own, own).transpose().triangularView<Eigen::UnitUpper>().solveInPlace(top);
-    x.middleRows(3 * fronts_[f].nodes[0], own) = top;
+    sweep(fronts_[f], [this, f](double* values) { solve_backward(dense(f), values); });
   }
   Eigen::MatrixXd result(right.rows(), right.cols());
   for (std::size_t node = 0; node < order_.size(); ++node) {

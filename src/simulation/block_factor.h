@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "simulation/block_matrix.h"
+#include "simulation/dense_front.h"
 
 namespace myotact::simulation {
 
@@ -43,13 +44,14 @@ class BlockFactor {
 
   void make_fronts(const std::vector<std::vector<int>>& neighbours);
   void place_entries(const BlockMatrix& pattern);
-  bool factor_front(std::size_t front);
   void assemble_front(std::size_t front, const double* values);
+  DenseFront dense(std::size_t front) const;
 
   std::vector<int> order_;                  // elimination position of each node
   std::vector<Front> fronts_;
   std::vector<std::vector<Entry>> entries_;  // one list a front
-  std::vector<Eigen::MatrixXd> dense_;      // lower triangles; after factor(): L with D on the diagonal, and the remainder
+  std::vector<std::vector<double>> values_;  // one dense matrix a front, see dense_front.h
+  std::vector<double> work_;
   bool positive_ = false;
 };
 

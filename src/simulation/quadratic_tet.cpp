@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 
 #include "geometry/tet_mesh.h"
+#include "simulation/vector_clones.h"
 
 namespace myotact::simulation {
 namespace {
@@ -17,12 +18,12 @@ constexpr int kRankRows = 3 * kTetPoints + 1;
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Pressure-like factor of the cofactor at a point: L (mean J - rest) + c (J - mean J).
-double volume_stress(const TissueMaterial& m, const TetPoints& points, std::size_t p) {
+MYOTACT_INTO_CLONES double volume_stress(const TissueMaterial& m, const TetPoints& points, std::size_t p) {
   return m.volume_term_Pa() * (points.mean_J - m.rest_ratio()) + m.fluctuation_Pa * (points.J[p] - points.mean_J);
 }
 
 /// out[i * 10 + a] = scale * sum_A matrix(i, A) dN_a/dX_A.
-void push_gradients(const std::array<double, 9>& matrix, const TetVector& gradients, double scale, double* out) {
+MYOTACT_INTO_CLONES void push_gradients(const std::array<double, 9>& matrix, const TetVector& gradients, double scale, double* out) {
   for (int i = 0; i < 3; ++i) {
     const double m0 = scale * matrix[at(3 * i)], m1 = scale * matrix[at(3 * i + 1)], m2 = scale * matrix[at(3 * i + 2)];
     for (int a = 0; a < kTetNodes; ++a) {
@@ -33,7 +34,7 @@ void push_gradients(const std::array<double, 9>& matrix, const TetVector& gradie
 }
 
 /// sum[c] += factor * row[c] for one block of 10 columns; kept in registers by the compiler.
-inline void accumulate(double factor, const double* row, std::array<double, kTetNodes>& sum) {
+MYOTACT_INTO_CLONES void accumulate(double factor, const double* row, std::array<double, kTetNodes>& sum) {
   for (int c = 0; c < kTetNodes; ++c) sum[at(c)] += factor * row[c];
 }
 
@@ -43,7 +44,7 @@ struct RankRows {
 };
 
 /// Every term of the tangent that is a scaled outer product of a vector with itself.
-RankRows rank_rows(const ElementInputs& in, bool definite) {
+MYOTACT_INTO_CLONES RankRows rank_rows(const ElementInputs& in, bool definite) {
   RankRows rows{};
   const double volume = in.rest.point_volume_m3;
   const double c = in.material.fluctuation_Pa;
@@ -72,7 +73,7 @@ RankRows rank_rows(const ElementInputs& in, bool definite) {
   return rows;
 }
 
-void fill_outer_products(const RankRows& rows, TetMatrix& stiffness) {
+MYOTACT_INTO_CLONES void fill_outer_products(const RankRows& rows, TetMatrix& stiffness) {
   for (int r = 0; r < kTetDofs; ++r) {
     std::array<double, kRankRows> factor;
     for (std::size_t k = 0; k < kRankRows; ++k) factor[k] = rows.factor[k] * rows.row[k][at(r)];
@@ -90,7 +91,7 @@ struct PointScales {
   double curvature = 0.0;  // of the second derivative of J
 };
 
-PointScales point_scales(const ElementInputs& in, int p, bool definite) {
+MYOTACT_INTO_CLONES PointScales point_scales(const ElementInputs& in, int p, bool definite) {
   const double volume = in.rest.point_volume_m3;
   const double f2 = in.points.F_squared[at(p)];
   const double pressure = volume_stress(in.material, in.points, at(p));
@@ -106,7 +107,7 @@ PointScales point_scales(const ElementInputs& in, int p, bool definite) {
 
 /// Adds, for one node a, the terms that are a multiple of the unit matrix (same in every component block) and the
 /// skew terms of the second derivative of J: block (i, j) gets eps_ijk v_k, v = F (grad a x grad b).
-void add_node_terms(const ElementInputs& in, const std::array<PointScales, kTetPoints>& scales, int a,
+MYOTACT_INTO_CLONES void add_node_terms(const ElementInputs& in, const std::array<PointScales, kTetPoints>& scales, int a,
                     TetMatrix& stiffness) {
   std::array<double, kTetNodes> unit{};
   std::array<std::array<double, kTetNodes>, 3> skew{};
@@ -163,6 +164,7 @@ TetRest make_tet_rest(const std::array<Vec3, 4>& corners_m) {
   return rest;
 }
 
+MYOTACT_VECTOR_CLONES
 void deform(const TetRest& rest, const Vec3& fibre, const TetVector& position_m, TetPoints& points) {
   points.mean_J = 0.0;
   for (int p = 0; p < kTetPoints; ++p) {
@@ -189,6 +191,7 @@ void deform(const TetRest& rest, const Vec3& fibre, const TetVector& position_m,
   }
 }
 
+MYOTACT_VECTOR_CLONES
 TetVector elastic_forces(const ElementInputs& in) {
   TetVector forces{};
   for (int p = 0; p < kTetPoints; ++p) {
@@ -209,6 +212,7 @@ TetVector elastic_forces(const ElementInputs& in) {
   return forces;
 }
 
+MYOTACT_VECTOR_CLONES
 void elastic_stiffness(const ElementInputs& inputs, bool definite, TetMatrix& stiffness_N_m) {
   fill_outer_products(rank_rows(inputs, definite), stiffness_N_m);
   std::array<PointScales, kTetPoints> scales;

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+
+namespace myotact::simulation {
+
+/// A dense symmetric matrix of which the lower triangle counts, column by column. Each column is followed by at least
+/// kFrontPadding unused places, so that loops may run over its end in whole vectors.
+struct DenseFront {
+  double* values = nullptr;
+  int stride = 0;  // places from one column to the next, >= size + kFrontPadding
+  int size = 0;    // a multiple of 3
+  int own = 0;     // leading columns to eliminate, a multiple of 3
+
+  double* column(int c) const { return values + static_cast<std::ptrdiff_t>(c) * stride; }
+};
+
+inline constexpr int kFrontPadding = 8;
+/// Columns that are eliminated together before the rest is updated: their part of a front of 150 rows stays in the
+/// first-level cache.
+inline constexpr int kFrontPanel = 12;
+
+enum class Pivots { Positive, Mixed, Unusable };
+
+/// Eliminates the own columns without pivoting: they become L (unit diagonal, D stored there), the rest the remainder
+/// (Schur complement). `work` holds kFrontPanel columns of `stride`. Unusable when a pivot is zero or not finite.
+Pivots eliminate_front(const DenseFront& front, double* work);
+
+/// x[own] = L^-1 x[own] and x[below] -= L[below] x[own], for one right side gathered in the front's order.
+void solve_forward(const DenseFront& front, double* x);
+/// x[own] = L^-T (D^-1 x[own] - L[below]^T x[below]). Between the two calls D^-1 has not been applied.
+void solve_backward(const DenseFront& front, double* x);
+
+}  // namespace myotact::simulation
