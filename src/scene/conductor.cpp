@@ -39,25 +39,41 @@ Conductor::Conductor(const Scene& scene, simulation::Simulation& simulation)
       simulation_(&simulation),
       hand_(scene.specimen, start_of_hand(scene.specimen)),
       gravity_m_s2_(scene.settings.gravity_m_s2) {
-  const std::vector<double> angles = start_angles(scene);
-  for (const double activation : scene.activations) activations_.push_back({0.0, 0.0, activation, activation});
   if (scene.co_contraction) {
-    const CoContraction& set = *scene.co_contraction;
-    torques_ = measure_torques(simulation, scene.specimen, set.joint, angles);
+    torques_ = measure_torques(simulation, scene.specimen, scene.co_contraction->joint, start_angles(scene));
+  }
+  settle();
+}
+
+void Conductor::restart() {
+  hand_ = ScriptedHand(scene_->specimen, start_of_hand(scene_->specimen));
+  next_action_ = 0;
+  script_start_s_ = simulation_->time_s();
+  flexor_level_.reset();
+  extensor_level_.reset();
+  shoves_.clear();
+  settle();
+}
+
+void Conductor::settle() {
+  activations_.clear();
+  for (const double activation : scene_->activations) activations_.push_back({0.0, 0.0, activation, activation});
+  std::vector<double> excitations = scene_->activations;
+  if (scene_->co_contraction) {
+    const CoContraction& set = *scene_->co_contraction;
     common_ = {0.0, 0.0, set.common, set.common};
     difference_ = {0.0, 0.0, set.difference, set.difference};
     co_contracting_ = hold_posture_ = set.hold_posture;
+    trim_.restart(scene_->joints[static_cast<std::size_t>(set.joint)].angle_rad);
+    if (co_contracting_) drive_co_contraction(0.0, excitations);
   }
-  std::vector<double> excitations = scene.activations;
-  if (co_contracting_) drive_co_contraction(0.0, excitations);
-  if (!simulation.settle(angles, excitations)) {
-    throw Error(ExitStatus::CheckFailed, scene.name + ": the tissue finds no equilibrium in the starting posture; set "
-                                                      "joints nearer to 0 and activations lower");
+  if (!simulation_->settle(start_angles(*scene_), excitations)) {
+    throw Error(ExitStatus::CheckFailed, scene_->name + ": the tissue finds no equilibrium in the starting posture; set "
+                                                        "joints nearer to 0 and activations lower");
   }
-  for (std::size_t j = 0; j < scene.joints.size(); ++j) {
-    simulation.set_joint_locked(static_cast<int>(j), scene.joints[j].locked);
+  for (std::size_t j = 0; j < scene_->joints.size(); ++j) {
+    simulation_->set_joint_locked(static_cast<int>(j), scene_->joints[j].locked);
   }
-  if (scene.co_contraction) trim_.restart(simulation.joint(scene.co_contraction->joint).angle_rad);
 }
 
 void Conductor::begin(const ScriptAction& action) {
@@ -90,15 +106,16 @@ void Conductor::drive_co_contraction(double time_s, std::vector<double>& excitat
   } else {
     set.common = common_.at(time_s);
     set.difference = difference_.at(time_s);
-    const double drift_torque_Nm =
+    const double wanted_Nm =
         hold_posture_ ? trim_.update(simulation_->joint(set.joint).angle_rad, scene_->settings.dt_s) : 0.0;
-    levels = balance(torques_, set, excitations, drift_torque_Nm);
+    levels = balance(torques_, set, excitations, wanted_Nm);
   }
   for (const int m : set.flexors) excitations[static_cast<std::size_t>(m)] = levels.flexors;
   for (const int m : set.extensors) excitations[static_cast<std::size_t>(m)] = levels.extensors;
 }
 
-void Conductor::prepare_step(double time_s, StepRecord& input) {
+void Conductor::prepare_step(double simulated_s, StepRecord& input) {
+  const double time_s = simulated_s - script_start_s_;
   const double half_step_s = 0.5 * scene_->settings.dt_s;  // an action due within this step's first half starts now
   while (next_action_ < scene_->script.size() && scene_->script[next_action_].start_s <= time_s + half_step_s) {
     begin(scene_->script[next_action_++]);
@@ -119,7 +136,7 @@ std::optional<TakePicture> Conductor::take_picture() { return std::exchange(pict
 
 void Conductor::ask_levels(double flexors, double extensors) {
   if (!scene_->co_contraction) return;
-  const double now_s = simulation_->time_s();
+  const double now_s = simulation_->time_s() - script_start_s_;
   const auto glide = [&](const std::optional<Ramp>& level, double to) {
     return Ramp{now_s, now_s + kSliderGlide_s, level ? level->at(now_s) : to, to};
   };
@@ -130,7 +147,7 @@ void Conductor::ask_levels(double flexors, double extensors) {
 
 void Conductor::ask_co_contraction(double common, double difference) {
   if (!scene_->co_contraction) return;
-  const double now_s = simulation_->time_s();
+  const double now_s = simulation_->time_s() - script_start_s_;
   flexor_level_.reset();
   extensor_level_.reset();
   common_ = {now_s, now_s + kSliderGlide_s, common_.at(now_s), common};

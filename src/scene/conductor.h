@@ -19,10 +19,14 @@ class Conductor {
   /// Throws Error CheckFailed when there is no equilibrium.
   Conductor(const Scene& scene, simulation::Simulation& simulation);
 
-  /// Fills excitations, torques and gravity of the step that starts at `time_s`. Starts the script's due actions.
-  void prepare_step(double time_s, StepRecord& input);
+  /// Back to the starting posture and the beginning of the script; the torque table is kept. The clock runs on: times
+  /// of the script count from here.
+  void restart();
 
-  HandTarget hand(double time_s) const { return hand_.target(time_s); }
+  /// Fills excitations, torques and gravity of the step that starts at `simulated_s`. Starts the script's due actions.
+  void prepare_step(double simulated_s, StepRecord& input);
+
+  HandTarget hand(double time_s) const { return hand_.target(time_s - script_start_s_); }
 
   /// The picture that the script asked for since the last call, if any.
   std::optional<TakePicture> take_picture();
@@ -42,6 +46,7 @@ class Conductor {
     double at(double time_s) const;
   };
 
+  void settle();
   void begin(const ScriptAction& action);
   void drive_co_contraction(double time_s, std::vector<double>& excitations);
 
@@ -50,6 +55,7 @@ class Conductor {
   ScriptedHand hand_;
   TorqueTable torques_;
   PostureTrim trim_;
+  double script_start_s_ = 0.0;             // simulated time at which the script began
   std::size_t next_action_ = 0;
   std::vector<Ramp> activations_;           // one a muscle
   Ramp common_, difference_;

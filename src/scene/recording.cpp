@@ -6,10 +6,12 @@
 #include <string_view>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <zlib.h>
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/json_reader.h"
 
 namespace myotact::scene {
 
@@ -110,6 +112,25 @@ bool read_ticks(std::string_view payload, Recording& recording) {
 }
 
 }  // namespace
+
+std::string recording_header(const Scene& scene, std::uint64_t seed) {
+  const nlohmann::json header = {{"schema", 1},
+                                 {"seed", seed},
+                                 {"specimen", std::filesystem::absolute(scene.specimen_folder).string()},
+                                 {"scene", scene.source_text}};
+  return header.dump();
+}
+
+Scene scene_of_recording(const nlohmann::json& header, const std::filesystem::path& file, const Overrides& overrides) {
+  JsonObject fields(JsonValue(header, file.string()));
+  fields.at("schema").integer_between(1, 1);
+  fields.at("seed").number();
+  Overrides all = {{"specimen", fields.at("specimen").string()}};
+  for (const auto& [key, value] : overrides) all[key] = value;
+  const std::string text = fields.at("scene").string();
+  fields.finish();
+  return parse_scene(text, file, all);
+}
 
 RecordingWriter::RecordingWriter(const std::filesystem::path& path, const std::string& header_json)
     : path_(path), file_(path, std::ios::binary | std::ios::trunc) {

@@ -6,9 +6,12 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "core/vector.h"
 #include "messages/device.h"
 #include "messages/tool_state.h"
+#include "scene/scene_file.h"
 
 namespace myotact::scene {
 
@@ -51,6 +54,12 @@ class RecordingWriter {
   std::filesystem::path path_;
   std::ofstream file_;
 };
+
+/// What a recording must hold to be run again: version, seed, the scene's text and where its specimen is.
+std::string recording_header(const Scene& scene, std::uint64_t seed);
+
+/// The scene that a recording's header describes. Throws Error BadData.
+Scene scene_of_recording(const nlohmann::json& header, const std::filesystem::path& file, const Overrides& overrides);
 
 /// Throws Error NoInput, or BadData when the file is no recording or its first chunk is damaged.
 Recording read_recording(const std::filesystem::path& path);

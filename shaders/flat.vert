@@ -1,0 +1,13 @@
+#version 330 core
+// Unlit lines: the ground grid.
+layout(location = 0) in vec3 position;
+layout(location = 2) in vec4 colour;
+
+uniform mat4 clip_from_world;
+
+out vec4 line_colour;
+
+void main() {
+  line_colour = colour;
+  gl_Position = clip_from_world * vec4(position, 1.0);
+}

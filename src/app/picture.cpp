@@ -1,0 +1,37 @@
+#include "app/picture.h"
+
+#include <optional>
+
+#include <spdlog/spdlog.h>
+
+#include "core/error.h"
+#include "view/offscreen.h"
+#include "view/scene_renderer.h"
+
+namespace myotact::app {
+
+namespace {
+
+constexpr int kWidth = 1280, kHeight = 960;
+
+}  // namespace
+
+void write_picture(const scene::Scene& scene, const simulation::Simulation& simulation, const messages::ToolState& tool,
+                   const std::string& view, const std::filesystem::path& path) {
+  messages::SceneFrame frame;
+  simulation.write_frame(frame);
+  frame.tools.assign(1, {tool.tool_position_world_m, tool.proxy_position_world_m, tool.force_world_N,
+                         scene.tools.front().radius_m, tool.contact.surface >= 0, tool.grabbed_line});
+  const view::Bounds bounds = view::bounds_of(scene.specimen);
+  const auto camera =
+      view::standard_view(view, scene.specimen.side != "right", bounds.lowest_m, bounds.highest_m);
+  try {
+    view::OffscreenRenderer renderer(scene.specimen, kWidth, kHeight);
+    view::write_png(path, renderer.render(frame, camera.value_or(view::Camera{})));
+  } catch (const Error& failure) {
+    if (failure.status() != ExitStatus::Unavailable) throw;
+    spdlog::warn("{}", failure.what());
+  }
+}
+
+}  // namespace myotact::app

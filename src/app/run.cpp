@@ -1,0 +1,182 @@
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
+
+#include "app/interruption.h"
+#include "app/options.h"
+#include "app/picture.h"
+#include "app/stiffness_chart.h"
+#include "app/timing_report.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "device/simulated_device.h"
+#include "measure/stiffness_sweep.h"
+#include "scene/free_session.h"
+#include "scene/lockstep_session.h"
+#include "scene/recording.h"
+#include "scene/samples.h"
+
+namespace myotact::app {
+
+namespace {
+
+constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+
+/// What is written at the end of a run, whichever way it ran.
+struct RunSummary {
+  double simulated_s = 0.0, wall_s = 0.0;
+  std::uint64_t steps = 0;
+  double largest_force_N = 0.0, largest_tension_N = 0.0, contact_s = 0.0;
+  double largest_drift_deg = 0.0;  // of the co-contraction joint from its starting angle
+  std::uint64_t faults = 0;
+};
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+std::unique_ptr<scene::RecordingWriter> open_recorder(const Options& options, const scene::Scene& scene) {
+  if (!options.record) return nullptr;
+  return std::make_unique<scene::RecordingWriter>(*options.record, scene::recording_header(scene, options.seed));
+}
+
+/// Joint that the summary watches: the co-contraction's, or none.
+std::optional<double> watched_angle(const scene::Scene& scene, const simulation::Simulation& simulation) {
+  if (!scene.co_contraction) return std::nullopt;
+  return simulation.joint(scene.co_contraction->joint).angle_rad;
+}
+
+void watch(const scene::Scene& scene, const simulation::Simulation& simulation, const messages::ToolState& tool,
+           RunSummary& summary) {
+  summary.largest_force_N = std::max(summary.largest_force_N, to_vec3(tool.force_world_N).norm());
+  if (tool.contact.surface >= 0) summary.contact_s += scene.settings.dt_s;
+  if (tool.grabbed_line >= 0) {
+    summary.largest_tension_N = std::max(summary.largest_tension_N, simulation.muscle_force_N(tool.grabbed_line));
+  }
+  if (const auto angle = watched_angle(scene, simulation)) {
+    const double start = scene.joints[static_cast<std::size_t>(scene.co_contraction->joint)].angle_rad;
+    summary.largest_drift_deg = std::max(summary.largest_drift_deg, std::abs(*angle - start) * kDegrees);
+  }
+}
+
+RunSummary run_lockstep(const Options& options, const scene::Scene& scene, simulation::Simulation& simulation) {
+  const auto recorder = open_recorder(options, scene);
+  scene::SampleTable samples(scene.specimen, options.every);
+  scene::LockstepSession session(scene, simulation, samples, recorder.get());
+  const double end_s = options.seconds.value_or(session.conductor().script_end_s());
+  const auto steps = static_cast<std::uint64_t>(std::llround(end_s / scene.settings.dt_s));
+  RunSummary summary;
+  Stopwatch watch_time;
+  bool pictured = false;
+  for (; summary.steps < steps && interruption() == 0; ++summary.steps) {
+    session.step();
+    watch(scene, simulation, session.tool(), summary);
+    if (const auto wanted = session.conductor().take_picture()) {
+      write_picture(scene, simulation, session.tool(), wanted->view, options.out / "scene.png");
+      pictured = true;
+    }
+  }
+  summary.wall_s = watch_time.seconds();
+  summary.simulated_s = simulation.time_s();
+  summary.faults = session.faults();
+  if (!pictured) write_picture(scene, simulation, session.tool(), "lateral", options.out / "scene.png");
+  if (recorder) recorder->close();
+  write_file(options.out / "samples.csv", samples.csv());
+  return summary;
+}
+
+nlohmann::json run_free(const Options& options, const scene::Scene& scene, simulation::Simulation& simulation,
+                        RunSummary& summary) {
+  const auto recorder = open_recorder(options, scene);
+  device::SimulatedDevice device(scene.tools.front().device, Vec3(0.0, 0.0, 0.0));
+  scene::FreeSession session(scene, simulation, device, &device, recorder.get());
+  const double end_s = options.seconds.value_or(session.script_end_s());
+  session.start();
+  messages::SceneFrame frame;
+  while (session.running() && interruption() == 0) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    session.fetch_frame(frame);
+    if (frame.time_s >= end_s) break;
+  }
+  const scene::FreeTiming timing = session.stop();
+  if (recorder) recorder->close();
+  summary.simulated_s = timing.simulated_s;
+  summary.wall_s = timing.wall_s;
+  summary.steps = timing.steps;
+  messages::ToolState tool;
+  if (!frame.tools.empty()) {
+    tool.tool_position_world_m = frame.tools[0].tool_world_m;
+    tool.proxy_position_world_m = frame.tools[0].proxy_world_m;
+    tool.force_world_N = frame.tools[0].force_world_N;
+  }
+  write_picture(scene, simulation, tool, "lateral", options.out / "scene.png");
+  return timing_json(timing);
+}
+
+nlohmann::json summary_json(const scene::Scene& scene, const RunSummary& summary) {
+  return {{"scene", scene.name},
+          {"specimen", scene.specimen.name},
+          {"muscles", scene.specimen.muscles.size()},
+          {"simulated_s", summary.simulated_s},
+          {"wall_s", summary.wall_s},
+          {"steps", summary.steps},
+          {"steps_per_s", summary.wall_s > 0.0 ? static_cast<double>(summary.steps) / summary.wall_s : 0.0},
+          {"largest_force_N", summary.largest_force_N},
+          {"largest_line_tension_N", summary.largest_tension_N},
+          {"contact_s", summary.contact_s},
+          {"largest_drift_deg", summary.largest_drift_deg},
+          {"fault_bits", summary.faults}};
+}
+
+/// Sweep and chart at the scene's own angle, on a fresh simulation: the run's end does not matter to it.
+nlohmann::json measure_stiffness(const Options& options, const scene::Scene& scene) {
+  simulation::Simulation simulation(scene.specimen, scene.settings);
+  const double q_rad = scene.joints[static_cast<std::size_t>(scene.co_contraction->joint)].angle_rad;
+  const auto rows = measure::sweep_stiffness(scene, simulation, q_rad, options.levels);
+  write_file(options.out / "stiffness.csv", measure::stiffness_csv(rows));
+  write_stiffness_chart(rows, scene.title, options.out / "stiffness.svg");
+  return nlohmann::json::parse(measure::stiffness_json(rows));
+}
+
+}  // namespace
+
+int run(const Options& options) {
+  const scene::Scene scene = scene_of(options);
+  make_writable_folder(options.out);
+  watch_for_interruption();
+  RunSummary summary;
+  nlohmann::json timing;
+  {
+    simulation::Simulation simulation(scene.specimen, scene.settings);
+    if (options.realtime) {
+      timing = run_free(options, scene, simulation, summary);
+    } else {
+      summary = run_lockstep(options, scene, simulation);
+    }
+  }
+  nlohmann::json report = summary_json(scene, summary);
+  if (options.realtime) report["realtime"] = timing;
+  if (scene.co_contraction && interruption() == 0) report["stiffness"] = measure_stiffness(options, scene);
+  write_file(options.out / "summary.json", report.dump(2) + "\n");
+  if (options.json) {
+    std::cout << report.dump(2) << std::endl;
+  } else {
+    print_summary(report, std::cout);
+  }
+  return interruption();
+}
+
+}  // namespace myotact::app

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <iosfwd>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "scene/free_session.h"
+
+namespace myotact::app {
+
+/// Rates, percentiles and what the system did not permit.
+nlohmann::json timing_json(const scene::FreeTiming& timing);
+
+/// The summary of a run for a reader: one figure a line.
+void print_summary(const nlohmann::json& report, std::ostream& out);
+
+}  // namespace myotact::app

@@ -1,0 +1,172 @@
+#include "scene/free_session.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "realtime/periodic_loop.h"
+#include "scene/lockstep_session.h"
+
+namespace myotact::scene {
+
+namespace {
+
+std::uint64_t nanoseconds(double seconds) { return static_cast<std::uint64_t>(std::llround(seconds * 1e9)); }
+
+}  // namespace
+
+FreeSession::FreeSession(const Scene& scene, simulation::Simulation& simulation, device::Device& device,
+                         device::SimulatedDevice* scripted_device, RecordingWriter* recorder)
+    : scene_(&scene),
+      simulation_(&simulation),
+      scripted_device_(scripted_device),
+      recorder_(recorder),
+      conductor_(scene, simulation),
+      loop_(device, haptic_settings(scene.tools.front())),
+      haptic_thread_(loop_) {
+  obeyed_.gravity = scene.settings.gravity_m_s2.norm() > 0.0;
+  obeyed_.hold_posture = scene.co_contraction && scene.co_contraction->hold_posture;
+}
+
+FreeSession::~FreeSession() {
+  running_ = false;
+  if (thread_.joinable()) thread_.join();
+  haptic_thread_.stop();
+}
+
+void FreeSession::start() {
+  started_ns_ = realtime::steady_now_ns();
+  loop_.prepare(started_ns_);
+  publish_model();
+  publish_frame();
+  running_ = true;
+  haptic_thread_.start();
+  thread_ = std::thread([this] {
+    try {
+      simulate();
+    } catch (...) {
+      failure_ = std::current_exception();
+    }
+    running_ = false;
+  });
+}
+
+FreeTiming FreeSession::stop() {
+  running_ = false;
+  if (thread_.joinable()) thread_.join();
+  haptic_thread_.stop();
+  if (failure_) std::rethrow_exception(failure_);
+  FreeTiming timing;
+  timing.wall_s = static_cast<double>(realtime::steady_now_ns() - started_ns_) * 1e-9;
+  timing.simulated_s = simulation_->time_s();
+  timing.steps = step_count_;
+  timing.ticks = haptic_thread_.tick_count();
+  timing.missed_ticks = haptic_thread_.missed_count();
+  timing.tick = haptic_thread_.ticks().summary();
+  timing.tick_period = haptic_thread_.periods().summary();
+  timing.step = steps_.summary();
+  timing.refused = haptic_thread_.refused();
+  return timing;
+}
+
+void FreeSession::request(const Requests& requests) { requests_.publish(requests); }
+
+bool FreeSession::fetch_frame(messages::SceneFrame& frame) {
+  const std::scoped_lock lock(frame_mutex_);
+  if (frame_.sequence == drawn_sequence_) return false;
+  frame = frame_;
+  drawn_sequence_ = frame_.sequence;
+  return true;
+}
+
+void FreeSession::obey(const Requests& requests) {
+  if (requests.levels_changed) conductor_.ask_levels(requests.flexors, requests.extensors);
+  if (requests.balance_changed) conductor_.ask_co_contraction(requests.common, requests.difference);
+  if (requests.hold_posture != obeyed_.hold_posture) conductor_.ask_hold_posture(requests.hold_posture);
+  if (requests.gravity != obeyed_.gravity) {
+    constexpr double kGravity_m_s2 = 9.81;
+    conductor_.ask_gravity(requests.gravity ? Vec3(0.0, 0.0, -kGravity_m_s2) : Vec3::Zero());
+  }
+  if (requests.resets != obeyed_.resets) conductor_.restart();
+  loop_.stop_forces(requests.stop_forces);
+}
+
+void FreeSession::simulate() {
+  realtime::PeriodicLoop loop(nanoseconds(scene_->settings.dt_s));
+  loop.start();
+  while (running_.load(std::memory_order_relaxed)) {
+    loop.wait();
+    bool single_step = false;
+    if (requests_.update()) {
+      const Requests& requests = requests_.front();
+      obey(requests);
+      single_step = requests.steps != obeyed_.steps;
+      obeyed_ = requests;
+    }
+    if (!obeyed_.paused || single_step) {
+      const std::uint64_t begin_ns = realtime::steady_now_ns();
+      step();
+      steps_.add(realtime::steady_now_ns() - begin_ns);
+    }
+    publish_model();
+    publish_frame();
+  }
+}
+
+void FreeSession::step() {
+  const double time_s = simulation_->time_s();
+  conductor_.prepare_step(time_s, input_);
+  if (scripted_device_ != nullptr) {
+    const HandTarget hand = conductor_.hand(time_s);
+    const Vec3 ahead = conductor_.hand(time_s + scene_->settings.dt_s).position_world_m;
+    const Vec3 velocity_m_s = (ahead - hand.position_world_m) / scene_->settings.dt_s;
+    scripted_device_->set_hand_target({to_array(hand.position_world_m), to_array(velocity_m_s), hand.buttons});
+  }
+  loop_.tool_states().update();
+  input_.tool = loop_.tool_states().front();
+  apply(input_, *simulation_);
+  simulation_->step({&input_.tool, 1});
+  ++step_count_;
+  record(input_);
+}
+
+void FreeSession::record(const StepRecord& input) {
+  std::vector<TickRecord> ticks;
+  for (haptics::HapticTick tick; loop_.ticks().pop(tick);) {
+    if (recorder_ != nullptr) ticks.push_back({tick.device, tick.model_sequence});
+  }
+  if (recorder_ == nullptr) return;
+  StepRecord record = input;
+  record.state_hash = simulation_->state_hash();
+  recorder_->add(ticks);
+  recorder_->add(record);
+}
+
+void FreeSession::publish_model() {
+  messages::LocalModel& model = loop_.models().back();
+  const messages::ToolState& tool = loop_.tool_states().front();
+  simulation_->write_local_model(tool, model);
+  // A paused surface stays touchable: the same positions in both frames, published again and again.
+  if (obeyed_.paused) model.previous_world_m = model.current_world_m;
+  model.sequence = ++model_sequence_;
+  model.published_at_ns = realtime::steady_now_ns();
+  model.dt_ns = nanoseconds(scene_->settings.dt_s);
+  model.tool_sequence = tool.sequence;
+  loop_.models().publish();
+}
+
+void FreeSession::publish_frame() {
+  const std::scoped_lock lock(frame_mutex_);
+  simulation_->write_frame(frame_);
+  const messages::ToolState& tool = loop_.tool_states().front();
+  frame_.tools.assign(1, {tool.tool_position_world_m, tool.proxy_position_world_m, tool.force_world_N,
+                          scene_->tools.front().radius_m, tool.contact.surface >= 0, tool.grabbed_line});
+  const double wall_s = std::max(static_cast<double>(realtime::steady_now_ns() - started_ns_) * 1e-9, 1e-3);
+  frame_.rates.simulation_hz = static_cast<double>(step_count_) / wall_s;
+  frame_.rates.haptic_hz = static_cast<double>(haptic_thread_.tick_count()) / wall_s;
+  frame_.rates.missed_ticks = haptic_thread_.missed_count();
+  frame_.rates.time_factor = static_cast<double>(step_count_) * scene_->settings.dt_s / wall_s;
+  ++frame_.sequence;
+}
+
+}  // namespace myotact::scene

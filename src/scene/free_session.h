@@ -1,0 +1,99 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <exception>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "device/device.h"
+#include "device/simulated_device.h"
+#include "haptics/haptic_loop.h"
+#include "haptics/haptic_thread.h"
+#include "messages/scene_frame.h"
+#include "realtime/latest_value.h"
+#include "realtime/period_histogram.h"
+#include "scene/conductor.h"
+#include "scene/recording.h"
+#include "scene/scene_file.h"
+#include "simulation/simulation.h"
+
+namespace myotact::scene {
+
+/// What a window asks of a running session; plain, newest wins.
+struct Requests {
+  double flexors = 0.0, extensors = 0.0;
+  double common = 0.0, difference = 0.0;
+  bool levels_changed = false;    // the first two were moved since the last request
+  bool balance_changed = false;   // the second two were
+  bool hold_posture = true;
+  bool gravity = false;
+  bool paused = false;
+  bool stop_forces = false;
+  std::uint32_t steps = 0;        // single steps asked for so far
+  std::uint32_t resets = 0;       // resets asked for so far
+};
+
+/// What a free run reports when it ends.
+struct FreeTiming {
+  double wall_s = 0.0;
+  double simulated_s = 0.0;
+  std::uint64_t steps = 0;
+  std::uint64_t ticks = 0, missed_ticks = 0;
+  realtime::DurationSummary tick, tick_period, step;
+  std::string refused;  // what the system did not permit
+};
+
+/// Runs a scene on the wall clock: the haptic thread at 1 kHz, the simulation thread at its own step, the caller draws.
+class FreeSession {
+ public:
+  /// `device` is the scene's tool; `scripted_device` the same one when the script moves its hand, else null. All
+  /// references must outlive the session. Throws Error.
+  FreeSession(const Scene& scene, simulation::Simulation& simulation, device::Device& device,
+              device::SimulatedDevice* scripted_device, RecordingWriter* recorder);
+  ~FreeSession();
+
+  void start();
+  /// Forces to zero, threads joined. Rethrows what ended the simulation thread, if anything did.
+  FreeTiming stop();
+
+  bool running() const { return running_.load(std::memory_order_relaxed); }
+  double script_end_s() const { return conductor_.script_end_s(); }
+
+  // ---- the drawing thread
+  void request(const Requests& requests);
+  /// Copies the newest frame; false when there is none newer.
+  bool fetch_frame(messages::SceneFrame& frame);
+
+ private:
+  void simulate();
+  void obey(const Requests& requests);
+  void step();
+  void publish_model();
+  void publish_frame();
+  void record(const StepRecord& input);
+
+  const Scene* scene_;
+  simulation::Simulation* simulation_;
+  device::SimulatedDevice* scripted_device_;
+  RecordingWriter* recorder_;
+  Conductor conductor_;
+  haptics::HapticLoop loop_;
+  haptics::HapticThread haptic_thread_;
+  std::thread thread_;
+  std::atomic<bool> running_{false};
+  std::exception_ptr failure_;
+  realtime::LatestValue<Requests> requests_;
+  Requests obeyed_;
+  std::mutex frame_mutex_;  // between simulation and drawing only; neither has a deadline
+  messages::SceneFrame frame_;
+  std::uint64_t drawn_sequence_ = 0;
+  std::uint64_t model_sequence_ = 0;
+  realtime::PeriodHistogram steps_;
+  std::uint64_t step_count_ = 0;
+  std::uint64_t started_ns_ = 0;
+  StepRecord input_;
+};
+
+}  // namespace myotact::scene

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <glm/glm.hpp>
+
+namespace myotact::view {
+
+/// Looks at a point of the world from a direction; never rolls: up on the screen is up in the world (z).
+struct Camera {
+  glm::vec3 target_world_m{0.0f};
+  float azimuth_rad = 0.0f;    // of the eye about z, 0 on +x (cranial), pi/2 on +y (left)
+  float elevation_rad = 0.0f;  // -kSteepest .. kSteepest
+  float distance_m = 1.0f;
+
+  static constexpr float kFieldOfView_rad = 0.55f;
+  static constexpr float kSteepest_rad = 1.55f;  // short of straight down, where up would be undefined
+
+  glm::vec3 eye_world_m() const;
+  glm::mat4 clip_from_world(float aspect) const;
+  /// Moves the eye about the target.
+  void orbit(float azimuth_rad, float elevation_rad);
+  /// Moves the target in the picture's plane; 1 is the picture's height.
+  void pan(float right, float up);
+  /// Moves the eye towards the target, factor < 1 comes nearer.
+  void zoom(float factor);
+  glm::vec3 right_world() const;
+  glm::vec3 up_world() const;
+  glm::vec3 forward_world() const;
+};
+
+/// Standard views of a limb: lateral, medial, cranial, caudal, dorsal, palmar; nothing for another name. `left_limb`:
+/// lateral is the limb's own left side. The whole box [lowest, highest] is in the picture.
+std::optional<Camera> standard_view(const std::string& name, bool left_limb, const glm::vec3& lowest_m,
+                                    const glm::vec3& highest_m);
+
+}  // namespace myotact::view

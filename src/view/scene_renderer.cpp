@@ -1,0 +1,176 @@
+#include "view/scene_renderer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <epoxy/gl.h>
+
+#include "view/colour_map.h"
+
+namespace myotact::view {
+
+namespace {
+
+constexpr glm::vec4 kBone{0.91f, 0.87f, 0.77f, 1.0f};
+constexpr glm::vec3 kBackground{0.955f, 0.96f, 0.965f};
+constexpr glm::vec4 kLine{0.80f, 0.18f, 0.12f, 1.0f};
+constexpr glm::vec4 kTool{0.10f, 0.10f, 0.12f, 0.55f};
+constexpr glm::vec4 kProxy{0.00f, 0.62f, 0.45f, 1.0f};   // Okabe-Ito green
+constexpr glm::vec4 kForce{0.84f, 0.37f, 0.00f, 1.0f};   // Okabe-Ito vermilion
+constexpr float kMuscleOpacity = 0.82f;                  // bones shine through
+constexpr float kLineRadius_m = 0.9e-3f;
+
+glm::vec3 to_glm(const Vec3& v) { return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())}; }
+
+glm::vec3 to_glm(const std::array<double, 3>& v) {
+  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+}
+
+glm::mat4 to_glm(const std::array<double, 12>& pose) {
+  glm::mat4 matrix(1.0f);
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      matrix[column][row] = static_cast<float>(pose[static_cast<std::size_t>(4 * row + column)]);
+    }
+  }
+  return matrix;
+}
+
+/// Area-weighted normals from the positions as they are now.
+void compute_normals(DrawMesh& mesh) {
+  for (DrawVertex& vertex : mesh.vertices) vertex.normal = glm::vec3(0.0f);
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    DrawVertex& a = mesh.vertices[mesh.indices[i]];
+    DrawVertex& b = mesh.vertices[mesh.indices[i + 1]];
+    DrawVertex& c = mesh.vertices[mesh.indices[i + 2]];
+    const glm::vec3 area = glm::cross(b.position - a.position, c.position - a.position);
+    a.normal += area;
+    b.normal += area;
+    c.normal += area;
+  }
+}
+
+void set_triangles(DrawMesh& mesh, const geometry::TriangleMesh& surface) {
+  mesh.indices.clear();
+  for (const auto& triangle : surface.triangles) {
+    for (const int vertex : triangle) mesh.indices.push_back(static_cast<std::uint32_t>(vertex));
+  }
+}
+
+DrawMesh bone_mesh(const anatomy::Bone& bone) {
+  DrawMesh mesh;
+  for (const Vec3& position : bone.surface.positions_m) mesh.vertices.push_back({to_glm(position), {}, kBone});
+  set_triangles(mesh, bone.surface);
+  compute_normals(mesh);
+  return mesh;
+}
+
+/// Squares of 50 mm on the ground, fading outwards.
+DrawMesh grid_mesh(const Bounds& bounds) {
+  constexpr float kSquare_m = 0.05f;
+  constexpr int kSquares = 6;
+  DrawMesh mesh;
+  const glm::vec3 centre(0.5f * (bounds.lowest_m.x + bounds.highest_m.x), 0.5f * (bounds.lowest_m.y + bounds.highest_m.y),
+                         bounds.lowest_m.z);
+  const glm::vec4 colour(0.72f, 0.74f, 0.77f, 1.0f);
+  for (int i = -kSquares; i <= kSquares; ++i) {
+    const float at = kSquare_m * static_cast<float>(i);
+    const float end = kSquare_m * kSquares;
+    for (const auto& [from, to] : {std::pair{glm::vec3(at, -end, 0), glm::vec3(at, end, 0)},
+                                   std::pair{glm::vec3(-end, at, 0), glm::vec3(end, at, 0)}}) {
+      const auto start = static_cast<std::uint32_t>(mesh.vertices.size());
+      mesh.vertices.push_back({centre + from, {}, colour});
+      mesh.vertices.push_back({centre + to, {}, colour});
+      mesh.indices.insert(mesh.indices.end(), {start, start + 1});
+    }
+  }
+  return mesh;
+}
+
+}  // namespace
+
+Bounds bounds_of(const anatomy::Specimen& specimen) {
+  Bounds bounds{glm::vec3(1e9f), glm::vec3(-1e9f)};
+  const auto include = [&](const geometry::TriangleMesh& surface) {
+    for (const Vec3& position : surface.positions_m) {
+      bounds.lowest_m = glm::min(bounds.lowest_m, to_glm(position));
+      bounds.highest_m = glm::max(bounds.highest_m, to_glm(position));
+    }
+  };
+  for (const auto& bone : specimen.bones) include(bone.surface);
+  for (const auto& muscle : specimen.muscles) include(muscle.skin);
+  return bounds;
+}
+
+SceneRenderer::SceneRenderer(const anatomy::Specimen& specimen)
+    : specimen_(&specimen), surface_("surface"), flat_("flat"), muscles_(specimen.muscles.size()) {
+  for (const auto& bone : specimen.bones) {
+    bones_.emplace_back();
+    bones_.back().upload(bone_mesh(bone));
+  }
+  grid_.upload(grid_mesh(bounds_of(specimen)));
+}
+
+void SceneRenderer::draw(const messages::SceneFrame& frame, const Camera& camera, int width, int height) {
+  glViewport(0, 0, width, height);
+  glEnable(GL_DEPTH_TEST);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glClearColor(kBackground.r, kBackground.g, kBackground.b, 1.0f);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  const glm::mat4 clip_from_world = camera.clip_from_world(static_cast<float>(width) / static_cast<float>(std::max(height, 1)));
+  flat_.use();
+  flat_.set("clip_from_world", clip_from_world);
+  grid_.draw(GL_LINES);
+  surface_.use();
+  surface_.set("clip_from_world", clip_from_world);
+  surface_.set("eye_world", camera.eye_world_m());
+  draw_bones(frame);
+  surface_.set("world_from_model", glm::mat4(1.0f));
+  draw_lines_and_tools(frame);
+  draw_muscles(frame);
+}
+
+void SceneRenderer::draw_bones(const messages::SceneFrame& frame) {
+  for (std::size_t b = 0; b < bones_.size(); ++b) {
+    const auto body = static_cast<std::size_t>(specimen_->bones[b].body);
+    surface_.set("world_from_model", body < frame.body_poses.size() ? to_glm(frame.body_poses[body]) : glm::mat4(1.0f));
+    bones_[b].draw(GL_TRIANGLES);
+  }
+}
+
+void SceneRenderer::draw_muscles(const messages::SceneFrame& frame) {
+  for (std::size_t m = 0; m < muscles_.size() && m < frame.skins_world_m.size(); ++m) {
+    const glm::vec4 colour(cividis(frame.activations[m]), kMuscleOpacity);
+    scratch_.vertices.clear();
+    for (const auto& p : frame.skins_world_m[m]) scratch_.vertices.push_back({{p[0], p[1], p[2]}, {}, colour});
+    set_triangles(scratch_, specimen_->muscles[m].skin);
+    compute_normals(scratch_);
+    muscles_[m].upload(scratch_);
+  }
+  // Each muscle hides its own back, but shows what lies behind it: bones, lines, deeper muscles drawn before.
+  glEnable(GL_CULL_FACE);
+  for (const Drawable& muscle : muscles_) muscle.draw(GL_TRIANGLES);
+  glDisable(GL_CULL_FACE);
+}
+
+void SceneRenderer::draw_lines_and_tools(const messages::SceneFrame& frame) {
+  scratch_.vertices.clear();
+  scratch_.indices.clear();
+  for (const auto& line : frame.lines_world_m) {
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+      add_tube(scratch_, to_glm(line[i]), to_glm(line[i + 1]), kLineRadius_m, kLine);
+    }
+  }
+  for (const messages::ToolFrame& tool : frame.tools) {
+    const glm::vec3 proxy = to_glm(tool.proxy_world_m);
+    const auto radius = static_cast<float>(tool.radius_m);
+    add_sphere(scratch_, proxy, radius, kProxy);
+    add_sphere(scratch_, to_glm(tool.tool_world_m), 0.6f * radius, kTool);
+    add_arrow(scratch_, proxy, proxy + kArrowLength_m_N * to_glm(tool.force_world_N), 0.4f * radius, kForce);
+  }
+  overlay_.upload(scratch_);
+  overlay_.draw(GL_TRIANGLES);
+}
+
+}  // namespace myotact::view

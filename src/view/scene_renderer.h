@@ -1,0 +1,46 @@
+#pragma once
+
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "anatomy/specimen.h"
+#include "messages/scene_frame.h"
+#include "view/camera.h"
+#include "view/drawable.h"
+#include "view/gl_program.h"
+
+namespace myotact::view {
+
+/// Lengths and colours of the picture that its legend must tell.
+inline constexpr float kArrowLength_m_N = 0.02f;  // the force arrow
+
+struct Bounds {
+  glm::vec3 lowest_m{0.0f}, highest_m{0.0f};
+};
+
+/// Box around the specimen at the file pose.
+Bounds bounds_of(const anatomy::Specimen& specimen);
+
+/// Draws bones, muscles coloured by activation, muscle lines, tool, proxy and force arrow into the bound framebuffer.
+/// Needs a current OpenGL 3.3 core context from first to last.
+class SceneRenderer {
+ public:
+  explicit SceneRenderer(const anatomy::Specimen& specimen);
+
+  void draw(const messages::SceneFrame& frame, const Camera& camera, int width, int height);
+
+ private:
+  void draw_bones(const messages::SceneFrame& frame);
+  void draw_muscles(const messages::SceneFrame& frame);
+  void draw_lines_and_tools(const messages::SceneFrame& frame);
+
+  const anatomy::Specimen* specimen_;
+  GlProgram surface_, flat_;
+  std::vector<Drawable> bones_;
+  std::vector<Drawable> muscles_;
+  Drawable overlay_, grid_;
+  DrawMesh scratch_;
+};
+
+}  // namespace myotact::view
