@@ -22,6 +22,18 @@ TEST(ReplayDevice, PlaysStatesInOrderThenHoldsTheLastAtRest) {
   EXPECT_EQ(held.sampled_at_ns, 300u);
 }
 
+TEST(ReplayDevice, OpeningRewindsAndShowsTheFirstStateOnceMore) {
+  std::vector<messages::DeviceState> states(2);
+  states[0].stylus_position_world_m = {1.0, 0.0, 0.0};
+  states[1].stylus_position_world_m = {2.0, 0.0, 0.0};
+  ReplayDevice device(states, {});
+  device.read(1);
+  device.open();
+  EXPECT_EQ(device.read(2).stylus_position_world_m[0], 1.0);
+  EXPECT_EQ(device.read(3).stylus_position_world_m[0], 1.0);
+  EXPECT_EQ(device.read(4).stylus_position_world_m[0], 2.0);
+}
+
 TEST(ReplayDevice, NothingRecordedIsAStylusAtTheOrigin) {
   ReplayDevice device({}, {});
   EXPECT_EQ(device.read(1).stylus_position_world_m[0], 0.0);

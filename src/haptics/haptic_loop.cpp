@@ -1,0 +1,155 @@
+#include "haptics/haptic_loop.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "haptics/faults.h"
+
+namespace myotact::haptics {
+
+namespace {
+
+constexpr std::size_t kTicksKept = 8192;  // 8 s of ticks: a recorder that writes files may be held up that long
+/// Ticks are 1 ms; what lies outside of these bounds is a clock that stood still or a stopped process.
+constexpr double kShortestTick_s = 1e-5;
+constexpr double kLongestTick_s = 0.02;
+
+bool is_finite(const std::array<double, 3>& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
+
+}  // namespace
+
+Vec3 coupling_force_N(const Proxy& proxy, const ProxyGoal& device, const ContactSettings& settings) noexcept {
+  const ProxyContact& contact = proxy.contact();
+  if (!contact.active) return Vec3::Zero();
+  const Vec3 spring_N = settings.stiffness_N_m * (proxy.position_m() - device.position_m);
+  const double approach_m_s = std::max(0.0, -contact.normal.dot(device.velocity_m_s - contact.velocity_m_s));
+  const double normal_N = spring_N.dot(contact.normal);
+  const Vec3 tangential_N = spring_N - normal_N * contact.normal;
+  return tangential_N + std::max(0.0, normal_N + settings.damping_Ns_m * approach_m_s) * contact.normal;
+}
+
+HapticLoop::HapticLoop(device::Device& device, const HapticSettings& settings)
+    : device_(device), settings_(settings), ticks_(kTicksKept), proxy_(settings.contact), line_(settings.line),
+      gate_(device.profile(), settings.gate) {}
+
+void HapticLoop::prepare(std::uint64_t now_ns) {
+  device_.open();
+  const messages::DeviceState state = device_.read(now_ns);
+  if (is_finite(state.stylus_position_world_m)) {
+    last_.tool.tool_position_world_m = state.stylus_position_world_m;
+    last_.tool.proxy_position_world_m = state.stylus_position_world_m;  // around which the first model is looked up
+  }
+  last_.tool.time_ns = now_ns;
+  tools_.publish(last_.tool);
+  last_ns_ = now_ns;
+  gate_.enable();
+}
+
+void HapticLoop::tick(std::uint64_t now_ns) noexcept {
+  if (ticked_) dt_s_ = std::clamp(1e-9 * static_cast<double>(now_ns - last_ns_), kShortestTick_s, kLongestTick_s);
+  ticked_ = true;
+  last_ns_ = now_ns;
+  faults_ = missed_ ? bit(Fault::MissedDeadline) : 0;
+  missed_ = false;
+
+  const messages::DeviceState state = device_.read(now_ns);
+  const bool is_new = take_model(now_ns);
+  Vec3 contact_N = Vec3::Zero();
+  Vec3 line_N = Vec3::Zero();
+  const bool device_is_sound = is_finite(state.stylus_position_world_m) && is_finite(state.stylus_velocity_world_m_s);
+  if (device_is_sound) {
+    const ProxyGoal goal{to_vec3(state.stylus_position_world_m), to_vec3(state.stylus_velocity_world_m_s)};
+    contact_N = contact_force_N(goal, now_ns, is_new);
+    const messages::LocalLine nothing_near;
+    line_N = line_.tick(model_ == nullptr ? nothing_near : model_->line,
+                        {goal.position_m, goal.velocity_m_s, (state.buttons & messages::kGrabButton) != 0}, dt_s_);
+  } else {
+    faults_ |= bit(Fault::NonFiniteDevice);
+  }
+  const Vec3 sent_N = gate_and_write(settings_.force_scale * (contact_N + line_N), to_vec3(state.stylus_position_world_m), now_ns);
+  faults_ |= proxy_faults();
+  tell(state, sent_N, contact_N);
+}
+
+/// True: a new model is in use. An unsound one is left alone, and with it the surface: the reader's slot now holds it.
+bool HapticLoop::take_model(std::uint64_t now_ns) noexcept {
+  if (!models_.update()) return false;
+  if (!is_sound(models_.front())) {
+    faults_ |= bit(Fault::BadModel);
+    model_ = nullptr;
+    return false;
+  }
+  model_ = &models_.front();
+  model_arrived_ns_ = now_ns;
+  return true;
+}
+
+Vec3 HapticLoop::contact_force_N(const ProxyGoal& goal, std::uint64_t now_ns, bool is_new) noexcept {
+  const bool nothing_known = model_ == nullptr || (model_->triangle_count == 0 && !(model_->coverage_radius_m > 0.0));
+  if (model_ != nullptr) surface_.begin_tick(*model_, now_ns, is_new);
+  if (nothing_known) {
+    proxy_.follow(goal.position_m);
+    return Vec3::Zero();
+  }
+  proxy_.tick(surface_, *model_, goal, dt_s_);
+  const Vec3 force_N = coupling_force_N(proxy_, goal, settings_.contact);
+  const double peak_N = device_.profile().peak_force_N / settings_.force_scale;  // the tissue feels no more than the hand
+  return force_N.norm() > peak_N ? Vec3(force_N * (peak_N / force_N.norm())) : force_N;
+}
+
+Vec3 HapticLoop::gate_and_write(const Vec3& wanted_N, const Vec3& position_m, std::uint64_t now_ns) noexcept {
+  GateInput input;
+  input.wanted_N = wanted_N;
+  input.device_position_m = position_m;
+  input.connected = device_.connected();
+  input.has_model = model_ != nullptr;
+  input.now_ns = now_ns;
+  input.model_arrived_ns = model_arrived_ns_;
+  input.step_ns = model_ == nullptr ? 0 : model_->dt_ns;
+  const Vec3 sent_N = gate_.admit(input);
+  faults_ |= gate_.faults();
+  device_.write({to_array(sent_N)});
+  return sent_N;
+}
+
+std::uint32_t HapticLoop::proxy_faults() noexcept {
+  const ProxyCounters& now = proxy_.counters();
+  std::uint32_t faults = 0;
+  if (now.rescues != counted_.rescues) faults |= bit(Fault::ProxyRescued);
+  if (now.over_budget != counted_.over_budget) faults |= bit(Fault::ProxyBudget);
+  counted_ = now;
+  return faults;
+}
+
+void HapticLoop::tell(const messages::DeviceState& state, const Vec3& sent_N, const Vec3& contact_N) noexcept {
+  const ProxyContact& contact = proxy_.contact();
+  messages::ToolState& tool = last_.tool;
+  ++tool.sequence;
+  tool.time_ns = last_ns_;
+  tool.model_sequence = model_ == nullptr ? 0 : model_->sequence;
+  if ((faults_ & bit(Fault::NonFiniteDevice)) == 0) tool.tool_position_world_m = state.stylus_position_world_m;
+  tool.proxy_position_world_m = to_array(proxy_.position_m());
+  tool.force_world_N = to_array(sent_N);
+  tool.contact = {};
+  if (contact.active && (faults_ & bit(Fault::NonFiniteDevice)) == 0) {
+    // The spring pulls the material point with the opposite of what the hand feels, as long as the tissue rests.
+    tool.contact = {contact.surface,
+                     contact.triangle,
+                     contact.barycentric,
+                     to_array(contact.normal),
+                     to_array(contact.point_m - contact_N / settings_.contact.stiffness_N_m),
+                     settings_.contact.stiffness_N_m};
+  }
+  tool.buttons = state.buttons;
+  tool.faults = faults_;
+  tool.grabbed_line = line_.muscle();
+  tool.grab_fraction = line_.fraction();
+  tool.line_stiffness_N_m = line_.muscle() >= 0 ? line_.grab_stiffness_N_m() : 0.0;
+  tools_.publish(tool);
+  last_.device = state;
+  last_.model_sequence = tool.model_sequence;
+  last_.line_tension_N = line_.tension_N();
+  ticks_.push(last_);
+}
+
+}  // namespace myotact::haptics

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+
+#include "device/device.h"
+#include "haptics/contact_settings.h"
+#include "haptics/force_gate.h"
+#include "haptics/moving_surface.h"
+#include "haptics/muscle_line_drag.h"
+#include "haptics/proxy.h"
+#include "messages/local_model.h"
+#include "messages/tool_state.h"
+#include "realtime/bounded_fifo.h"
+#include "realtime/latest_value.h"
+
+namespace myotact::haptics {
+
+struct HapticSettings {
+  ContactSettings contact;
+  LineDragSettings line;
+  GateSettings gate;
+  /// Felt over simulated force: muscles pull with 10-1000 N, devices with 3-20 N. The tissue gets the unscaled force.
+  double force_scale = 1.0;
+};
+
+/// What a tick read, decided and wrote, for recorder and tables. tool.force_world_N is what the device was given.
+struct HapticTick {
+  messages::DeviceState device;
+  std::uint64_t model_sequence = 0;  // model in use, 0: none
+  messages::ToolState tool;
+  double line_tension_N = 0.0;       // of the line in hand, 0: none
+};
+
+/// Force of the coupling spring on the hand [N], plus damping while the tool goes into the tissue. The normal part never
+/// pulls into the tissue. Zero without contact.
+Vec3 coupling_force_N(const Proxy& proxy, const ProxyGoal& device, const ContactSettings& settings) noexcept;
+
+/// One tool, once a millisecond: reads the device and the newest model, computes, gates and writes in the same tick.
+///
+///   device.read --> [proxy, friction, coupling] + [muscle line] --> [force gate] --> device.write
+///        models() newest --^                                             '--> tool_states() newest, ticks() all
+///
+/// Whoever calls tick() owns the clock: a virtual one in lockstep, HapticThread's when it runs free.
+class HapticLoop {
+ public:
+  /// `device` outlives the loop.
+  HapticLoop(device::Device& device, const HapticSettings& settings);
+
+  /// Opens the device, puts the tool where it is and arms the gate. Allocates; throws Error Unavailable. Before the first
+  /// tick, by the same clock.
+  void prepare(std::uint64_t now_ns);
+  /// Never allocates, locks, waits, logs or throws. `now_ns` never runs backwards. One thread.
+  void tick(std::uint64_t now_ns) noexcept;
+  /// Any thread: true: force zero from the next tick on; false: the gate arms again and ramps up.
+  void stop_forces(bool stopped) noexcept { stopped ? gate_.stop() : gate_.enable(); }
+  /// Haptic thread: tells the next tick that deadlines went by.
+  void note_missed(std::uint64_t ticks) noexcept { missed_ = missed_ || ticks > 0; }
+
+  realtime::LatestValue<messages::LocalModel>& models() noexcept { return models_; }  // written by the simulation
+  realtime::LatestValue<messages::ToolState>& tool_states() noexcept { return tools_; }  // read by the simulation
+  realtime::BoundedFifo<HapticTick>& ticks() noexcept { return ticks_; }               // read by the recorder
+
+  // ---- after tick(), in the thread that calls it
+  const HapticTick& last_tick() const noexcept { return last_; }
+  const messages::ToolState& tool_state() const noexcept { return last_.tool; }
+  GateState gate_state() const noexcept { return gate_.state(); }
+  const ProxyCounters& proxy_counters() const noexcept { return proxy_.counters(); }
+
+ private:
+  bool take_model(std::uint64_t now_ns) noexcept;
+  Vec3 contact_force_N(const ProxyGoal& goal, std::uint64_t now_ns, bool is_new) noexcept;
+  Vec3 gate_and_write(const Vec3& wanted_N, const Vec3& position_m, std::uint64_t now_ns) noexcept;
+  void tell(const messages::DeviceState& state, const Vec3& sent_N, const Vec3& contact_N) noexcept;
+  std::uint32_t proxy_faults() noexcept;
+
+  device::Device& device_;
+  HapticSettings settings_;
+  realtime::LatestValue<messages::LocalModel> models_;
+  realtime::LatestValue<messages::ToolState> tools_;
+  realtime::BoundedFifo<HapticTick> ticks_;
+
+  MovingSurface surface_;
+  Proxy proxy_;
+  MuscleLineDrag line_;
+  ForceGate gate_;
+  HapticTick last_;
+  ProxyCounters counted_;
+  const messages::LocalModel* model_ = nullptr;  // in use; null: none came yet, or the newest was unsound
+  std::uint64_t model_arrived_ns_ = 0;
+  std::uint64_t last_ns_ = 0;
+  std::uint32_t faults_ = 0;
+  double dt_s_ = 1e-3;
+  bool ticked_ = false;
+  bool missed_ = false;
+};
+
+}  // namespace myotact::haptics

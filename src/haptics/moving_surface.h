@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/vector.h"
+#include "messages/local_model.h"
+
+namespace myotact::haptics {
+
+/// Whether a model can be used: counts and indices in range, numbers finite and below 1 km. Real-time safe.
+bool is_sound(const messages::LocalModel& model) noexcept;
+
+/// The surface near the tool during one tick, which runs from `fraction` 0 (end of the last tick) to 1 (now).
+///
+///   model:  previous ---- s = (now - published) / dt ---- current, then held
+///   tick:             from ====== to
+///
+/// A new model carries on from where the surface was: its vertices start where the same triangles' corners ended, so
+/// that an early or late model moves the surface and never makes it jump. Real-time safe.
+class MovingSurface {
+ public:
+  /// Starts the tick that ends at `now_ns`. `model` must be sound and must stay in place until the next call.
+  /// `is_new`: it is not the model of the last call.
+  void begin_tick(const messages::LocalModel& model, std::uint64_t now_ns, bool is_new) noexcept;
+
+  int triangle_count() const noexcept { return model_ == nullptr ? 0 : model_->triangle_count; }
+  const messages::LocalModel::Triangle& triangle(int local) const noexcept {
+    return triangles_[static_cast<std::size_t>(local)];
+  }
+  /// Corner 0 .. 2 of a triangle at a fraction of the tick.
+  Vec3 corner_m(int local, int corner, double fraction) const noexcept;
+  /// What a point of a triangle moves by over the whole tick.
+  Vec3 motion_m(int local, const std::array<double, 3>& barycentric) const noexcept;
+  Vec3 point_m(int local, const std::array<double, 3>& barycentric, double fraction) const noexcept;
+  /// Columns: along edge 0-1, across it in the plane, normal out of the tissue. Right-handed, orthonormal.
+  Mat3 frame_W(int local, double fraction) const noexcept;
+  /// The farthest that any vertex moves in the tick.
+  double largest_motion_m() const noexcept { return largest_motion_m_; }
+  /// Place of a triangle in the model, by its numbers in the scene; -1: not in it.
+  int find(std::int32_t surface, std::int32_t triangle) const noexcept;
+
+ private:
+  static constexpr std::size_t kSlots = 1024;  // four times the triangles: short chains
+  static std::size_t slot_of(std::int32_t surface, std::int32_t triangle) noexcept;
+  void adopt(const messages::LocalModel& model) noexcept;
+
+  using Vertices = std::array<Vec3, messages::kMaxLocalVertices>;
+
+  const messages::LocalModel* model_ = nullptr;
+  std::array<messages::LocalModel::Triangle, messages::kMaxLocalTriangles> triangles_{};
+  std::array<std::int16_t, kSlots> slots_{};  // 1 + place of a triangle, 0: free
+  Vertices from_m_{};
+  Vertices to_m_{};
+  double largest_motion_m_ = 0.0;
+};
+
+}  // namespace myotact::haptics

@@ -1,0 +1,132 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/vector.h"
+#include "haptics/contact_settings.h"
+#include "haptics/half_space_projection.h"
+#include "haptics/moving_surface.h"
+
+namespace myotact::haptics {
+
+/// Where the device is.
+struct ProxyGoal {
+  Vec3 position_m = Vec3::Zero();
+  Vec3 velocity_m_s = Vec3::Zero();
+};
+
+/// The contact that bears most of the force.
+struct ProxyContact {
+  bool active = false;
+  std::int32_t surface = -1;
+  std::int32_t triangle = -1;
+  std::array<double, 3> barycentric{};
+  Vec3 point_m = Vec3::Zero();       // on the tissue
+  Vec3 normal = Vec3::UnitZ();       // unit, out of the tissue, along what all contacts together push
+  Vec3 velocity_m_s = Vec3::Zero();  // of the tissue at the point
+  bool sliding = false;
+};
+
+/// Events since the start.
+struct ProxyCounters {
+  std::uint64_t rescues = 0;       // found inside and put outside
+  std::uint64_t over_budget = 0;   // ticks that stopped short of the goal
+  std::uint64_t short_steps = 0;   // ticks whose surface moved farther than 16 safe steps cover
+};
+
+/// A sphere that stands for the tool and stays outside of the moving tissue while the device goes in.
+///
+/// A triangle is convex, so the plane through its nearest point, across the line to the sphere's centre, keeps all of it
+/// on one side: a centre that stays r beyond the plane keeps r from the triangle, and the straight way there never
+/// crosses it. A tick is therefore a few projections onto such half-spaces:
+///
+///   for each safe part of the tick (no vertex comes nearer than half of the clearance)
+///     carry the centre with the tissue under its anchor
+///     half-spaces of all near triangles --> put the centre where they allow (a moving surface hits a resting proxy)
+///   then, at the end of the tick, a few times
+///     half-spaces of the touched triangles --> towards the device, less friction, by at most half of the clearance
+///     half-spaces of all near triangles --> put the centre where they allow
+///
+/// Real-time safe; one thread.
+class Proxy {
+ public:
+  explicit Proxy(const ContactSettings& settings) : settings_(settings) {}
+
+  /// Advances to the end of the surface's tick, `dt_s` > 0 long.
+  void tick(const MovingSurface& surface, const messages::LocalModel& model, const ProxyGoal& goal, double dt_s) noexcept;
+  /// No surface is known: the proxy is where the device is.
+  void follow(const Vec3& position_m) noexcept;
+
+  const Vec3& position_m() const noexcept { return p_m_; }
+  const ProxyContact& contact() const noexcept { return contact_; }
+  const ProxyCounters& counters() const noexcept { return counters_; }
+
+ private:
+  /// The place on the tissue that the sphere sticks to, and where its centre is from there.
+  struct Anchor {
+    bool held = false;
+    std::int32_t surface = -1;
+    std::int32_t triangle = -1;
+    std::array<double, 3> barycentric{};
+    Vec3 offset_T_m = Vec3::Zero();  // in the triangle's frame
+    int local = -1;                  // its place in the model of this tick, -1: none
+  };
+  struct Nearest {
+    int local = -1;
+    double distance_m = 0.0;
+    Vec3 point_m = Vec3::Zero();
+    std::array<double, 3> barycentric{};
+  };
+  struct Tick {
+    const MovingSurface* surface = nullptr;
+    ProxyGoal goal;
+    double dt_s = 0.0;
+    Vec3 coverage_centre_m = Vec3::Zero();
+    double coverage_m = 0.0;     // the centre may go that far
+    double travel_left_m = 0.0;  // beyond it triangles were not looked at
+    int tests = 0;               // of the sphere against triangles
+    bool slipped = false;
+  };
+
+  void collect_candidates(Tick& tick) noexcept;
+  void carry(Tick& tick) noexcept;
+  double relative_motion_m(const Tick& tick, const Vec3& carried_m) const noexcept;
+  void seek_goal(Tick& tick) noexcept;
+  Projection press(Tick& tick) noexcept;
+  Vec3 free_target_m(const Tick& tick) const noexcept;
+  Vec3 slide(const Projection& held, Tick& tick) noexcept;
+
+  int nearest() const noexcept;
+  double linearise(const Vec3& p_m, double fraction, Tick& tick) noexcept;
+  Projection project(const Vec3& goal_m) noexcept;
+  Projection project_at(const Vec3& goal_m, double radius_m) noexcept;
+  void move_towards(const Vec3& target_m, Tick& tick) noexcept;
+  void rescue_if_inside(const Tick& tick) noexcept;
+
+  void find_anchor(const MovingSurface& surface) noexcept;
+  Vec3 anchored_m(const MovingSurface& surface, double fraction) const noexcept;
+  void settle_contact(const Projection& held, const Tick& tick) noexcept;
+  void set_anchor(const MovingSurface& surface, int local) noexcept;
+
+  ContactSettings settings_;
+  bool placed_ = false;
+  Vec3 p_m_ = Vec3::Zero();
+  Anchor anchor_;
+  ProxyContact contact_;
+  ProxyCounters counters_;
+
+  std::array<std::int16_t, messages::kMaxLocalTriangles> candidates_{};
+  int candidate_count_ = 0;
+  std::array<Nearest, messages::kMaxLocalTriangles> near_{};
+  std::array<HalfSpace, messages::kMaxLocalTriangles> half_spaces_{};
+  int near_count_ = 0;
+  static constexpr int kMaxTouching = 32;  // triangles round one corner of a bad mesh
+  std::array<int, kMaxTouching> touching_{};   // places in near_
+  std::array<HalfSpace, kMaxTouching> touching_spaces_{};
+  int touching_count_ = 0;
+  double clearance_m_ = 0.0;  // of the last linearisation
+};
+
+}  // namespace myotact::haptics
