@@ -28,6 +28,7 @@ OpenMesh::VertexHandle handle(int vertex) { return OpenMesh::VertexHandle(vertex
 HalfEdgeMesh to_half_edges(const geometry::TriangleMesh& mesh, int& failed_triangle) {
   HalfEdgeMesh result;
   failed_triangle = -1;
+  omerr().disable();  // the triangle it complains about is named below
   for (const Vec3& p : mesh.positions_m) result.add_vertex({p.x(), p.y(), p.z()});
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];

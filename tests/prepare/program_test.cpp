@@ -1,0 +1,96 @@
+// The program myotact-prepare from outside: exit statuses, what it writes and what it leaves behind.
+
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/exit_status.h"
+#include "core/file.h"
+
+namespace myotact::prepare {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class Program : public ::testing::Test {
+ protected:
+  Program() {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_ / "scan" / "bones");
+    fs::create_directories(folder_ / "scan" / "muscles");
+  }
+  ~Program() override { fs::remove_all(folder_); }
+
+  /// Exit status; standard error goes to error_.
+  int run(const std::string& arguments) {
+    const fs::path log = folder_ / "stderr";
+    const std::string command = std::string(MYOTACT_PREPARE) + " " + arguments + " >" + (folder_ / "stdout").string() +
+                                " 2>" + log.string();
+    const int status = std::system(command.c_str());
+    error_ = read_file(log);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+  std::string scan() const { return (folder_ / "scan").string(); }
+  std::string specimen() const { return (folder_ / "specimen").string(); }
+  void put(const std::string& file, const std::string& bytes) const {
+    std::ofstream(folder_ / "scan" / file, std::ios::binary) << bytes;
+  }
+
+  /// Nothing but the scan and the logs.
+  bool nothing_left_behind() const {
+    for (const auto& entry : fs::directory_iterator(folder_)) {
+      const std::string name = entry.path().filename().string();
+      if (name != "scan" && name != "stdout" && name != "stderr") return false;
+    }
+    return true;
+  }
+
+  fs::path folder_ = fs::path(::testing::TempDir()) /
+                     (std::string("prepare_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+  std::string error_;
+};
+
+int status(ExitStatus value) { return static_cast<int>(value); }
+
+TEST_F(Program, RefusesAnUnknownOptionAsUsage) {
+  EXPECT_EQ(run("--frobnicate"), status(ExitStatus::Usage));
+  EXPECT_EQ(run(""), status(ExitStatus::Usage));
+}
+
+TEST_F(Program, SaysThatTheScanIsNotThere) {
+  EXPECT_EQ(run(scan() + "/nowhere -o " + specimen()), status(ExitStatus::NoInput));
+  EXPECT_THAT(error_, HasSubstr("nowhere"));
+  EXPECT_TRUE(nothing_left_behind());
+}
+
+TEST_F(Program, SaysThatAnEmptyFolderHoldsNoSurface) {
+  EXPECT_EQ(run(scan() + " -o " + specimen()), status(ExitStatus::NoInput));
+  EXPECT_THAT(error_, HasSubstr("humerus"));
+  EXPECT_TRUE(nothing_left_behind());
+}
+
+TEST_F(Program, RefusesAFileThatIsNoMesh) {
+  put("bones/humerus.stl", "this is a letter and not a bone, whatever its name may say; it is long enough to hold a header "
+                           "of an STL file and then some more text");
+  put("muscles/brachialis.stl", "");
+  EXPECT_EQ(run(scan() + " -o " + specimen()), status(ExitStatus::BadData));
+  EXPECT_THAT(error_, HasSubstr("humerus.stl"));
+  EXPECT_TRUE(nothing_left_behind());
+}
+
+TEST_F(Program, SaysThatItCannotWrite) {
+  const std::string assets = std::string(MYOTACT_SOURCE_DIR) + "/assets/canine";
+  EXPECT_EQ(run("loft " + assets + " -o /proc/nowhere/specimen"), status(ExitStatus::InputOutput));
+  EXPECT_TRUE(nothing_left_behind());
+}
+
+}  // namespace
+}  // namespace myotact::prepare
