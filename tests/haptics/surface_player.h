@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "haptics/proxy.h"
+#include "realtime/periodic_loop.h"
 #include "surfaces.h"
 
 namespace myotact::haptics {
@@ -22,8 +23,10 @@ class SurfacePlayer {
     now_ns_ += kTick_ns;
     const bool is_new = !started_ || now_ns_ >= model_.published_at_ns + step_ns_;
     if (is_new) publish(started_ ? proxy.position_m() : goal.position_m);
+    const std::uint64_t begin_ns = realtime::steady_now_ns();
     surface.begin_tick(model_, now_ns_, is_new);
     proxy.tick(surface, model_, goal, 1e-9 * static_cast<double>(kTick_ns));
+    tick_duration_ns = realtime::steady_now_ns() - begin_ns;
   }
 
   /// The surface that the proxy met in the last tick.
@@ -39,6 +42,7 @@ class SurfacePlayer {
 
   Proxy proxy;
   MovingSurface surface;
+  std::uint64_t tick_duration_ns = 0;  // of the last tick, without the publishing
 
  private:
   void publish(const Vec3& centre_m) {

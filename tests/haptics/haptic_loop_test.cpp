@@ -1,0 +1,217 @@
+#include "haptics/haptic_loop.h"
+
+#include <cmath>
+#include <limits>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "device/replay_device.h"
+#include "device/simulated_device.h"
+#include "haptics/faults.h"
+#include "haptics/haptic_thread.h"
+#include "realtime/periodic_loop.h"
+#include "support/allocation_guard.h"
+#include "surfaces.h"
+
+namespace myotact::haptics {
+namespace {
+
+constexpr std::uint64_t kTick_ns = 1'000'000;
+constexpr std::uint64_t kStep_ns = 10 * kTick_ns;
+
+/// A flat block whose top swings by 2 mm, a muscle line above it, and a simulated hand: all in lockstep.
+class Scene {
+ public:
+  explicit Scene(double swing_m) : swing_m_(swing_m) {
+    device.set_hand_target({{0, 0, 0.01}, {}, 0});
+    loop.prepare(now_ns_ = kTick_ns);
+    publish();
+  }
+
+  void publish() {
+    for (std::size_t i = 0; i < plane_.vertices_m.size(); ++i) previous_m_[i] = current_m_[i];
+    const double height_m = swing_m_ * std::sin(3e-9 * static_cast<double>(now_ns_));
+    for (std::size_t i = 0; i < plane_.vertices_m.size(); ++i) current_m_[i] = plane_.vertices_m[i] + Vec3(0, 0, height_m);
+    messages::LocalModel& model = loop.models().back();
+    write_patch(plane_, previous_m_, current_m_, to_vec3(loop.tool_state().proxy_position_world_m), model);
+    model.sequence = ++sequence_;
+    model.published_at_ns = now_ns_;
+    model.dt_ns = kStep_ns;
+    model.line.muscle = 0;
+    model.line.proximal_point_world_m = {-0.1, 0, 0.01};
+    model.line.distal_point_world_m = {0.1, 0, 0.01};
+    model.line.length_m = 0.2;
+    model.line.tension_N = 5.0;
+    loop.models().publish();
+  }
+
+  void tick() {
+    now_ns_ += kTick_ns;
+    loop.tick(now_ns_);
+  }
+  void run(int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      tick();
+      if (now_ns_ % kStep_ns == 0) publish();
+    }
+  }
+
+  device::SimulatedDevice device{"simulated", Vec3(0, 0, 0.01)};
+  HapticLoop loop{device, HapticSettings{}};
+
+ private:
+  TestMesh plane_ = make_plane(0.06, 10);
+  std::vector<Vec3> previous_m_ = plane_.vertices_m, current_m_ = plane_.vertices_m;
+  double swing_m_;
+  std::uint64_t now_ns_ = 0;
+  std::uint64_t sequence_ = 0;
+};
+
+TEST(HapticLoop, ATickNeverAllocates) {
+  Scene scene(2e-3);
+  std::uint64_t allocations = 0;
+  int contacts = 0;
+  int grabs = 0;
+  for (int tick = 0; tick < 10'000; ++tick) {
+    const bool grab = tick % 1000 > 700;
+    scene.device.set_hand_target({{5e-3 * std::sin(0.003 * tick), 0, grab ? 0.02 : -0.005}, {}, grab ? messages::kGrabButton : 0});
+    const support::AllocationGuard guard;
+    scene.tick();
+    allocations += guard.allocations();
+    contacts += scene.loop.tool_state().contact.surface >= 0;
+    grabs += scene.loop.tool_state().grabbed_line >= 0;
+    if (tick % 10 == 9) scene.publish();
+    for (HapticTick record; scene.loop.ticks().pop(record);) {
+    }
+  }
+  EXPECT_EQ(allocations, 0u);
+  EXPECT_GT(contacts, 1000);  // the ticks did their whole work
+  EXPECT_GT(grabs, 1000);
+}
+
+TEST(HapticLoop, PressingABlockIsAHandSpringAgainstTheCoupling) {
+  Scene scene(0.0);
+  scene.run(1500);
+  const double pressed_to_m = -2e-3;
+  for (int i = 0; i < 1000; ++i) {
+    scene.device.set_hand_target({{0, 0, pressed_to_m}, {}, 0});
+    scene.run(1);
+  }
+  const ContactSettings contact;
+  const device::HandProfile hand;
+  const double depth_m = contact.radius_m - scene.device.position_world_m().z();
+  const double force_N = scene.loop.tool_state().force_world_N[2];
+  EXPECT_NEAR(force_N, contact.stiffness_N_m * depth_m, 0.02 * force_N + contact.stiffness_N_m * 20e-6);
+  // Hand: k_h (x - target) = F up to the device's own friction.
+  EXPECT_NEAR(hand.stiffness_N_m * (scene.device.position_world_m().z() - pressed_to_m), force_N, 0.11);
+}
+
+TEST(HapticLoop, HandsTheOppositeForceBackAsASpring) {
+  Scene scene(0.0);
+  scene.run(1500);
+  scene.device.set_hand_target({{0, 0, -2e-3}, {}, 0});
+  scene.run(1000);
+  const messages::ToolState& tool = scene.loop.tool_state();
+  ASSERT_EQ(tool.contact.surface, 0);
+  const messages::ToolContact& contact = tool.contact;
+  // The plane rests at z = 0, so the touched point is below the proxy.
+  const Vec3 touched_m(tool.proxy_position_world_m[0], tool.proxy_position_world_m[1], 0.0);
+  const Vec3 on_tissue_N = contact.stiffness_N_m * (to_vec3(contact.target_world_m) - touched_m);
+  EXPECT_NEAR((on_tissue_N + to_vec3(tool.force_world_N)).norm(), 0.0, 1e-3);
+  EXPECT_NEAR(contact.barycentric[0] + contact.barycentric[1] + contact.barycentric[2], 1.0, 1e-12);
+  EXPECT_EQ(contact.normal_world[2], 1.0);
+}
+
+TEST(HapticLoop, GrabsTheLineAndTellsTheSimulation) {
+  Scene scene(0.0);
+  scene.run(1500);
+  scene.device.set_hand_target({{0, 0, 0.02}, {}, messages::kGrabButton});
+  scene.run(1000);
+  const HapticTick& last = scene.loop.last_tick();
+  EXPECT_EQ(last.tool.grabbed_line, 0);
+  EXPECT_GT(last.tool.line_stiffness_N_m, 0.0);
+  EXPECT_EQ(last.line_tension_N, 5.0);
+  const double d_m = last.tool.tool_position_world_m[2] - 0.01;
+  EXPECT_NEAR(last.tool.force_world_N[2], -2.0 * 5.0 * d_m / std::hypot(0.1, d_m), 1e-6);
+}
+
+TEST(HapticLoop, ABrokenModelIsIgnoredAndReported) {
+  Scene scene(0.0);
+  scene.run(20);
+  messages::LocalModel& model = scene.loop.models().back();
+  model = {};
+  model.triangle_count = 7;
+  model.triangles[0].vertices = {0, 1, 1'000'000};
+  scene.loop.models().publish();
+  scene.tick();
+  EXPECT_NE(scene.loop.tool_state().faults & bit(Fault::BadModel), 0u);
+  EXPECT_EQ(scene.loop.tool_state().force_world_N[2], 0.0);
+  scene.publish();
+  scene.run(10);
+  EXPECT_EQ(scene.loop.tool_state().faults, 0u);
+}
+
+TEST(HapticLoop, ADeviceThatSendsNoNumbersGetsNoForce) {
+  std::vector<messages::DeviceState> states(3);
+  states[1].stylus_position_world_m[0] = std::numeric_limits<double>::quiet_NaN();
+  device::ReplayDevice device(states, {});
+  HapticLoop loop(device, {});
+  loop.prepare(0);
+  for (std::uint64_t tick = 1; tick <= 3; ++tick) {
+    loop.tick(tick * kTick_ns);
+    EXPECT_EQ((loop.tool_state().faults & bit(Fault::NonFiniteDevice)) != 0, tick == 2);
+    EXPECT_TRUE(to_vec3(loop.tool_state().tool_position_world_m).allFinite());
+    EXPECT_EQ(to_vec3(loop.tool_state().force_world_N).norm(), 0.0);
+  }
+}
+
+TEST(HapticLoop, StopGivesZeroAndEnablingRampsUpAgain) {
+  Scene scene(0.0);
+  scene.run(1500);
+  scene.device.set_hand_target({{0, 0, 0.0}, {}, 0});
+  scene.run(500);
+  EXPECT_GT(scene.loop.tool_state().force_world_N[2], 0.1);
+  scene.loop.stop_forces(true);
+  scene.run(1);
+  EXPECT_EQ(scene.loop.tool_state().force_world_N[2], 0.0);
+  EXPECT_EQ(scene.loop.gate_state(), GateState::Off);
+  scene.device.set_hand_target({{0, 0, 0.01}, {}, 0});
+  scene.loop.stop_forces(false);
+  scene.run(1500);
+  EXPECT_EQ(scene.loop.gate_state(), GateState::On);
+}
+
+TEST(HapticLoop, TheSameInputsGiveTheSameBits) {
+  const auto play = [] {
+    Scene scene(2e-3);
+    std::vector<double> forces_N;
+    for (int i = 0; i < 2500; ++i) {
+      scene.device.set_hand_target({{1e-5 * i, 0, i > 1200 ? -3e-3 : 0.01}, {}, 0});
+      scene.run(1);
+      for (const double f : scene.loop.tool_state().force_world_N) forces_N.push_back(f);
+    }
+    return forces_N;
+  };
+  EXPECT_EQ(play(), play());
+}
+
+TEST(HapticThread, TicksAtOneKilohertzAndStopsWithoutForce) {
+  device::SimulatedDevice device("simulated", Vec3(0, 0, 0.01));
+  HapticLoop loop(device, {});
+  loop.prepare(realtime::steady_now_ns());
+  HapticThread thread(loop);
+  thread.start();
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  thread.stop();
+  const std::uint64_t all = thread.tick_count() + thread.missed_count();
+  EXPECT_GE(all, 80u);
+  EXPECT_LE(all, 200u);  // a busy machine may sleep longer than asked
+  EXPECT_EQ(thread.ticks().summary().count, thread.tick_count());
+  EXPECT_EQ(loop.gate_state(), GateState::Off);
+  EXPECT_EQ(to_vec3(loop.tool_state().force_world_N).norm(), 0.0);
+}
+
+}  // namespace
+}  // namespace myotact::haptics
