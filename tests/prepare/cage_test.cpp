@@ -30,8 +30,9 @@ TEST(EvenSurface, HasEdgesNearTheLengthAskedFor) {
   const EvenSurface skin = even_surface("rod", testing::rod_surface({}), 6e-3);
   int near = 0;
   for (const auto& [a, b, c] : skin.mesh.triangles) {
-    const double edge_m = (skin.mesh.positions_m[static_cast<std::size_t>(a)] -
-                           skin.mesh.positions_m[static_cast<std::size_t>(b)]).norm();
+    const double edge_m =
+        (skin.mesh.positions_m[static_cast<std::size_t>(a)] - skin.mesh.positions_m[static_cast<std::size_t>(b)])
+            .norm();
     near += edge_m > 0.5 * skin.edge_m && edge_m < 1.6 * skin.edge_m ? 1 : 0;
   }
   EXPECT_GT(near, static_cast<int>(0.95 * static_cast<double>(skin.mesh.triangles.size())));

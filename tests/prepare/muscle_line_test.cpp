@@ -23,8 +23,7 @@ MuscleProfile straight_profile() {
 struct Line {
   testing::SmallLimb limb = testing::small_limb();
   LineBones bones{limb.anatomy.bodies, limb.anatomy.joints, 0, 1};
-  anatomy::MuscleLine line =
-      trace_line("rod", straight_profile(), {0.02, 0.1}, {Vec3::Zero(), {0.1, 0.0, 0.0}}, bones);
+  anatomy::MuscleLine line = trace_line("rod", straight_profile(), {0.02, 0.1}, {Vec3::Zero(), {0.1, 0.0, 0.0}}, bones);
 };
 
 TEST(TraceLine, BeginsAndEndsOnBoneWithFourToEightPoints) {

@@ -1,7 +1,5 @@
 // The program myotact-prepare from outside: exit statuses, what it writes and what it leaves behind.
 
-#include <sys/wait.h>
-
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -9,6 +7,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 #include "core/exit_status.h"
 #include "core/file.h"
@@ -31,8 +30,8 @@ class Program : public ::testing::Test {
   /// Exit status; standard error goes to error_.
   int run(const std::string& arguments) {
     const fs::path log = folder_ / "stderr";
-    const std::string command = std::string(MYOTACT_PREPARE) + " " + arguments + " >" + (folder_ / "stdout").string() +
-                                " 2>" + log.string();
+    const std::string command =
+        std::string(MYOTACT_PREPARE) + " " + arguments + " >" + (folder_ / "stdout").string() + " 2>" + log.string();
     const int status = std::system(command.c_str());
     error_ = read_file(log);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
@@ -58,7 +57,9 @@ class Program : public ::testing::Test {
   std::string error_;
 };
 
-int status(ExitStatus value) { return static_cast<int>(value); }
+int status(ExitStatus value) {
+  return static_cast<int>(value);
+}
 
 TEST_F(Program, RefusesAnUnknownOptionAsUsage) {
   EXPECT_EQ(run("--frobnicate"), status(ExitStatus::Usage));
@@ -78,8 +79,9 @@ TEST_F(Program, SaysThatAnEmptyFolderHoldsNoSurface) {
 }
 
 TEST_F(Program, RefusesAFileThatIsNoMesh) {
-  put("bones/humerus.stl", "this is a letter and not a bone, whatever its name may say; it is long enough to hold a header "
-                           "of an STL file and then some more text");
+  put("bones/humerus.stl",
+      "this is a letter and not a bone, whatever its name may say; it is long enough to hold a header "
+      "of an STL file and then some more text");
   put("muscles/brachialis.stl", "");
   EXPECT_EQ(run(scan() + " -o " + specimen()), status(ExitStatus::BadData));
   EXPECT_THAT(error_, HasSubstr("humerus.stl"));

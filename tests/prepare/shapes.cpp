@@ -36,7 +36,8 @@ TriangleMesh rod_surface(const RodShape& shape) {
   const auto vertex = [&](int ring, int side) { return ring * shape.sides + side % shape.sides; };
   for (int side = 0; side < shape.sides; ++side) {
     for (int ring = 0; ring < shape.rings; ++ring) {
-      const int a = vertex(ring, side), b = vertex(ring, side + 1), c = vertex(ring + 1, side), d = vertex(ring + 1, side + 1);
+      const int a = vertex(ring, side), b = vertex(ring, side + 1), c = vertex(ring + 1, side),
+                d = vertex(ring + 1, side + 1);
       rod.triangles.push_back({a, b, c});
       rod.triangles.push_back({b, d, c});
     }

@@ -15,7 +15,9 @@ namespace {
 using geometry::TriangleMesh;
 using ::testing::HasSubstr;
 
-TriangleMesh cube() { return testing::box_surface(Vec3::Zero(), Vec3::Constant(0.02)); }
+TriangleMesh cube() {
+  return testing::box_surface(Vec3::Zero(), Vec3::Constant(0.02));
+}
 
 /// Every triangle with its own three vertices, as an STL file holds it.
 TriangleMesh soup_of(const TriangleMesh& mesh) {
@@ -102,7 +104,9 @@ TEST(CleanSurface, RefusesMillimetres) {
   EXPECT_THAT(refusal_of(mesh), HasSubstr("in metres"));
 }
 
-TEST(CleanSurface, RefusesNothingAtAll) { EXPECT_THAT(refusal_of({}), HasSubstr("no triangles")); }
+TEST(CleanSurface, RefusesNothingAtAll) {
+  EXPECT_THAT(refusal_of({}), HasSubstr("no triangles"));
+}
 
 TEST(CleanSurface, RefusesAFin) {
   TriangleMesh mesh = cube();
@@ -129,7 +133,9 @@ TEST(RefuseCrossings, NamesThePlaceOfTheFirst) {
   }
 }
 
-TEST(RefuseCrossings, AcceptsACleanSurface) { EXPECT_NO_THROW(refuse_crossings("belly", cube())); }
+TEST(RefuseCrossings, AcceptsACleanSurface) {
+  EXPECT_NO_THROW(refuse_crossings("belly", cube()));
+}
 
 }  // namespace
 }  // namespace myotact::prepare

@@ -12,9 +12,9 @@ namespace myotact::prepare {
 
 /// Where one end of a muscle is fixed.
 struct AttachmentSite {
-  std::vector<std::string> bones;   // keys of the bones that may carry it; all on one body
-  Vec3 point_m = Vec3::Zero();      // middle of the patch, specimen frame
-  double area_m2 = 0.0;             // of the measured contact patch; 0: not known
+  std::vector<std::string> bones;  // keys of the bones that may carry it; all on one body
+  Vec3 point_m = Vec3::Zero();     // middle of the patch, specimen frame
+  double area_m2 = 0.0;            // of the measured contact patch; 0: not known
 };
 
 struct MuscleData {

@@ -9,8 +9,8 @@ namespace myotact::prepare {
 namespace {
 
 const NamedSurface* find_surface(const std::vector<NamedSurface>& surfaces, const std::string& key) {
-  const auto found = std::find_if(surfaces.begin(), surfaces.end(),
-                                  [&](const NamedSurface& surface) { return surface.key == key; });
+  const auto found =
+      std::find_if(surfaces.begin(), surfaces.end(), [&](const NamedSurface& surface) { return surface.key == key; });
   return found == surfaces.end() ? nullptr : &*found;
 }
 
@@ -26,7 +26,8 @@ void add_bones(const PreparedInput& input, anatomy::Specimen& specimen, std::vec
   for (const BoneData& data : input.anatomy.bones) {
     const NamedSurface* raw = find_surface(input.bones, data.key);
     if (!raw) continue;
-    specimen.bones.push_back({data.key, data.name_la, data.name_en, data.body, prepare_bone(*raw, reports.emplace_back())});
+    specimen.bones.push_back(
+        {data.key, data.name_la, data.name_en, data.body, prepare_bone(*raw, reports.emplace_back())});
   }
   if (specimen.bones.empty()) {
     throw Error(ExitStatus::BadData, "bones: none of the input's is named in the anatomy files; rename the surfaces");
@@ -66,7 +67,8 @@ anatomy::Specimen assemble_specimen(const PreparedInput& input, const PrepareSet
   add_bones(input, specimen, reports);
   add_muscles(input, settings, specimen, reports);
   for (const GroupData& group : input.anatomy.groups) {
-    anatomy::MuscleGroup present{group.joint, muscles_of(specimen, group.flexors), muscles_of(specimen, group.extensors)};
+    anatomy::MuscleGroup present{group.joint, muscles_of(specimen, group.flexors),
+                                 muscles_of(specimen, group.extensors)};
     if (!present.flexors.empty() || !present.extensors.empty()) specimen.groups.push_back(std::move(present));
   }
   if (const std::string defect = anatomy::find_defect(specimen); !defect.empty()) {

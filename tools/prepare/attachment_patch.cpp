@@ -34,13 +34,15 @@ double triangle_area_m2(const TriangleMesh& mesh, int t) {
   const auto& c = mesh.triangles[static_cast<std::size_t>(t)];
   const Vec3& a = mesh.positions_m[static_cast<std::size_t>(c[0])];
   return 0.5 * (mesh.positions_m[static_cast<std::size_t>(c[1])] - a)
-                   .cross(mesh.positions_m[static_cast<std::size_t>(c[2])] - a).norm();
+                   .cross(mesh.positions_m[static_cast<std::size_t>(c[2])] - a)
+                   .norm();
 }
 
 Vec3 triangle_centre_m(const TriangleMesh& mesh, int t) {
   const auto& c = mesh.triangles[static_cast<std::size_t>(t)];
   return (mesh.positions_m[static_cast<std::size_t>(c[0])] + mesh.positions_m[static_cast<std::size_t>(c[1])] +
-          mesh.positions_m[static_cast<std::size_t>(c[2])]) / 3.0;
+          mesh.positions_m[static_cast<std::size_t>(c[2])]) /
+         3.0;
 }
 
 std::vector<std::vector<int>> triangles_of_vertices(const TriangleMesh& mesh) {
@@ -104,7 +106,8 @@ AttachmentPatch grow_patch(const std::string& name, const TriangleMesh& surface,
   const auto triangle_cost_m = [&](int t) {
     const auto& c = surface.triangles[static_cast<std::size_t>(t)];
     return (costs_m[static_cast<std::size_t>(c[0])] + costs_m[static_cast<std::size_t>(c[1])] +
-            costs_m[static_cast<std::size_t>(c[2])]) / 3.0;
+            costs_m[static_cast<std::size_t>(c[2])]) /
+           3.0;
   };
   using Candidate = std::pair<double, int>;  // cost, triangle
   std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> frontier;
@@ -132,10 +135,11 @@ AttachmentPatch grow_patch(const std::string& name, const TriangleMesh& surface,
   }
   finish(surface, bone_distance_m, patch);
   if (patch.bone_distance_m > kFarthest_m) {
-    throw bad_data(name, "attachments",
-                   fmt::format("the muscle ends {:.1f} mm from its bone; must be at most {:.0f} mm. Check the bones and "
-                               "the attachment point of the muscle in the anatomy files",
-                               1e3 * patch.bone_distance_m, 1e3 * kFarthest_m));
+    throw bad_data(
+        name, "attachments",
+        fmt::format("the muscle ends {:.1f} mm from its bone; must be at most {:.0f} mm. Check the bones and "
+                    "the attachment point of the muscle in the anatomy files",
+                    1e3 * patch.bone_distance_m, 1e3 * kFarthest_m));
   }
   return patch;
 }

@@ -34,7 +34,9 @@ void restore_volume(TriangleMesh& mesh, double volume_m3) {
 
 }  // namespace
 
-double edge_for_tets_m(double volume_m3, double tets) { return std::cbrt(6.0 * std::numbers::sqrt2 * volume_m3 / tets); }
+double edge_for_tets_m(double volume_m3, double tets) {
+  return std::cbrt(6.0 * std::numbers::sqrt2 * volume_m3 / tets);
+}
 
 EvenSurface even_surface(const std::string& name, const TriangleMesh& surface, double edge_m) {
   const double volume_m3 = geometry::enclosed_volume_m3(surface);
@@ -49,10 +51,11 @@ EvenSurface even_surface(const std::string& name, const TriangleMesh& surface, d
     result.volume_error = geometry::enclosed_volume_m3(result.mesh) / volume_m3 - 1.0;
     if (std::abs(result.volume_error) < kVolumeTolerance && crossing_triangles(result.mesh).empty()) return result;
   }
-  throw bad_data(name, "surface",
-                 fmt::format("could not be remeshed without crossings in {} attempts; look for parts thinner than {:.1f} "
-                             "mm and thicken or cut them",
-                             kAttempts, 1e3 * result.edge_m));
+  throw bad_data(
+      name, "surface",
+      fmt::format("could not be remeshed without crossings in {} attempts; look for parts thinner than {:.1f} "
+                  "mm and thicken or cut them",
+                  kAttempts, 1e3 * result.edge_m));
 }
 
 }  // namespace myotact::prepare

@@ -45,7 +45,8 @@ void add_flux(const TriangleMesh& surface, const AttachmentPatch& patch, double 
     const auto& c = surface.triangles[static_cast<std::size_t>(t)];
     const Vec3& a = surface.positions_m[static_cast<std::size_t>(c[0])];
     const double area_m2 = 0.5 * (surface.positions_m[static_cast<std::size_t>(c[1])] - a)
-                                     .cross(surface.positions_m[static_cast<std::size_t>(c[2])] - a).norm();
+                                     .cross(surface.positions_m[static_cast<std::size_t>(c[2])] - a)
+                                     .norm();
     for (const int v : c) rhs[v] += flux * area_m2 / patch.area_m2 / 3.0;
   }
 }
@@ -120,8 +121,10 @@ void fill_directions(const TetMesh& tets, const Vec3& axis, FibreField& field) {
   field.direction.assign(norms.size(), Vec3::Zero());
   std::vector<std::size_t> missing;
   for (std::size_t t = 0; t < norms.size(); ++t) {
-    if (norms[t] > weak) field.direction[t] = field.gradient[t] / norms[t];
-    else missing.push_back(t);
+    if (norms[t] > weak)
+      field.direction[t] = field.gradient[t] / norms[t];
+    else
+      missing.push_back(t);
   }
   field.filled_tets = static_cast<int>(missing.size());
   const auto neighbours = face_neighbours(tets);
@@ -130,8 +133,10 @@ void fill_directions(const TetMesh& tets, const Vec3& axis, FibreField& field) {
     std::vector<std::pair<std::size_t, Vec3>> found;
     for (const std::size_t t : missing) {
       const Vec3 direction = shared_direction(neighbours[t], field.direction);
-      if (direction.isZero()) left.push_back(t);
-      else found.emplace_back(t, direction.normalized());
+      if (direction.isZero())
+        left.push_back(t);
+      else
+        found.emplace_back(t, direction.normalized());
     }
     for (const auto& [t, direction] : found) field.direction[t] = direction;
     if (found.empty()) {  // no neighbour anywhere is known

@@ -14,10 +14,10 @@ namespace myotact::prepare {
 /// through the origin, out through the insertion and none through the rest (Choi and Blemker 2013, PLoS ONE 8:e77576).
 /// The whole flux is 1, so that 1/|gradient| is the cross-section along the fibres.
 struct FibreField {
-  std::vector<double> potential;       // one a node [1/m, for a flux of 1]; rises from origin to insertion
-  std::vector<Vec3> gradient;          // one a tet [1/m2]
-  std::vector<Vec3> direction;         // one a tet, unit, from origin to insertion
-  int filled_tets = 0;                 // whose gradient was too small to be trusted: taken from their neighbours
+  std::vector<double> potential;        // one a node [1/m, for a flux of 1]; rises from origin to insertion
+  std::vector<Vec3> gradient;           // one a tet [1/m2]
+  std::vector<Vec3> direction;          // one a tet, unit, from origin to insertion
+  int filled_tets = 0;                  // whose gradient was too small to be trusted: taken from their neighbours
   double mean_angle_to_axis_deg = 0.0;  // between fibres and the straight way from patch to patch, volume-weighted
 };
 

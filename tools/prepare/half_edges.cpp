@@ -22,7 +22,9 @@ using HalfEdgeMesh = OpenMesh::TriMesh_ArrayKernelT<DoubleTraits>;
 /// Part of the way to the neighbours' middle in one pass; more would let neighbours overtake each other.
 constexpr double kRelaxation = 0.5;
 
-OpenMesh::VertexHandle handle(int vertex) { return OpenMesh::VertexHandle(vertex); }
+OpenMesh::VertexHandle handle(int vertex) {
+  return OpenMesh::VertexHandle(vertex);
+}
 
 /// Leaves `failed_triangle` at -1 when all went in.
 HalfEdgeMesh to_half_edges(const geometry::TriangleMesh& mesh, int& failed_triangle) {
@@ -50,9 +52,10 @@ void check_half_edges(const std::string& name, const geometry::TriangleMesh& mes
   }
   if (vertex < 0) return;
   const Vec3& p = mesh.positions_m[static_cast<std::size_t>(vertex)];
-  throw bad_data(name, fmt::format("vertex {}", vertex),
-                 fmt::format("at ({}, {}, {}) m joins more than one fan of triangles; separate the parts that touch there",
-                             to_text(p.x()), to_text(p.y()), to_text(p.z())));
+  throw bad_data(
+      name, fmt::format("vertex {}", vertex),
+      fmt::format("at ({}, {}, {}) m joins more than one fan of triangles; separate the parts that touch there",
+                  to_text(p.x()), to_text(p.y()), to_text(p.z())));
 }
 
 void relax_along_surface(geometry::TriangleMesh& mesh, int passes) {

@@ -1,4 +1,5 @@
-// The program myotact-prepare: reads the command line, makes one specimen, turns every error into one line and a status.
+// The program myotact-prepare: reads the command line, makes one specimen, turns every error into one line and a
+// status.
 
 #include <exception>
 #include <filesystem>
@@ -40,8 +41,7 @@ void add_common(CLI::App& command, Options& options) {
 
 prepare::PreparedInput read_input(const Options& options, bool loft) {
   prepare::PreparedInput input;
-  const std::filesystem::path anatomy =
-      options.anatomy.empty() ? data_folder() / "assets" / "canine" : options.anatomy;
+  const std::filesystem::path anatomy = options.anatomy.empty() ? data_folder() / "assets" / "canine" : options.anatomy;
   input.anatomy = prepare::read_anatomy(anatomy);
   if (loft) {
     input.bones = prepare::loft_bones(anatomy);

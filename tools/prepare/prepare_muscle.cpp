@@ -84,8 +84,8 @@ void check_quality(const std::string& name, SurfaceReport& report) {
   const double angle_deg = report.tets.smallest_dihedral_deg;
   if (angle_deg < kBadDihedral_deg) {
     throw bad_data(name, "tetrahedra",
-                   fmt::format("the smallest angle is {:.2f} degrees; must be at least {:.0f}. Ask for more tets", angle_deg,
-                               kBadDihedral_deg));
+                   fmt::format("the smallest angle is {:.2f} degrees; must be at least {:.0f}. Ask for more tets",
+                               angle_deg, kBadDihedral_deg));
   }
   if (angle_deg < kPoorDihedral_deg) report.notes.push_back(fmt::format("flat tet, {:.1f} degrees", angle_deg));
 }

@@ -15,7 +15,7 @@ inline constexpr double kSkinEdge_m = 5.5e-3;
 
 struct PrepareSettings {
   /// Tets of a muscle of 30 cm3; others get the more, the larger they are (with the cube root of the volume).
-  double tets = 160.0;
+  double tets = 200.0;
 };
 
 /// The limb around a muscle: surfaces of the bones as they go into the specimen, and all anatomy.

@@ -19,8 +19,8 @@ std::vector<NamedSurface> read_named(const std::filesystem::path& folder, const 
     if (std::filesystem::exists(file)) surfaces.push_back({key, geometry::read_stl(file)});
   }
   if (surfaces.empty()) {
-    throw Error(ExitStatus::NoInput, folder.string() + ": holds none of the surfaces that the anatomy names: " +
-                                         join(keys) + " (.stl)");
+    throw Error(ExitStatus::NoInput,
+                folder.string() + ": holds none of the surfaces that the anatomy names: " + join(keys) + " (.stl)");
   }
   return surfaces;
 }

@@ -49,9 +49,9 @@ std::string levers_text(const SurfaceReport& r) {
 }  // namespace
 
 std::string report_table(const std::vector<SurfaceReport>& reports) {
-  std::string text = fmt::format("{:<28} {:>6} {:>6} {:>7} {:>5} {:>6} {:>6} {:>7} {:>11} {:>6} {:>13} {:>6}  {}\n", "surface",
-                                 "tri in", "skin", "cm3", "tets", "min", "1 %", "dV", "gap o/i", "filled", "belly/path",
-                                 "s", "levers, mm");
+  std::string text = fmt::format("{:<28} {:>6} {:>6} {:>7} {:>5} {:>6} {:>6} {:>7} {:>11} {:>6} {:>13} {:>6}  {}\n",
+                                 "surface", "tri in", "skin", "cm3", "tets", "min", "1 %", "dV", "gap o/i", "filled",
+                                 "belly/path", "s", "levers, mm");
   for (const SurfaceReport& r : reports) {
     text += fmt::format("{:<28} {:>6} {:>6} {:>7.1f} ", r.key, r.input_triangles, r.skin_triangles, 1e6 * r.volume_m3);
     if (r.muscle) {

@@ -15,7 +15,7 @@ struct SurfaceReport {
   int input_triangles = 0;
   SurfaceRepair repair;
   int skin_triangles = 0;
-  double volume_m3 = 0.0;        // of the cleaned input
+  double volume_m3 = 0.0;  // of the cleaned input
   double wall_s = 0.0;
   std::vector<std::string> notes;  // what a person should look at
   // Muscles only.

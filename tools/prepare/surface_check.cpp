@@ -43,8 +43,8 @@ void check_coordinates(const std::string& name, const TriangleMesh& mesh) {
   const double diagonal_m = box.diagonal().norm();
   if (diagonal_m < kSmallest_m || diagonal_m > kLargest_m) {
     throw bad_data(name, "size",
-                   fmt::format("diagonal is {} m; must be {} .. {} m. Export the surface in metres", to_text(diagonal_m),
-                               to_text(kSmallest_m), to_text(kLargest_m)));
+                   fmt::format("diagonal is {} m; must be {} .. {} m. Export the surface in metres",
+                               to_text(diagonal_m), to_text(kSmallest_m), to_text(kLargest_m)));
   }
 }
 
@@ -101,16 +101,18 @@ void check_closed(const std::string& name, const TriangleMesh& mesh, const EdgeM
                        mesh.positions_m[static_cast<std::size_t>(edge[1])]));
   };
   if (open > 0) {
-    throw bad_data(name, "surface",
-                   fmt::format("is open: {} edges have a triangle on one side only, the first near {}; must be 0. Close "
-                               "the holes and export it again",
-                               open, place_text(middle(*first_open))));
+    throw bad_data(
+        name, "surface",
+        fmt::format("is open: {} edges have a triangle on one side only, the first near {}; must be 0. Close "
+                    "the holes and export it again",
+                    open, place_text(middle(*first_open))));
   }
   if (crowded > 0) {
-    throw bad_data(name, "surface",
-                   fmt::format("{} edges have more than two triangles, the first near {}; must be 0. Remove inner walls "
-                               "and export it again",
-                               crowded, place_text(middle(*first_crowded))));
+    throw bad_data(
+        name, "surface",
+        fmt::format("{} edges have more than two triangles, the first near {}; must be 0. Remove inner walls "
+                    "and export it again",
+                    crowded, place_text(middle(*first_crowded))));
   }
 }
 
@@ -124,41 +126,53 @@ bool same_winding(const std::array<int, 3>& a, const std::array<int, 3>& b) {
   return false;
 }
 
-/// Winds the neighbours of a triangle like it, and appends those met for the first time to the piece.
-void wind_neighbours(const std::string& name, int triangle, const EdgeMap& edges, TriangleMesh& mesh,
-                     std::vector<int>& piece, std::vector<bool>& seen, SurfaceRepair& repair) {
-  const std::array<int, 3> here = mesh.triangles[static_cast<std::size_t>(triangle)];
-  for (std::size_t k = 0; k < 3; ++k) {
-    std::array<int, 2> edge{here[k], here[(k + 1) % 3]};
-    std::sort(edge.begin(), edge.end());
-    const std::vector<int>& both = edges.at(edge);
-    const int other = both[0] == triangle ? both[1] : both[0];
-    auto& neighbour = mesh.triangles[static_cast<std::size_t>(other)];
-    if (!same_winding(here, neighbour)) {
-      if (seen[static_cast<std::size_t>(other)]) {
-        throw bad_data(name, "surface", "has only one side (like a Moebius strip), so it encloses nothing");
-      }
-      std::swap(neighbour[1], neighbour[2]);
-      ++repair.turned_triangles;
-    }
-    if (seen[static_cast<std::size_t>(other)]) continue;
-    seen[static_cast<std::size_t>(other)] = true;
-    piece.push_back(other);
-  }
-}
+/// Winds every piece of a closed surface one way, from triangle to neighbour.
+class Winder {
+ public:
+  Winder(const std::string& name, const EdgeMap& edges, TriangleMesh& mesh)
+      : name_(name), edges_(edges), mesh_(mesh), seen_(mesh.triangles.size(), false) {}
 
-/// Winds every piece of the surface one way.
-void wind_alike(const std::string& name, const EdgeMap& edges, TriangleMesh& mesh, SurfaceRepair& repair) {
-  std::vector<bool> seen(mesh.triangles.size(), false);
-  for (std::size_t seed = 0; seed < mesh.triangles.size(); ++seed) {
-    if (seen[seed]) continue;
-    seen[seed] = true;
-    std::vector<int> piece{static_cast<int>(seed)};
-    for (std::size_t next = 0; next < piece.size(); ++next) {
-      wind_neighbours(name, piece[next], edges, mesh, piece, seen, repair);
+  /// Number of triangles turned.
+  int wind_all() {
+    for (std::size_t seed = 0; seed < seen_.size(); ++seed) {
+      if (seen_[seed]) continue;
+      seen_[seed] = true;
+      std::vector<int> piece{static_cast<int>(seed)};
+      for (std::size_t next = 0; next < piece.size(); ++next) wind_neighbours(piece[next], piece);
+    }
+    return turned_;
+  }
+
+ private:
+  /// Neighbours met for the first time join the piece.
+  void wind_neighbours(int triangle, std::vector<int>& piece) {
+    const std::array<int, 3> here = mesh_.triangles[static_cast<std::size_t>(triangle)];
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::array<int, 2> edge{here[k], here[(k + 1) % 3]};
+      std::sort(edge.begin(), edge.end());
+      const std::vector<int>& both = edges_.at(edge);
+      const auto other = static_cast<std::size_t>(both[0] == triangle ? both[1] : both[0]);
+      if (!same_winding(here, mesh_.triangles[other])) turn(other);
+      if (seen_[other]) continue;
+      seen_[other] = true;
+      piece.push_back(static_cast<int>(other));
     }
   }
-}
+
+  void turn(std::size_t triangle) {
+    if (seen_[triangle]) {
+      throw bad_data(name_, "surface", "has only one side (like a Moebius strip), so it encloses nothing");
+    }
+    std::swap(mesh_.triangles[triangle][1], mesh_.triangles[triangle][2]);
+    ++turned_;
+  }
+
+  const std::string& name_;
+  const EdgeMap& edges_;
+  TriangleMesh& mesh_;
+  std::vector<bool> seen_;
+  int turned_ = 0;
+};
 
 }  // namespace
 
@@ -168,7 +182,7 @@ TriangleMesh clean_surface(const std::string& name, const TriangleMesh& raw, Sur
   TriangleMesh mesh = weld(raw, repair);
   const EdgeMap edges = edges_of(mesh);
   check_closed(name, mesh, edges);
-  wind_alike(name, edges, mesh, repair);
+  repair.turned_triangles = Winder(name, edges, mesh).wind_all();
 
   const double area_m2 = geometry::surface_area_m2(mesh);
   TriangleMesh result;
@@ -192,8 +206,10 @@ void refuse_crossings(const std::string& name, const TriangleMesh& mesh) {
   const auto crossings = crossing_triangles(mesh);
   if (crossings.empty()) return;
   const auto& t = mesh.triangles[static_cast<std::size_t>(crossings.front().first)];
-  const Vec3 place = (mesh.positions_m[static_cast<std::size_t>(t[0])] + mesh.positions_m[static_cast<std::size_t>(t[1])] +
-                      mesh.positions_m[static_cast<std::size_t>(t[2])]) / 3.0;
+  const Vec3 place =
+      (mesh.positions_m[static_cast<std::size_t>(t[0])] + mesh.positions_m[static_cast<std::size_t>(t[1])] +
+       mesh.positions_m[static_cast<std::size_t>(t[2])]) /
+      3.0;
   throw bad_data(name, "surface",
                  fmt::format("{} pairs of triangles cross each other, the first near {}; must be 0. Repair the surface "
                              "there and export it again",

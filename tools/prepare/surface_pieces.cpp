@@ -56,8 +56,8 @@ std::vector<TriangleMesh> pieces_of(const TriangleMesh& mesh) {
     piece.positions_m.push_back(mesh.positions_m[static_cast<std::size_t>(v)]);
   }
   for (const auto& [a, b, c] : mesh.triangles) {
-    piece_at(a).triangles.push_back({index[static_cast<std::size_t>(a)], index[static_cast<std::size_t>(b)],
-                                     index[static_cast<std::size_t>(c)]});
+    piece_at(a).triangles.push_back(
+        {index[static_cast<std::size_t>(a)], index[static_cast<std::size_t>(b)], index[static_cast<std::size_t>(c)]});
   }
   return pieces;
 }

@@ -26,7 +26,8 @@ CgalMesh to_cgal(const geometry::TriangleMesh& mesh) {
   CgalMesh result;
   for (const Vec3& p : mesh.positions_m) result.add_vertex({p.x(), p.y(), p.z()});
   for (const auto& [a, b, c] : mesh.triangles) {
-    result.add_face(Vertex(static_cast<unsigned>(a)), Vertex(static_cast<unsigned>(b)), Vertex(static_cast<unsigned>(c)));
+    result.add_face(Vertex(static_cast<unsigned>(a)), Vertex(static_cast<unsigned>(b)),
+                    Vertex(static_cast<unsigned>(c)));
   }
   return result;
 }

@@ -1,12 +1,5 @@
 #include "prepare/tetrahedralise.h"
 
-#include <poll.h>
-#include <signal.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-#include <fcntl.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
@@ -18,7 +11,13 @@
 #include <vector>
 
 #include <Eigen/Geometry>
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #define TETLIBRARY
 #include <tetgen.h>
@@ -168,7 +167,8 @@ TetMesh tetrahedralise(const std::string& name, const TriangleMesh& surface) {
   ::close(ends[0]);
   if (timed_out) ::kill(child, SIGKILL);
   int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {}
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
   if (timed_out) {
     throw bad_data(name, "tetrahedra", fmt::format("took more than {} s; simplify the surface", kTimeLimit_s));
   }
@@ -179,9 +179,10 @@ TetMesh tetrahedralise(const std::string& name, const TriangleMesh& surface) {
                                WTERMSIG(status)));
   }
   if (WEXITSTATUS(status) != 0) {
-    throw bad_data(name, "tetrahedra",
-                   "TetGen refused the surface; most likely triangles cross or overlap. Repair the surface and export it "
-                   "again");
+    throw bad_data(
+        name, "tetrahedra",
+        "TetGen refused the surface; most likely triangles cross or overlap. Repair the surface and export it "
+        "again");
   }
   return parse_result(name, bytes);
 }

@@ -1,0 +1,78 @@
+// The whole way for the canine elbow: from the measured sections, and from the full meshes, which are not part of the
+// repository (MYOTACT_CANINE_DIR says where they are).
+
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "core/data_folder.h"
+#include "prepare/anatomy_assets.h"
+#include "prepare/assemble.h"
+#include "prepare/loft/loft.h"
+#include "prepare/read_scan.h"
+
+namespace myotact::prepare {
+namespace {
+
+/// Levers about the elbow in the file pose [m], from the section centrelines of the data set's table.
+const std::map<std::string, double> kLevers_m = {{"biceps_brachii", 7.5e-3},
+                                                 {"brachialis", 11.3e-3},
+                                                 {"triceps_brachii_long", -32.1e-3},
+                                                 {"triceps_brachii_lateral", -21.6e-3},
+                                                 {"triceps_brachii_medial", -22.9e-3},
+                                                 {"triceps_brachii_accessory", -30.9e-3},
+                                                 {"anconeus", -16.2e-3}};
+/// The uncertainty of the axis.
+constexpr double kLeverTolerance_m = 3e-3;
+
+void check_reports(const std::vector<SurfaceReport>& reports) {
+  for (const SurfaceReport& report : reports) {
+    if (!report.muscle) continue;
+    ASSERT_EQ(report.levers_m.size(), 1u) << report.key;
+    EXPECT_NEAR(report.levers_m[0].second, kLevers_m.at(report.key), kLeverTolerance_m) << report.key;
+    EXPECT_LT(std::abs(report.cage_volume_error), 0.01) << report.key;
+    EXPECT_GT(report.tets.smallest_dihedral_deg, 5.0) << report.key;
+    EXPECT_LE(report.skin_triangles, 1400) << report.key;
+  }
+}
+
+TEST(FullScan, BecomesASpecimenWithThePublishedLevers) {
+  const char* folder = std::getenv("MYOTACT_CANINE_DIR");
+  if (!folder) GTEST_SKIP() << "MYOTACT_CANINE_DIR is not set: the full canine meshes are not there";
+  PreparedInput input;
+  input.anatomy = read_anatomy(data_folder() / "assets" / "canine");
+  Scan scan = read_scan(std::filesystem::path(folder) / "forelimb_left", input.anatomy);
+  input.bones = std::move(scan.bones);
+  input.muscles = std::move(scan.muscles);
+  std::vector<SurfaceReport> reports;
+  EXPECT_EQ(assemble_specimen(input, {}, reports).muscles.size(), kLevers_m.size());
+  check_reports(reports);
+}
+
+PreparedInput lofted_input() {
+  const std::filesystem::path folder = data_folder() / "assets" / "canine";
+  return {read_anatomy(folder), loft_bones(folder), loft_muscles(folder)};
+}
+
+TEST(Loft, BecomesASpecimenWithThePublishedLevers) {
+  std::vector<SurfaceReport> reports;
+  EXPECT_EQ(assemble_specimen(lofted_input(), {}, reports).muscles.size(), kLevers_m.size());
+  check_reports(reports);
+}
+
+TEST(Loft, GivesTheSameBitsTwice) {
+  std::vector<SurfaceReport> reports;
+  const anatomy::Specimen first = assemble_specimen(lofted_input(), {}, reports);
+  const anatomy::Specimen second = assemble_specimen(lofted_input(), {}, reports);
+  for (std::size_t m = 0; m < first.muscles.size(); ++m) {
+    EXPECT_EQ(first.muscles[m].tets.nodes_m, second.muscles[m].tets.nodes_m);
+    EXPECT_EQ(first.muscles[m].tets.corners, second.muscles[m].tets.corners);
+    EXPECT_EQ(first.muscles[m].fibres, second.muscles[m].fibres);
+    EXPECT_EQ(first.muscles[m].skin.positions_m, second.muscles[m].skin.positions_m);
+  }
+}
+
+}  // namespace
+}  // namespace myotact::prepare
