@@ -59,6 +59,14 @@ void follow_angles(Limb& limb) {
   }
 }
 
+void move_free_nodes(LimbMuscle& muscle, const Eigen::VectorXd& change_m) {
+  for (std::size_t node = 0; node < muscle.tissue.body.size(); ++node) {
+    const int f = muscle.tissue.free_index[node];
+    if (f < 0) continue;
+    muscle.state.now.position_m.segment<3>(static_cast<Eigen::Index>(3 * node)) += change_m.segment<3>(3 * f);
+  }
+}
+
 void read_out(Limb& limb) {
   for (LimbMuscle& muscle : limb.muscles) {
     if (muscle.rigid) continue;

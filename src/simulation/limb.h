@@ -80,6 +80,9 @@ Vec3 spring_slope(const Limb& limb, const ToolSpring& spring, int joint);
 /// Puts the bodies and all clamped nodes where the present angles say; rigid muscles whole.
 void follow_angles(Limb& limb);
 
+/// Adds `change_m` (3 numbers a free node) to the present positions.
+void move_free_nodes(LimbMuscle& muscle, const Eigen::VectorXd& change_m);
+
 /// Copies the outcome of the last forces pass to the muscles' readouts, and the bones' loads to `limb.loads`.
 void read_out(Limb& limb);
 

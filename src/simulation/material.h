@@ -23,10 +23,10 @@ inline constexpr double kBulk_Pa = 3e6;
 
 /// Passive skeletal muscle across the fibres: mu of 5 .. 20 kPa is reported; the stiff end keeps the shape under the
 /// fibres' pull. Density: Mendez and Keys 1960.
-inline constexpr TissueMaterial kMuscleMatrix{20e3, kBulk_Pa - 2.0 / 3.0 * 20e3, 40e3, 1060.0};
+inline constexpr TissueMaterial kMuscleMatrix{10e3, kBulk_Pa - 2.0 / 3.0 * 10e3, 50e3, 1060.0};
 
 /// Sheath around a tendon strand: soft enough not to carry the load that the strand carries, stiff enough to follow it.
-inline constexpr TissueMaterial kTendonSheath{200e3, kBulk_Pa - 2.0 / 3.0 * 200e3, 400e3, 1120.0};
+inline constexpr TissueMaterial kTendonSheath{40e3, kBulk_Pa - 2.0 / 3.0 * 40e3, 100e3, 1120.0};
 
 /// Added to c per pascal of active stress: an active element needs it near clamped ends, where points fold over first.
 inline constexpr double kActiveFluctuation = 0.2;

@@ -168,7 +168,7 @@ MuscleTissue build_muscle_tissue(const anatomy::Specimen& specimen, int index) {
   tissue.mesh = geometry::make_quadratic(muscle.tets, &edges);
   const BellyShape shape = belly_shape(muscle, *found);
   tissue.fibre_map = {muscle.rest_stretch,
-                      shape.length_m / (muscle.optimal_fibre_m * std::cos(muscle.pennation_rad))};
+                      shape.length_m / (muscle.optimal_fibre_m * std::cos(muscle.pennation_rad)), 0.0, 1.0};
   add_elements(muscle, shape, tissue);
   add_masses(tissue);
   add_clamps(muscle, edges, tissue);

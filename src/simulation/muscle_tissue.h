@@ -25,10 +25,15 @@ struct TissueElement {
   std::array<BlockSlot, kTetNodes * (kTetNodes + 1) / 2> slots{};
 };
 
-/// Normalised fibre length n = rest_stretch + gain (stretch - 1).
+/// Normalised fibre length n = rest_stretch + offset + gain (stretch - 1), and the scale of the peak stress. Offset and
+/// scale, and what the gain differs from belly length over (lo cos pennation), come from calibration.h.
 struct FibreMap {
   double rest_stretch = 0.8;
-  double gain = 1.0;  // belly length over (optimal fibre length x cos pennation)
+  double gain = 1.0;
+  double offset = 0.0;
+  double scale = 1.0;
+
+  double length(double stretch) const { return rest_stretch + offset + gain * (stretch - 1.0); }
 };
 
 /// A muscle as the solver sees it: everything that does not change while it moves. n nodes, of which some are clamped

@@ -11,70 +11,57 @@ constexpr double kLargestPart_rad = 0.0873;
 /// Out-of-balance share at which a muscle rests, at the end and between two parts of an angle.
 constexpr double kRestShare = 1e-9;
 constexpr double kRoughShare = 1e-3;
-constexpr int kMostIterations = 200;
-/// Mass over (time constant)^2 is what damps the first iterations: at 2 ms an element's inertia equals its stiffness.
-constexpr double kFirstTime_s = 2e-3;
-constexpr double kShortestTime_s = 1e-6;
-/// Beyond this the damping is far below the stiffness and the iteration is Newton's.
-constexpr double kLongestTime_s = 1e3;
-constexpr double kTimeGrowth = 3.0;
-constexpr double kTimeCut = 0.2;
-/// A guess that folds elements over farther than this is taken back.
+constexpr int kMostIterations = 100;
+/// Mass over (time constant)^2 is added to the matrix: at 2 ms an element's inertia equals its stiffness and a step is
+/// short; beyond 1000 s the iteration is Newton's.
+constexpr double kFirstTime_s = 2e-3, kShortestTime_s = 1e-4, kLongestTime_s = 1e3;
+constexpr double kTimeGrowth = 4.0, kTimeCut = 0.25;
+/// A step ends where the forces along it have fallen to this part of what they were, or still point onwards.
+constexpr double kLineSearchDrop = 0.5;
+constexpr int kMostCuts = 12;
+/// A guess that folds elements over farther than this is not looked at.
 constexpr double kSmallestJ = -0.5;
 
-/// Share of the static residual (no inertia) in the size of the forces.
-double rest_share(const Limb& limb, LimbMuscle& muscle) {
+TissueLoad static_load(const Vec3& gravity_m_s2) {
   TissueLoad load;
-  load.gravity_m_s2 = limb.gravity_m_s2;
-  compute_forces(muscle.tissue, limb.skeleton, load, muscle.state, muscle.system);
+  load.gravity_m_s2 = gravity_m_s2;
+  return load;
+}
+
+double rest_share(const LimbMuscle& muscle) {
   return muscle.system.residual_N.norm() / (muscle.system.force_scale_N + 1e-6);
 }
 
-/// One damped Newton step from the present state. False when it cannot be solved.
-bool damped_step(const Limb& limb, double time_s, LimbMuscle& muscle) {
+/// Tangent with its inertia term; false when not even the safe one can be factored.
+bool prepare(const Skeleton& skeleton, TissueLoad load, double time_s, LimbMuscle& muscle) {
   muscle.state.last.position_m = muscle.state.now.position_m;
-  TissueLoad load;
   load.rule = backward_euler(time_s);
   load.force_velocity = false;
-  load.gravity_m_s2 = limb.gravity_m_s2;
-  compute_system(muscle.tissue, limb.skeleton, load, muscle.state, muscle.system);
-  if (!factor_definite(muscle)) {
-    load.definite = true;
-    compute_system(muscle.tissue, limb.skeleton, load, muscle.state, muscle.system);
-    if (!factor_definite(muscle)) return false;
-  }
-  const Eigen::VectorXd change = muscle.factor.solve(muscle.system.residual_N);
-  if (!change.allFinite()) return false;
-  for (std::size_t node = 0; node < muscle.tissue.body.size(); ++node) {
-    const int f = muscle.tissue.free_index[node];
-    if (f >= 0) muscle.state.now.position_m.segment<3>(static_cast<Eigen::Index>(3 * node)) -= change.segment<3>(3 * f);
-  }
-  return true;
+  compute_system(muscle.tissue, skeleton, load, muscle.state, muscle.system);
+  if (factor_definite(muscle)) return true;
+  load.definite = true;
+  compute_system(muscle.tissue, skeleton, load, muscle.state, muscle.system);
+  return factor_definite(muscle);
 }
 
-/// Pseudo-time iteration: long steps while the residual falls, shorter ones when it does not.
-bool settle_muscle(const Limb& limb, double wanted_share, LimbMuscle& muscle) {
-  TissueState& state = muscle.state;
-  state.last.velocity_m_s.setZero();
-  std::fill(state.stretch_rate_1_s.begin(), state.stretch_rate_1_s.end(), 0.0);
-  double share = rest_share(limb, muscle);
-  double time_s = kFirstTime_s;
-  for (int iteration = 0; iteration < kMostIterations && !(share < wanted_share); ++iteration) {
-    const Eigen::VectorXd position = state.now.position_m;
-    double next = damped_step(limb, time_s, muscle) ? rest_share(limb, muscle) : 1e300;
-    // The residual may rise for a while as the damping is let go; a leap means that the guess left the solution's reach.
-    const bool usable = std::isfinite(next) && next < std::max(3.0 * share, 0.1) && muscle.system.smallest_J > kSmallestJ;
-    if (usable) {
-      time_s = std::min(time_s * (next < share ? kTimeGrowth : 1.0), kLongestTime_s);
-      share = next;
-    } else {
-      state.now.position_m = position;
-      time_s *= kTimeCut;
-      share = rest_share(limb, muscle);
-      if (time_s < kShortestTime_s) break;
-    }
+/// Goes along `direction` as far as the energy falls: every force has a potential in a static solve, and its slope along
+/// the way is residual . direction, so the slope alone tells where to stop. Returns the part gone, 0 when none helps.
+double search_line(const Skeleton& skeleton, const TissueLoad& load, const Eigen::VectorXd& direction,
+                   LimbMuscle& muscle) {
+  const double slope = -muscle.system.residual_N.dot(direction);
+  const Eigen::VectorXd start = muscle.state.now.position_m;
+  double part = 1.0;
+  for (int cut = 0; cut < kMostCuts; ++cut) {
+    move_free_nodes(muscle, part * direction);
+    compute_forces(muscle.tissue, skeleton, load, muscle.state, muscle.system);
+    const double there = -muscle.system.residual_N.dot(direction);  // > 0: still falling
+    const bool seen = std::isfinite(there) && muscle.system.smallest_J > kSmallestJ;
+    if (seen && there > -kLineSearchDrop * slope) return part;
+    muscle.state.now.position_m = start;
+    part *= seen ? std::clamp(slope / (slope - there), 0.1, 0.7) : 0.3;
   }
-  return share < wanted_share;
+  compute_forces(muscle.tissue, skeleton, load, muscle.state, muscle.system);
+  return 0.0;
 }
 
 /// Moves the free nodes with a smooth mix of the bodies' motions from `from` to the present pose.
@@ -107,7 +94,7 @@ bool settle_all(Limb& limb, double wanted_share, WorkerPool& workers) {
   std::vector<char> settled(limb.muscles.size(), 1);
   workers.run(static_cast<int>(limb.muscles.size()), [&](int m) {
     const auto i = static_cast<std::size_t>(m);
-    if (!limb.muscles[i].rigid) settled[i] = settle_muscle(limb, wanted_share, limb.muscles[i]);
+    if (!limb.muscles[i].rigid) settled[i] = settle_muscle(limb.skeleton, limb.gravity_m_s2, wanted_share, limb.muscles[i]);
   });
   return std::all_of(settled.begin(), settled.end(), [](char s) { return s != 0; });
 }
@@ -129,6 +116,24 @@ void bring_to_rest(Limb& limb) {
 
 }  // namespace
 
+bool settle_muscle(const Skeleton& skeleton, const Vec3& gravity_m_s2, double wanted_share, LimbMuscle& muscle) {
+  const TissueLoad load = static_load(gravity_m_s2);
+  muscle.state.last.velocity_m_s.setZero();
+  std::fill(muscle.state.stretch_rate_1_s.begin(), muscle.state.stretch_rate_1_s.end(), 0.0);
+  compute_forces(muscle.tissue, skeleton, load, muscle.state, muscle.system);
+  double time_s = kFirstTime_s;
+  for (int iteration = 0; iteration < kMostIterations && !(rest_share(muscle) < wanted_share); ++iteration) {
+    if (!prepare(skeleton, load, time_s, muscle)) return false;
+    const Eigen::VectorXd direction = -muscle.factor.solve(muscle.system.residual_N);
+    if (!direction.allFinite()) return false;
+    const double part = search_line(skeleton, load, direction, muscle);
+    if (part == 0.0 && time_s <= kShortestTime_s) break;
+    const double change = part == 1.0 ? kTimeGrowth : part < 0.3 ? kTimeCut : 1.0;
+    time_s = std::clamp(time_s * change, kShortestTime_s, kLongestTime_s);
+  }
+  return rest_share(muscle) < wanted_share;
+}
+
 bool settle_limb(Limb& limb, std::span<const double> angles_rad, WorkerPool& workers) {
   const Eigen::VectorXd start = limb.now.angle_rad;
   const Eigen::VectorXd goal = Eigen::Map<const Eigen::VectorXd>(angles_rad.data(), start.size());
@@ -146,9 +151,7 @@ bool settle_limb(Limb& limb, std::span<const double> angles_rad, WorkerPool& wor
 
 void refresh_muscle_stiffness(const Limb& limb, LimbMuscle& muscle) {
   if (muscle.rigid) return;
-  TissueLoad load;
-  load.gravity_m_s2 = limb.gravity_m_s2;
-  compute_system(muscle.tissue, limb.skeleton, load, muscle.state, muscle.system);
+  compute_system(muscle.tissue, limb.skeleton, static_load(limb.gravity_m_s2), muscle.state, muscle.system);
   if (!muscle.factor.factor(muscle.system.matrix)) return;
   const Eigen::MatrixXd solution = muscle.factor.solve(muscle.system.coupling_N_rad);
   const Eigen::MatrixXd whole =

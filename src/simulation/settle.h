@@ -10,6 +10,10 @@ namespace myotact::simulation {
 /// did not come to rest; the state is then its best one.
 bool settle_limb(Limb& limb, std::span<const double> angles_rad, WorkerPool& workers);
 
+/// Static equilibrium of one muscle in the skeleton's pose, from its present state, until the out-of-balance force is
+/// below `wanted_share` of the size of the forces. False when it does not get there.
+bool settle_muscle(const Skeleton& skeleton, const Vec3& gravity_m_s2, double wanted_share, LimbMuscle& muscle);
+
 /// Refreshes the quasi-static stiffness of one muscle about every joint: -d(torque)/d(angle) at held activation with the
 /// tissue following in equilibrium (Schur complement of the static tangent, no inertia, no force-velocity). Keeps the
 /// old value when the tangent is singular.

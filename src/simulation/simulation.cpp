@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "simulation/activation.h"
+#include "simulation/calibration.h"
 #include "simulation/line_model.h"
 #include "simulation/settle.h"
 #include "simulation/step.h"
@@ -50,6 +51,9 @@ struct Simulation::Impl {
     for (std::size_t m = 0; m < settings.tissue.size(); ++m) {
       limb.muscles[m].rigid = settings.tissue[m] == TissueModel::Rigid;
     }
+    workers.run(static_cast<int>(specimen.muscles.size()), [&](int m) {
+      if (!limb.muscles[at(m)].rigid) calibrate_muscle(specimen, m, limb.skeleton, limb.muscles[at(m)]);
+    });
     for (int m = 0; m < static_cast<int>(specimen.muscles.size()); ++m) {
       const auto found = std::find_if(specimen.lines.begin(), specimen.lines.end(),
                                       [m](const anatomy::MuscleLine& l) { return l.muscle == m; });

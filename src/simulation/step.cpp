@@ -146,12 +146,7 @@ void read_compliance(Limb& limb, const SmallSystem& small) {
 /// Moves a muscle's nodes by the solution, computes its forces there and how far they are from balance.
 void substitute(const Limb& limb, const Eigen::VectorXd& small_solution, const TissueLoad& load, int index,
                 LimbMuscle& muscle) {
-  const Eigen::VectorXd change = -muscle.free_solution - muscle.border_solution * small_solution;
-  for (std::size_t node = 0; node < muscle.tissue.body.size(); ++node) {
-    const int f = muscle.tissue.free_index[node];
-    if (f < 0) continue;
-    muscle.state.now.position_m.segment<3>(static_cast<Eigen::Index>(3 * node)) += change.segment<3>(3 * f);
-  }
+  move_free_nodes(muscle, -muscle.free_solution - muscle.border_solution * small_solution);
   compute_forces(muscle.tissue, limb.skeleton, load, muscle.state, muscle.system);
   Eigen::VectorXd unbalanced = muscle.system.residual_N;
   for (const ToolSpring& spring : limb.springs) {

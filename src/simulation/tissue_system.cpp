@@ -56,14 +56,14 @@ FibreStress fibre_stress(const Pass& pass, const TissueElement& element, std::si
   FibreStress fibre;
   if (element.peak_Pa == 0.0) return fibre;
   const FibreMap& map = pass.tissue.fibre_map;
-  const double a = pass.state.activation;
+  const double a = pass.state.activation, peak = map.scale * element.peak_Pa;
   for (std::size_t p = 0; p < kTetPoints; ++p) {
-    const double n = map.rest_stretch + map.gain * (points.stretch[p] - 1.0);
+    const double n = map.length(points.stretch[p]);
     const SpeedFactor speed = speed_factor(pass, first_point + p, points.stretch[p]);
     const double length = active_force_length(n);
-    fibre.stress_Pa[p] = element.peak_Pa * (a * length * speed.value + passive_force_length(n));
+    fibre.stress_Pa[p] = peak * (a * length * speed.value + passive_force_length(n));
     fibre.slope_Pa[p] =
-        element.peak_Pa * ((a * active_force_length_slope(n) * speed.value + passive_force_length_slope(n)) * map.gain +
+        peak * ((a * active_force_length_slope(n) * speed.value + passive_force_length_slope(n)) * map.gain +
                            a * length * speed.slope);
   }
   return fibre;

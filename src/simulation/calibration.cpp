@@ -1,0 +1,125 @@
+#include "simulation/calibration.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/line_model.h"
+#include "simulation/settle.h"
+
+namespace myotact::simulation {
+namespace {
+
+constexpr double kActivation = 0.5;  // the middle of the range: the rest lies on both sides
+constexpr int kMostRounds = 8;
+/// Agreement at which the rounds end. Under half of the 5 % that a specimen is allowed.
+constexpr double kCloseEnough = 0.02;
+/// Out-of-balance share to which each round is solved.
+constexpr double kRoundShare = 1e-5;
+/// A round changes scale and gain by no more than this factor, so that the guess of the next one stays near.
+constexpr double kLargestFactor = 1.3;
+/// Limits of the whole adjustment; beyond them the mesh is too coarse or too bent to stand for the line.
+constexpr double kSmallestScale = 0.4, kLargestScale = 2.5;
+/// Turn for the slope of the tension, small against any curvature, large against rounding [rad].
+constexpr double kProbe_rad = 1e-6;
+
+/// The line at the file pose and the joint that changes its length most.
+struct LineTarget {
+  LineForce force;
+  int joint = -1;
+  double slope_m_rad = 0.0;
+};
+
+LineTarget line_target(const anatomy::Specimen& specimen, int index, const Skeleton& skeleton) {
+  const auto line = std::find_if(specimen.lines.begin(), specimen.lines.end(),
+                                 [&](const anatomy::MuscleLine& l) { return l.muscle == index; });
+  LineGeometry geometry;
+  measure_line(*line, skeleton, geometry);
+  LineTarget target{line_force(specimen.muscles[static_cast<std::size_t>(index)], 0.0, 0.0, kActivation)};
+  const double smallest_lever_m = 1e-4;
+  for (int j = 0; j < skeleton.joint_count(); ++j) {
+    const double slope = geometry.slope_m_rad[j];
+    if (std::abs(slope) < std::max(smallest_lever_m, std::abs(target.slope_m_rad))) continue;
+    target.joint = j;
+    target.slope_m_rad = slope;
+  }
+  return target;
+}
+
+/// Change of the tension with a joint's angle, the free nodes following in equilibrium [N/rad]. At a settled state.
+double tension_slope(const Skeleton& skeleton, int joint, LimbMuscle& muscle) {
+  const TissueLoad load;
+  compute_system(muscle.tissue, skeleton, load, muscle.state, muscle.system);
+  if (!muscle.factor.factor(muscle.system.matrix)) return std::nan("");
+  const Eigen::VectorXd follow = muscle.factor.solve(muscle.system.coupling_N_rad.col(joint));
+  const double tension_N = muscle.system.tension_N;
+  const Eigen::VectorXd kept = muscle.state.now.position_m;
+  std::vector<double> angles(static_cast<std::size_t>(skeleton.joint_count()));
+  for (int j = 0; j < skeleton.joint_count(); ++j) angles[static_cast<std::size_t>(j)] = skeleton.angle_rad(j);
+  angles[static_cast<std::size_t>(joint)] += kProbe_rad;
+  Skeleton turned = skeleton;
+  turned.set_pose(angles);
+  move_free_nodes(muscle, -kProbe_rad * follow);
+  place_clamped(muscle.tissue, turned, muscle.state);
+  compute_forces(muscle.tissue, turned, load, muscle.state, muscle.system);
+  muscle.state.now.position_m = kept;
+  return (muscle.system.tension_N - tension_N) / kProbe_rad;
+}
+
+/// Mean normalised length of the fibres.
+double mean_length(const MuscleTissue& tissue, const TissueState& state) {
+  double sum = 0.0, volume = 0.0;
+  for (std::size_t t = 0; t < tissue.elements.size(); ++t) {
+    if (tissue.elements[t].peak_Pa == 0.0) continue;
+    for (std::size_t p = 0; p < kTetPoints; ++p) {
+      sum += tissue.elements[t].rest.point_volume_m3 * tissue.fibre_map.length(state.now.stretch[t * kTetPoints + p]);
+    }
+    volume += kTetPoints * tissue.elements[t].rest.point_volume_m3;
+  }
+  return volume > 0.0 ? sum / volume : tissue.fibre_map.rest_stretch;
+}
+
+double error_of(const LineAgreement& agreement) {
+  const double error = std::max(std::abs(agreement.force - 1.0), std::abs(agreement.stiffness - 1.0));
+  return std::isfinite(error) ? error : 1e300;
+}
+
+LineAgreement measure(const LineTarget& target, const Skeleton& skeleton, LimbMuscle& muscle) {
+  if (!settle_muscle(skeleton, Vec3::Zero(), kRoundShare, muscle)) return {std::nan(""), std::nan("")};
+  LineAgreement agreement{muscle.system.tension_N / target.force.force_N, 1.0};
+  if (target.joint >= 0 && target.force.stiffness_N_m > 0.0) {
+    const double slope = tension_slope(skeleton, target.joint, muscle);
+    agreement.stiffness = slope / target.slope_m_rad / target.force.stiffness_N_m;
+  }
+  return agreement;
+}
+
+double bounded(double factor) { return std::clamp(factor, 1.0 / kLargestFactor, kLargestFactor); }
+
+}  // namespace
+
+LineAgreement calibrate_muscle(const anatomy::Specimen& specimen, int index, const Skeleton& skeleton,
+                               LimbMuscle& muscle) {
+  const LineTarget target = line_target(specimen, index, skeleton);
+  FibreMap& map = muscle.tissue.fibre_map;
+  const FibreMap plain = map;
+  muscle.state.activation = kActivation;
+  FibreMap best_map = map;
+  LineAgreement best{std::nan(""), std::nan("")};
+  for (int round = 0; round < kMostRounds && !(error_of(best) < kCloseEnough); ++round) {
+    const LineAgreement now = measure(target, skeleton, muscle);
+    if (error_of(now) < error_of(best)) {
+      best = now;
+      best_map = map;
+    }
+    if (!std::isfinite(now.force) || !(now.force > 0.0)) break;
+    map.offset += map.rest_stretch - mean_length(muscle.tissue, muscle.state);
+    map.scale = std::clamp(map.scale * bounded(1.0 / now.force), kSmallestScale, kLargestScale);
+    const double steeper = now.stiffness > 0.0 ? bounded(1.0 / now.stiffness) : kLargestFactor;
+    map.gain = std::clamp(map.gain * steeper, kSmallestScale * plain.gain, kLargestScale * plain.gain);
+  }
+  map = best_map;
+  muscle.state = make_state(muscle.tissue);
+  return best;
+}
+
+}  // namespace myotact::simulation
