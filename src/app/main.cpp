@@ -46,7 +46,7 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
   const auto bind = [&](CLI::App* command, int (*function)(const Options&)) {
     command->callback([&action, function] { action = function; });
   };
-  //VIEW
+  bind(add_scene_command(program, options, "view", "the window (default)"), myotact::app::view);
   CLI::App* run = add_scene_command(program, options, "run", "no window: a scripted hand acts, tables and a picture come out");
   run->add_flag("--realtime", options.realtime, "run free on the wall clock, as the window does, and report the timing");
   run->add_option("--every", options.every, "keep every n-th tick in samples.csv")->check(CLI::Range(1, 1000000));
@@ -74,7 +74,7 @@ int report(ExitStatus status, const std::string& text) {
 int main(int argc, char** argv) {
   CLI::App program("Feel the muscles of a dog's limb. Not a medical device.", "myotact");
   Options options;
-  std::function<int(const Options&)> action = myotact::app::run;
+  std::function<int(const Options&)> action = myotact::app::view;
   declare(program, options, action);
   try {
     program.parse(argc, argv);

@@ -1,6 +1,9 @@
 #include "app/options.h"
 
+#include <algorithm>
+
 #include "core/error.h"
+#include "core/text.h"
 
 namespace myotact::app {
 
@@ -22,8 +25,19 @@ scene::Scene scene_of(const Options& options) {
   if (options.devices.size() > 1) {
     throw Error(ExitStatus::Usage, "--device: more than one tool is not in this version; name one device");
   }
+  static const std::vector<std::string> kKnown = {"simulated", "mouse"};
+  for (const std::string& name : options.devices) {
+    if (std::find(kKnown.begin(), kKnown.end(), name) != kKnown.end()) continue;
+    throw Error(ExitStatus::Unavailable, "--device " + name + ": there is no such device; \"myotact devices\" lists " +
+                                             join(kKnown) + " (nearest: " + nearest_word(name, kKnown) + ")");
+  }
   if (!options.devices.empty()) scene.tools.front().device = options.devices.front();
   return scene;
+}
+
+std::unique_ptr<scene::RecordingWriter> open_recorder(const Options& options, const scene::Scene& scene) {
+  if (!options.record) return nullptr;
+  return std::make_unique<scene::RecordingWriter>(*options.record, scene::recording_header(scene, options.seed));
 }
 
 }  // namespace myotact::app

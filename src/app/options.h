@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "scene/recording.h"
 #include "scene/scene_file.h"
 
 namespace myotact::app {
@@ -34,6 +36,9 @@ scene::Overrides overrides_of(const Options& options);
 
 /// The scene of the command line with --set, --device and --workers applied.
 scene::Scene scene_of(const Options& options);
+
+/// A recorder on the file of --record, or null. Throws Error InputOutput.
+std::unique_ptr<scene::RecordingWriter> open_recorder(const Options& options, const scene::Scene& scene);
 
 // One function a subcommand, in the file of its name. Each returns the exit status of the program or throws Error.
 int run(const Options& options);

@@ -12,7 +12,7 @@ namespace myotact::app {
 
 namespace {
 
-constexpr int kWidth = 1280, kHeight = 960;
+constexpr int kWidth = 900, kHeight = 1200;
 
 }  // namespace
 
@@ -22,9 +22,9 @@ void write_picture(const scene::Scene& scene, const simulation::Simulation& simu
   simulation.write_frame(frame);
   frame.tools.assign(1, {tool.tool_position_world_m, tool.proxy_position_world_m, tool.force_world_N,
                          scene.tools.front().radius_m, tool.contact.surface >= 0, tool.grabbed_line});
-  const view::Bounds bounds = view::bounds_of(scene.specimen);
+  constexpr float kAspect = static_cast<float>(kWidth) / static_cast<float>(kHeight);
   const auto camera =
-      view::standard_view(view, scene.specimen.side != "right", bounds.lowest_m, bounds.highest_m);
+      view::standard_view(view, scene.specimen.side != "right", view::bounds_of(scene.specimen), kAspect);
   try {
     view::OffscreenRenderer renderer(scene.specimen, kWidth, kHeight);
     view::write_png(path, renderer.render(frame, camera.value_or(view::Camera{})));

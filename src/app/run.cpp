@@ -48,11 +48,6 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-std::unique_ptr<scene::RecordingWriter> open_recorder(const Options& options, const scene::Scene& scene) {
-  if (!options.record) return nullptr;
-  return std::make_unique<scene::RecordingWriter>(*options.record, scene::recording_header(scene, options.seed));
-}
-
 /// Joint that the summary watches: the co-contraction's, or none.
 std::optional<double> watched_angle(const scene::Scene& scene, const simulation::Simulation& simulation) {
   if (!scene.co_contraction) return std::nullopt;
@@ -101,7 +96,7 @@ RunSummary run_lockstep(const Options& options, const scene::Scene& scene, simul
 nlohmann::json run_free(const Options& options, const scene::Scene& scene, simulation::Simulation& simulation,
                         RunSummary& summary) {
   const auto recorder = open_recorder(options, scene);
-  device::SimulatedDevice device(scene.tools.front().device, Vec3(0.0, 0.0, 0.0));
+  device::SimulatedDevice device(scene.tools.front().device, scene::start_of_hand(scene.specimen));
   scene::FreeSession session(scene, simulation, device, &device, recorder.get());
   const double end_s = options.seconds.value_or(session.script_end_s());
   session.start();

@@ -13,13 +13,6 @@ namespace {
 constexpr double kStartAside_m = 0.15;
 constexpr double kSliderGlide_s = 0.1;  // a slider's jump is spread over this
 
-Vec3 start_of_hand(const anatomy::Specimen& specimen) {
-  Vec3 sum = Vec3::Zero();
-  for (const auto& muscle : specimen.muscles) sum += muscle.skin.positions_m.front();
-  const double side = specimen.side == "right" ? -1.0 : 1.0;
-  return sum / static_cast<double>(specimen.muscles.size()) + side * kStartAside_m * Vec3::UnitY();
-}
-
 std::vector<double> start_angles(const Scene& scene) {
   std::vector<double> angles;
   for (const JointSetting& joint : scene.joints) angles.push_back(joint.angle_rad);
@@ -27,6 +20,13 @@ std::vector<double> start_angles(const Scene& scene) {
 }
 
 }  // namespace
+
+Vec3 start_of_hand(const anatomy::Specimen& specimen) {
+  Vec3 sum = Vec3::Zero();
+  for (const auto& muscle : specimen.muscles) sum += muscle.skin.positions_m.front();
+  const double side = specimen.side == "right" ? -1.0 : 1.0;
+  return sum / static_cast<double>(specimen.muscles.size()) + side * kStartAside_m * Vec3::UnitY();
+}
 
 double Conductor::Ramp::at(double time_s) const {
   if (time_s >= end_s) return to;

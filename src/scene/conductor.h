@@ -67,6 +67,9 @@ class Conductor {
   std::optional<TakePicture> picture_;
 };
 
+/// Where the hand begins: beside the limb, out of reach of every muscle.
+Vec3 start_of_hand(const anatomy::Specimen& specimen);
+
 /// Tells the simulation what a step's record says.
 void apply(const StepRecord& input, simulation::Simulation& simulation);
 

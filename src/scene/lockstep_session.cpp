@@ -46,9 +46,8 @@ void LockstepSession::publish_model() {
 
 void LockstepSession::run_ticks() {
   const auto ticks = static_cast<int>(std::llround(scene_->settings.dt_s * 1e9 / static_cast<double>(kTick_ns)));
-  const double start_s = simulation_->time_s();
   for (int i = 0; i < ticks; ++i) {
-    const double time_s = start_s + 1e-3 * i;
+    const double time_s = static_cast<double>(clock_ns_ - kTick_ns) / 1e9;  // by division: the nearest to whole ms
     const HandTarget hand = conductor_.hand(time_s);
     device_.set_hand_target({to_array(hand.position_world_m), {}, hand.buttons});
     loop_.tick(clock_ns_);

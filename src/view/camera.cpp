@@ -43,8 +43,28 @@ void Camera::pan(float right, float up) {
 
 void Camera::zoom(float factor) { distance_m = std::clamp(distance_m * factor, 0.02f, 20.0f); }
 
-std::optional<Camera> standard_view(const std::string& name, bool left_limb, const glm::vec3& lowest_m,
-                                    const glm::vec3& highest_m) {
+namespace {
+
+/// Distance from which all corners of the box lie inside the picture, with a margin.
+float fitting_distance_m(const Camera& camera, const ViewBox& box, float aspect) {
+  constexpr float kMargin = 1.08f;
+  const float up_slope = std::tan(0.5f * Camera::kFieldOfView_rad) / kMargin;
+  float distance_m = 0.05f;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::vec3 at((corner & 1) != 0 ? box.highest_m.x : box.lowest_m.x,
+                       (corner & 2) != 0 ? box.highest_m.y : box.lowest_m.y,
+                       (corner & 4) != 0 ? box.highest_m.z : box.lowest_m.z);
+    const glm::vec3 out = at - camera.target_world_m;
+    const float up = std::abs(glm::dot(out, camera.up_world())) / up_slope;
+    const float right = std::abs(glm::dot(out, camera.right_world())) / (up_slope * aspect);
+    distance_m = std::max(distance_m, std::max(up, right) - glm::dot(out, camera.forward_world()));
+  }
+  return distance_m;
+}
+
+}  // namespace
+
+std::optional<Camera> standard_view(const std::string& name, bool left_limb, const ViewBox& box, float aspect) {
   const float lateral = left_limb ? 0.5f * kPi : -0.5f * kPi;
   Camera camera;
   if (name == "lateral") {
@@ -61,10 +81,8 @@ std::optional<Camera> standard_view(const std::string& name, bool left_limb, con
   } else {
     return std::nullopt;
   }
-  camera.target_world_m = 0.5f * (lowest_m + highest_m);
-  constexpr float kMargin = 1.02f;
-  const float radius_m = 0.5f * glm::length(highest_m - lowest_m);
-  camera.distance_m = kMargin * std::max(radius_m, 0.01f) / std::sin(0.5f * Camera::kFieldOfView_rad);
+  camera.target_world_m = 0.5f * (box.lowest_m + box.highest_m);
+  camera.distance_m = fitting_distance_m(camera, box, aspect);
   return camera;
 }
 

@@ -31,8 +31,10 @@ struct Camera {
 };
 
 /// Standard views of a limb: lateral, medial, cranial, caudal, dorsal, palmar; nothing for another name. `left_limb`:
-/// lateral is the limb's own left side. The whole box [lowest, highest] is in the picture.
-std::optional<Camera> standard_view(const std::string& name, bool left_limb, const glm::vec3& lowest_m,
-                                    const glm::vec3& highest_m);
+/// lateral is the limb's own left side. The whole box fits into a picture of the given width over height.
+struct ViewBox {
+  glm::vec3 lowest_m{0.0f}, highest_m{0.0f};
+};
+std::optional<Camera> standard_view(const std::string& name, bool left_limb, const ViewBox& box, float aspect);
 
 }  // namespace myotact::view

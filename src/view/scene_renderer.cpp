@@ -66,7 +66,7 @@ DrawMesh bone_mesh(const anatomy::Bone& bone) {
 }
 
 /// Squares of 50 mm on the ground, fading outwards.
-DrawMesh grid_mesh(const Bounds& bounds) {
+DrawMesh grid_mesh(const ViewBox& bounds) {
   constexpr float kSquare_m = 0.05f;
   constexpr int kSquares = 6;
   DrawMesh mesh;
@@ -89,8 +89,8 @@ DrawMesh grid_mesh(const Bounds& bounds) {
 
 }  // namespace
 
-Bounds bounds_of(const anatomy::Specimen& specimen) {
-  Bounds bounds{glm::vec3(1e9f), glm::vec3(-1e9f)};
+ViewBox bounds_of(const anatomy::Specimen& specimen) {
+  ViewBox bounds{glm::vec3(1e9f), glm::vec3(-1e9f)};
   const auto include = [&](const geometry::TriangleMesh& surface) {
     for (const Vec3& position : surface.positions_m) {
       bounds.lowest_m = glm::min(bounds.lowest_m, to_glm(position));

@@ -15,12 +15,8 @@ namespace myotact::view {
 /// Lengths and colours of the picture that its legend must tell.
 inline constexpr float kArrowLength_m_N = 0.02f;  // the force arrow
 
-struct Bounds {
-  glm::vec3 lowest_m{0.0f}, highest_m{0.0f};
-};
-
 /// Box around the specimen at the file pose.
-Bounds bounds_of(const anatomy::Specimen& specimen);
+ViewBox bounds_of(const anatomy::Specimen& specimen);
 
 /// Draws bones, muscles coloured by activation, muscle lines, tool, proxy and force arrow into the bound framebuffer.
 /// Needs a current OpenGL 3.3 core context from first to last.

@@ -1,0 +1,155 @@
+#include "view/panels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "view/colour_map.h"
+#include "view/key_bindings.h"
+
+namespace myotact::view {
+
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr float kPlotHeight = 74.0f;
+
+ImVec4 colour_of(double activation) {
+  const glm::vec3 c = cividis(activation);
+  return {c.r, c.g, c.b, 1.0f};
+}
+
+bool slider(const char* label, double& value, float lowest, float highest) {
+  auto number = static_cast<float>(value);
+  const bool moved = ImGui::SliderFloat(label, &number, lowest, highest, "%.2f");
+  if (moved) value = static_cast<double>(number);
+  return moved;
+}
+
+void draw_play(ViewControls& controls) {
+  if (ImGui::Button(controls.paused ? "Play" : "Pause")) controls.paused = !controls.paused;
+  ImGui::SameLine();
+  if (ImGui::Button("Step")) {
+    controls.paused = true;
+    ++controls.steps;
+  }
+  ImGui::SameLine();
+  if (ImGui::Button("Reset")) ++controls.resets;
+  ImGui::SameLine();
+  if (ImGui::Button(controls.forces_off ? "Forces on" : "Forces off")) controls.forces_off = !controls.forces_off;
+  ImGui::SameLine();
+  ImGui::TextDisabled("F1: keys");
+}
+
+void draw_sliders(ViewControls& controls) {
+  ImGui::TextUnformatted("Activation");
+  if (slider("flexors", controls.flexors, 0.0f, 1.0f) | slider("extensors", controls.extensors, 0.0f, 1.0f)) {
+    controls.levels_changed = true;
+    controls.balance_changed = false;
+  }
+  ImGui::TextUnformatted("Co-contraction at zero net torque");
+  if (slider("common", controls.common, 0.0f, 1.0f) | slider("difference", controls.difference, -0.5f, 0.5f)) {
+    controls.balance_changed = true;
+    controls.levels_changed = false;
+  }
+  ImGui::Checkbox("hold posture", &controls.hold_posture);
+  ImGui::SameLine();
+  ImGui::Checkbox("gravity", &controls.gravity);
+}
+
+void draw_muscles(const anatomy::Specimen& specimen, const messages::SceneFrame& frame) {
+  for (std::size_t m = 0; m < specimen.muscles.size() && m < frame.activations.size(); ++m) {
+    ImGui::PushStyleColor(ImGuiCol_PlotHistogram, colour_of(std::max(frame.activations[m], 0.15)));
+    const std::string text = fmt::format("{:.0f} %  {:.0f} N", 100.0 * frame.activations[m], frame.tensions_N[m]);
+    ImGui::ProgressBar(static_cast<float>(frame.activations[m]), ImVec2(130, 0), text.c_str());
+    ImGui::PopStyleColor();
+    ImGui::SameLine();
+    ImGui::TextUnformatted(specimen.muscles[m].name_en.c_str());
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", specimen.muscles[m].name_la.c_str());
+  }
+}
+
+void draw_legend() {
+  ImGui::TextUnformatted("activation");
+  ImGui::SameLine();
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  constexpr float kWidth = 160.0f;
+  constexpr int kParts = 32;
+  const float height = ImGui::GetTextLineHeight();
+  for (int i = 0; i < kParts; ++i) {
+    const float x = corner.x + kWidth * static_cast<float>(i) / kParts;
+    ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(x, corner.y), ImVec2(x + kWidth / kParts, corner.y + height),
+                                              ImGui::GetColorU32(colour_of((i + 0.5) / kParts)));
+  }
+  ImGui::Dummy(ImVec2(kWidth, height));
+  ImGui::SameLine();
+  ImGui::TextUnformatted("0 .. 1");
+}
+
+void draw_force_bar(double force_N, double peak_N) {
+  const std::string text = fmt::format("force {:.2f} of {:.1f} N", force_N, peak_N);
+  ImGui::ProgressBar(static_cast<float>(force_N / peak_N), ImVec2(-1, 0), text.c_str());
+}
+
+void draw_rates(const messages::RateFrame& rates) {
+  ImGui::TextWrapped("simulation %.0f Hz, haptics %.0f Hz, %llu ticks missed, time x %.2f", rates.simulation_hz,
+                     rates.haptic_hz, static_cast<unsigned long long>(rates.missed_ticks), rates.time_factor);
+}
+
+void draw_help() {
+  ImGui::Begin("Keys", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
+  for (const KeyBinding& binding : key_bindings()) {
+    ImGui::Text("%-10s %s", std::string(binding.name).c_str(), std::string(binding.what).c_str());
+  }
+  ImGui::Separator();
+  ImGui::TextUnformatted("left drag     orbit\nright drag    pan\nwheel         zoom\nCtrl + mouse  the hand; wheel: depth");
+  ImGui::End();
+}
+
+void update_plots(const messages::SceneFrame& frame, PanelState& state) {
+  if (state.joint < static_cast<int>(frame.joints.size())) {
+    const auto& joint = frame.joints[static_cast<std::size_t>(state.joint)];
+    state.angle.add(frame.time_s, joint.angle_rad * kDegrees);
+    state.stiffness.add(frame.time_s, joint.stiffness_Nm_rad);
+  }
+  if (!frame.tools.empty()) {
+    const auto& f = frame.tools[0].force_world_N;
+    state.force.add(frame.time_s, std::hypot(f[0], f[1], f[2]));
+  }
+}
+
+}  // namespace
+
+void draw_panels(const anatomy::Specimen& specimen, const messages::SceneFrame& frame, PanelState& state,
+                  ViewControls& controls) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  update_plots(frame, state);
+  ImGui::SetNextWindowPos(ImVec2(display.x - kPanelWidth, 0));
+  ImGui::SetNextWindowSize(ImVec2(kPanelWidth, display.y));
+  ImGui::Begin("Myotact", nullptr,
+               ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar);
+  draw_play(controls);
+  ImGui::Separator();
+  draw_sliders(controls);
+  ImGui::Separator();
+  draw_muscles(specimen, frame);
+  draw_legend();
+  ImGui::Separator();
+  state.angle.draw(kPlotHeight);
+  state.stiffness.draw(kPlotHeight);
+  state.force.draw(kPlotHeight);
+  if (!frame.tools.empty()) {
+    const auto& f = frame.tools[0].force_world_N;
+    draw_force_bar(std::hypot(f[0], f[1], f[2]), state.device_peak_N);
+  }
+  ImGui::Separator();
+  draw_rates(frame.rates);
+  ImGui::TextDisabled("Not a medical device.");
+  ImGui::End();
+  if (state.help) draw_help();
+}
+
+}  // namespace myotact::view

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace myotact::view {
+
+/// What the person at the window asks for, as of this picture. The window knows neither simulation nor device.
+struct ViewControls {
+  double flexors = 0.0, extensors = 0.0;  // 0 .. 1
+  double common = 0.0;                    // 0 .. 1
+  double difference = 0.0;                // -1 .. 1
+  bool levels_changed = false;            // one of the first two was moved, ever; the last group moved counts
+  bool balance_changed = false;           // one of the second two was
+  bool hold_posture = false;
+  bool gravity = false;
+  bool paused = false;
+  bool forces_off = false;
+  std::uint32_t steps = 0;                // single steps asked for so far
+  std::uint32_t resets = 0;               // resets asked for so far
+  bool hand_moves = false;                // the mouse is the hand now
+  std::array<double, 3> hand_world_m{};
+  std::uint32_t hand_buttons = 0;
+};
+
+}  // namespace myotact::view

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "anatomy/specimen.h"
+#include "messages/scene_frame.h"
+#include "view/view_controls.h"
+
+namespace myotact::view {
+
+struct WindowSettings {
+  std::string title = "Myotact";
+  int width = 1280, height = 800;
+  double device_peak_N = 3.3;
+  int joint = 0;                                // shown in the plots
+  ViewControls start;                           // what the sliders show at first
+  std::array<double, 3> hand_start_world_m{};   // where the mouse takes the hand up
+};
+
+/// The window: scene, panels, mouse and keys. Everything on the thread that made it.
+class Window {
+ public:
+  /// Throws Error Unavailable without a display or without OpenGL 3.3.
+  Window(const anatomy::Specimen& specimen, const WindowSettings& settings);
+  ~Window();
+
+  /// Handles input, draws one picture, waits for the display. Returns what the person asks for.
+  const ViewControls& draw(const messages::SceneFrame& frame);
+  bool should_close() const;
+  /// The next picture is also written to this PNG.
+  void save_next_picture(const std::filesystem::path& path);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace myotact::view
