@@ -1,0 +1,72 @@
+// The program as its users run it: files left, repeatable bytes, replay, interruption.
+
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/program.h"
+
+namespace myotact::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string content(const std::filesystem::path& path) {
+  std::stringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+std::string at(const TemporaryFolder& folder, const std::string& name) { return (folder.path() / name).string(); }
+
+TEST(Run, SameBytesTwiceAndWithOneAndTwoWorkers) {
+  TemporaryFolder folder;
+  const std::string common = "run elbow --levels 0 --seconds 1.2 --out ";
+  ASSERT_EQ(run_program(common + at(folder, "a") + " --workers 2 --record " + at(folder, "a.rec")).status, 0);
+  ASSERT_EQ(run_program(common + at(folder, "b") + " --workers 2").status, 0);
+  ASSERT_EQ(run_program(common + at(folder, "c") + " --workers 1", "LC_ALL=de_DE.UTF-8").status, 0);
+  const std::string first = content(folder.path() / "a" / "samples.csv");
+  EXPECT_GT(first.size(), 100'000u);
+  EXPECT_EQ(first, content(folder.path() / "b" / "samples.csv"));
+  EXPECT_EQ(first, content(folder.path() / "c" / "samples.csv"));
+  for (const char* file : {"summary.json", "stiffness.csv", "stiffness.svg"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "a" / file)) << file;
+  }
+  const Outcome replayed = run_program("replay --json " + at(folder, "a.rec"));
+  EXPECT_EQ(replayed.status, 0) << replayed.output;
+  EXPECT_THAT(replayed.output, HasSubstr("\"equal\": true"));
+}
+
+TEST(Run, TouchIsFeltInTheTable) {
+  TemporaryFolder folder;
+  ASSERT_EQ(run_program("run elbow --levels 0 --seconds 1.2 --out " + at(folder, "out")).status, 0);
+  std::istringstream table(content(folder.path() / "out" / "samples.csv"));
+  std::string line;
+  std::getline(table, line);
+  EXPECT_THAT(line, HasSubstr("t_s,tool_x_m"));
+  EXPECT_THAT(line, HasSubstr("elbow_K_Nm_rad,a_biceps_brachii"));
+  int rows = 0, touching = 0;
+  while (std::getline(table, line)) {
+    ++rows;
+    std::istringstream fields(line);
+    std::string field;
+    for (int i = 0; i < 12; ++i) std::getline(fields, field, ',');
+    touching += field == "1" ? 1 : 0;
+  }
+  EXPECT_EQ(rows, 1200);
+  EXPECT_GT(touching, 100);
+}
+
+TEST(Run, InterruptedRunStillLeavesItsTables) {
+  TemporaryFolder folder;
+  const Outcome outcome = run_program("run elbow --seconds 600 --out " + at(folder, "out"), "timeout -s INT 12");
+  EXPECT_EQ(outcome.status, 124);  // timeout's own status; the program's files tell how it ended
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "out" / "samples.csv"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "out" / "summary.json"));
+}
+
+}  // namespace
+}  // namespace myotact::testing

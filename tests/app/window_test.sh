@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# Opens the window on a virtual display, drags the co-contraction slider with a real pointer, and looks at the picture:
+# the slider's grip and the muscles' bars must have moved.
+set -euo pipefail
+program="$1"
+for tool in Xvfb xdotool import convert; do
+  if ! command -v "$tool" >/dev/null; then
+    echo "skipped: $tool is not installed (packages xvfb, xdotool, imagemagick)"
+    exit 77
+  fi
+done
+folder="$(mktemp -d)"
+display=":$((90 + RANDOM % 900))"
+Xvfb "$display" -screen 0 1280x800x24 -nolisten tcp >/dev/null 2>&1 &
+server=$!
+window=""
+trap 'kill ${window:-} $server 2>/dev/null; rm -rf "$folder"' EXIT
+export DISPLAY="$display"
+for _ in $(seq 50); do xdotool getdisplaygeometry >/dev/null 2>&1 && break; sleep 0.1; done
+
+"$program" view elbow --out "$folder" >"$folder/log" 2>&1 &
+window=$!
+for _ in $(seq 240); do
+  xdotool search --name Myotact >/dev/null 2>&1 && break
+  kill -0 "$window" || { cat "$folder/log"; exit 1; }
+  sleep 0.25
+done
+id="$(xdotool search --name Myotact | head -1)"
+xdotool windowmove "$id" 0 0
+sleep 3
+import -window root "$folder/before.png"
+xdotool mousemove 900 135 mousedown 1 mousemove 960 135 mousemove 1020 135 mouseup 1
+sleep 3
+import -window root "$folder/after.png"
+if [ -n "${MYOTACT_KEEP_PICTURES:-}" ]; then cp "$folder"/*.png "$MYOTACT_KEEP_PICTURES"; fi
+
+# The slider's track (x 888..1148, y 127..144) must look different: its grip stands elsewhere.
+changed="$(compare -metric AE -fuzz 5% -extract 260x17+888+127 "$folder/before.png" "$folder/after.png" null: 2>&1 || true)"
+echo "changed pixels of the slider: $changed"
+[ "${changed%%.*}" -gt 100 ]
+kill -0 "$window"
