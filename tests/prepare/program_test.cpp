@@ -89,8 +89,10 @@ TEST_F(Program, RefusesAFileThatIsNoMesh) {
 }
 
 TEST_F(Program, SaysThatItCannotWrite) {
+  put("blocker", "a file where a folder is wanted");
   const std::string assets = std::string(MYOTACT_SOURCE_DIR) + "/assets/canine";
-  EXPECT_EQ(run("loft " + assets + " -o /proc/nowhere/specimen"), status(ExitStatus::InputOutput));
+  EXPECT_EQ(run("loft " + assets + " -o " + scan() + "/blocker/specimen"), status(ExitStatus::InputOutput));
+  EXPECT_THAT(error_, HasSubstr("blocker"));
   EXPECT_TRUE(nothing_left_behind());
 }
 

@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include "anatomy/specimen.h"
 #include "core/data_folder.h"
@@ -54,6 +55,17 @@ prepare::PreparedInput read_input(const Options& options, bool loft) {
   return input;
 }
 
+/// Before any work: whether the folder that is to hold the specimen is there, or can be made, and can be written.
+void check_output(const std::filesystem::path& specimen) {
+  std::filesystem::path holder = std::filesystem::absolute(specimen).lexically_normal().parent_path();
+  while (!std::filesystem::exists(holder) && holder.has_relative_path()) {
+    holder = holder.parent_path();
+  }
+  if (std::filesystem::is_directory(holder) && ::access(holder.c_str(), W_OK) == 0) return;
+  throw Error(ExitStatus::InputOutput,
+              holder.string() + ": is not a folder that can be written; name another place for the specimen");
+}
+
 int make_specimen(const Options& options, bool loft) {
   if (options.specimen.empty()) {
     throw Error(ExitStatus::Usage, "--output: is missing; name the folder of the specimen to write");
@@ -61,6 +73,7 @@ int make_specimen(const Options& options, bool loft) {
   if (!loft && options.scan.empty()) {
     throw Error(ExitStatus::Usage, "the folder of the scan is missing; name one that holds bones/ and muscles/");
   }
+  check_output(options.specimen);
   const prepare::PreparedInput input = read_input(options, loft);
   std::vector<prepare::SurfaceReport> reports;
   const anatomy::Specimen specimen = prepare::assemble_specimen(input, options.settings, reports);
