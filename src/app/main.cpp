@@ -53,7 +53,11 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
   bind(run, myotact::app::run);
   CLI::App* stiffness = add_scene_command(program, options, "stiffness", "joint stiffness against co-contraction");
   stiffness->add_option("--angles", options.angles_deg, "joint angles q [degrees]")->delimiter(',');
-  stiffness->add_option("--levels", options.levels, "co-contraction levels 0 .. 1")->delimiter(',')->check(CLI::Range(0.0, 1.0));
+  for (CLI::App* command : {run, stiffness}) {
+    command->add_option("--levels", options.levels, "co-contraction levels 0 .. 1 of the stiffness table")
+        ->delimiter(',')
+        ->check(CLI::Range(0.0, 1.0));
+  }
   bind(stiffness, myotact::app::stiffness);
   CLI::App* replay = program.add_subcommand("replay", "run a recording again and compare the states");
   replay->add_option("file", options.file, "recording")->required();

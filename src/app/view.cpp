@@ -1,6 +1,7 @@
 #include <algorithm>
+#include <chrono>
 #include <memory>
-#include <optional>
+#include <thread>
 
 #include <spdlog/spdlog.h>
 
@@ -17,6 +18,13 @@ namespace myotact::app {
 namespace {
 
 constexpr double kForever_s = 1e12;
+
+/// The picture gives way: it is drawn at most 60 times a second and takes at most half of the time, or a software
+/// renderer would starve the simulation.
+void leave_time_to_the_simulation(std::chrono::steady_clock::duration drawing) {
+  constexpr std::chrono::milliseconds kPicture(16);
+  std::this_thread::sleep_for(std::max<std::chrono::steady_clock::duration>(kPicture - drawing, drawing));
+}
 
 int watched_joint(const scene::Scene& scene) { return scene.co_contraction ? scene.co_contraction->joint : 0; }
 
@@ -76,7 +84,9 @@ int view(const Options& options) {
     session.fetch_frame(frame);
     const bool last = frame.time_s >= end_s;
     if (last) window.save_next_picture(options.out / "window.png");
+    const auto drawing_since = std::chrono::steady_clock::now();
     const view::ViewControls& controls = window.draw(frame);
+    leave_time_to_the_simulation(std::chrono::steady_clock::now() - drawing_since);
     session.request(requests_of(controls));
     mouse.set_pointer(to_vec3(controls.hand_world_m), controls.hand_buttons);
     if (last) break;
