@@ -99,11 +99,6 @@ void MovingSurface::adopt(const messages::LocalModel& model) noexcept {
   model_ = &model;
 }
 
-Vec3 MovingSurface::corner_m(int local, int corner, double fraction) const noexcept {
-  const auto vertex = static_cast<std::size_t>(triangle(local).vertices[static_cast<std::size_t>(corner)]);
-  return from_m_[vertex] + fraction * (to_m_[vertex] - from_m_[vertex]);
-}
-
 Vec3 MovingSurface::motion_m(int local, const std::array<double, 3>& barycentric) const noexcept {
   return point_m(local, barycentric, 1.0) - point_m(local, barycentric, 0.0);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "core/vector.h"
@@ -29,7 +30,10 @@ class MovingSurface {
     return triangles_[static_cast<std::size_t>(local)];
   }
   /// Corner 0 .. 2 of a triangle at a fraction of the tick.
-  Vec3 corner_m(int local, int corner, double fraction) const noexcept;
+  Vec3 corner_m(int local, int corner, double fraction) const noexcept {
+    const auto vertex = static_cast<std::size_t>(triangle(local).vertices[static_cast<std::size_t>(corner)]);
+    return from_m_[vertex] + fraction * (to_m_[vertex] - from_m_[vertex]);
+  }
   /// What a point of a triangle moves by over the whole tick.
   Vec3 motion_m(int local, const std::array<double, 3>& barycentric) const noexcept;
   Vec3 point_m(int local, const std::array<double, 3>& barycentric, double fraction) const noexcept;

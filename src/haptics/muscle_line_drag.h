@@ -8,7 +8,7 @@
 namespace myotact::haptics {
 
 struct LineDragSettings {
-  double max_tension_N = 20.0;     // above it the string gives way; the force gate has the device's own limit
+  double max_tension_N = 2000.0;   // above any muscle of a dog's limb: a broken model stays bounded, the gate does the rest
   double grab_stiffness_N_m = 300.0;  // of the spring by which the hand holds the line in the simulation
 };
 

@@ -73,7 +73,12 @@ void Proxy::tick(const MovingSurface& surface, const messages::LocalModel& model
   collect_candidates(tick);
   linearise(p_m_, 0.0, tick);
   rescue_if_inside(tick);
-  placed_ = true;
+  if (!placed_) {  // the first look went as far as the model does
+    placed_ = true;
+    tick.linearised_at = -1.0;
+    collect_candidates(tick);
+    linearise(p_m_, 0.0, tick);
+  }
   carry(tick);
   seek_goal(tick);
 }
@@ -94,13 +99,16 @@ void Proxy::collect_candidates(Tick& tick) noexcept {
     const Vec3 centre_m = (a + b + c) / 3.0;
     const double size_m =
         std::sqrt(std::max({(a - centre_m).squaredNorm(), (b - centre_m).squaredNorm(), (c - centre_m).squaredNorm()}));
-    const bool is_near = (p_m_ - centre_m).norm() <= size_m + reach_m;
+    const bool is_near = (p_m_ - centre_m).squaredNorm() <= (size_m + reach_m) * (size_m + reach_m);
     if (is_near || !placed_) candidates_[at(candidate_count_++)] = static_cast<std::int16_t>(i);
   }
 }
 
 /// Nearest points of all candidates and the half-spaces that keep the sphere off them. Returns the clearance.
 double Proxy::linearise(const Vec3& p_m, double fraction, Tick& tick) noexcept {
+  if (fraction == tick.linearised_at && p_m == tick.linearised_m) return clearance_m_;
+  tick.linearised_at = fraction;
+  tick.linearised_m = p_m;
   const MovingSurface& surface = *tick.surface;
   const double far_m = placed_ ? settings_.radius_m + tick.travel_left_m + surface.largest_motion_m() : 1e9;
   near_count_ = 0;

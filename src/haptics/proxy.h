@@ -88,6 +88,8 @@ class Proxy {
     double travel_left_m = 0.0;  // beyond it triangles were not looked at
     int tests = 0;               // of the sphere against triangles
     bool slipped = false;
+    double linearised_at = -1.0;  // fraction and place of the nearest points at hand
+    Vec3 linearised_m = Vec3::Zero();
   };
 
   void collect_candidates(Tick& tick) noexcept;

@@ -146,6 +146,23 @@ TEST(Proxy, StaysWithinWhatTheModelCovers) {
   EXPECT_LE((player.proxy.position_m() - centre_m).norm(), player.model().coverage_radius_m);
 }
 
+TEST(Proxy, AThinSheetStopsAFastPlunge) {
+  const double thickness_m = 0.2e-3;
+  const TestMesh sheet = make_box(Vec3(0.04, 0.04, thickness_m), 6);
+  for (const double speed_m_s : {0.1, 0.5, 2.0}) {
+    ContactSettings settings = settings_with(0.2);
+    settings.radius_m = 1e-3;
+    SurfacePlayer player(sheet, [&](double) { return sheet.vertices_m; }, settings);
+    for (int tick = 0; tick < 250; ++tick) {
+      const double height_m = std::max(0.01 - 1e-3 * speed_m_s * tick, -0.012);
+      player.tick({Vec3(1e-3, 1.7e-3, height_m), Vec3(0, 0, -speed_m_s)});
+      ASSERT_GE(player.proxy.position_m().z(), std::min(height_m, 0.5 * thickness_m + settings.radius_m) - 1e-6);
+      if (height_m < 0.0) { ASSERT_GT(player.proxy.position_m().z(), 0.5 * thickness_m + 0.999 * settings.radius_m); }
+    }
+    EXPECT_EQ(player.proxy.counters().rescues, 0u);
+  }
+}
+
 TEST(Proxy, RestsInAGrooveOnBothSides) {
   const double half_angle_rad = 5.0 * std::numbers::pi / 180.0;
   const TestMesh groove = make_groove(half_angle_rad, 0.08, 16);
