@@ -1,0 +1,70 @@
+#include "view/offscreen.h"
+
+#include <array>
+#include <cstdlib>
+#include <memory>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "support/synthetic_specimen.h"
+#include "view/scene_renderer.h"
+
+namespace myotact::view {
+namespace {
+
+messages::SceneFrame frame_of(const anatomy::Specimen& specimen, double activation) {
+  messages::SceneFrame frame;
+  frame.body_poses.assign(specimen.bodies.size(), {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0});
+  for (const auto& muscle : specimen.muscles) {
+    frame.skins_world_m.emplace_back();
+    for (const Vec3& p : muscle.skin.positions_m) {
+      frame.skins_world_m.back().push_back({static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())});
+    }
+    frame.activations.push_back(activation);
+    frame.tensions_N.push_back(0.0);
+  }
+  return frame;
+}
+
+class Offscreen : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    try {
+      renderer_ = std::make_unique<OffscreenRenderer>(specimen_, 160, 120);
+    } catch (const Error& error) {
+      GTEST_SKIP() << error.what();
+    }
+  }
+  Image picture(double activation, const char* view) {
+    return renderer_->render(frame_of(specimen_, activation), *standard_view(view, true, bounds_of(specimen_), 4.0f / 3.0f));
+  }
+  static std::size_t different_pixels(const Image& a, const Image& b) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.rgb.size(); i += 3) {
+      count += std::abs(a.rgb[i] - b.rgb[i]) + std::abs(a.rgb[i + 1] - b.rgb[i + 1]) > 12 ? 1 : 0;
+    }
+    return count;
+  }
+
+  anatomy::Specimen specimen_ = myotact::testing::antagonist_hinge();
+  std::unique_ptr<OffscreenRenderer> renderer_;
+};
+
+TEST_F(Offscreen, PictureIsNotBlank) {
+  const Image image = picture(0.0, "lateral");
+  std::set<std::array<std::uint8_t, 3>> colours;
+  for (std::size_t i = 0; i < image.rgb.size(); i += 3) colours.insert({image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]});
+  EXPECT_GT(colours.size(), 50u);
+}
+
+TEST_F(Offscreen, MusclesChangeColourWithActivationAndViewsDiffer) {
+  const Image rest = picture(0.0, "lateral");
+  EXPECT_EQ(different_pixels(rest, picture(0.0, "lateral")), 0u);
+  EXPECT_GT(different_pixels(rest, picture(1.0, "lateral")), 200u);
+  EXPECT_GT(different_pixels(rest, picture(0.0, "cranial")), 200u);
+}
+
+}  // namespace
+}  // namespace myotact::view
