@@ -40,6 +40,8 @@ struct LimbMuscle {
   Eigen::MatrixXd border_solution;    // matrix^-1 borders
   Eigen::MatrixXd reduced;            // borders^T matrix^-1 borders
   Eigen::VectorXd reduced_residual;   // borders^T matrix^-1 residual
+  Eigen::VectorXd start_m, change_m;  // of the Newton step: nodes where it starts, change of the free ones
+  double energy_slope = 0.0;          // along that change
   double residual_share = 0.0;        // out-of-balance force over the size of the forces, springs included
   bool made_definite = false;         // the last tangent had to be
   bool sound = true;                  // the last factorisation and state were finite

@@ -172,7 +172,8 @@ MuscleTissue build_muscle_tissue(const anatomy::Specimen& specimen, int index) {
   add_elements(muscle, shape, tissue);
   add_masses(tissue);
   add_clamps(muscle, edges, tissue);
-  tissue.strands = lay_strands(muscle, *found, tissue);
+  Skeleton skeleton(specimen);
+  tissue.strands = lay_strands(muscle, *found, tissue, skeleton);
   add_pattern(tissue);
   add_blend(tissue);
   const anatomy::LinePoint& last = found->points.back();

@@ -12,11 +12,14 @@ namespace {
 constexpr int kMostIterations = 3;
 /// Out-of-balance force, over the size of the elements' forces, at which a step counts as solved. Below the 3 % that
 /// one linearised step costs in force anyway (measured on twitches against steps of 1 ms).
-constexpr double kSolvedShare = 0.01;
+constexpr double kSolvedShare = 0.02;
 /// A joint that turns farther than this in one Newton step is linearised once more [rad].
 constexpr double kLargestTurn_rad = 0.05;
-/// Nearer than this to folding over at worst; beyond, the step is taken back.
-constexpr double kSmallestJ = -1.0;
+/// A place where an element folds over farther than this is not looked at.
+constexpr double kSmallestJ = -0.5;
+/// A Newton step ends where the energy rises by less than this part of how steeply it fell at the start.
+constexpr double kSteepestRise = 0.5;
+constexpr int kMostCuts = 5;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -78,8 +81,8 @@ void eliminate(const Limb& limb, const SmallSystem& small, TissueLoad load, int 
   muscle.sound = muscle.free_solution.allFinite() && muscle.reduced.allFinite();
 }
 
-/// Residual and tangent of the bones themselves; also sets the joints' velocities.
-void add_skeleton(Limb& limb, const TimeRule& rule, SmallSystem& small) {
+/// Out-of-balance torque of the bones themselves at the present angles; fills limb.loads.
+Eigen::VectorXd skeleton_residual(Limb& limb, const TimeRule& rule) {
   const Eigen::VectorXd& q = limb.now.angle_rad;
   const Eigen::VectorXd velocity =
       rule.rate_1_s * q - rule.now_1_s * limb.last.angle_rad + rule.before_1_s * limb.before.angle_rad;
@@ -89,7 +92,11 @@ void add_skeleton(Limb& limb, const TimeRule& rule, SmallSystem& small) {
     return std::span<const double>(v.data(), static_cast<std::size_t>(v.size()));
   };
   limb.loads.compute(limb.skeleton, {limb.gravity_m_s2, span(velocity), span(limb.external_torque_Nm)});
-  Eigen::VectorXd residual = limb.loads.mass_kg_m2 * acceleration - limb.loads.force_Nm;
+  return limb.loads.mass_kg_m2 * acceleration - limb.loads.force_Nm;
+}
+
+void add_skeleton(Limb& limb, const TimeRule& rule, SmallSystem& small) {
+  const Eigen::VectorXd residual = skeleton_residual(limb, rule);
   Eigen::MatrixXd tangent =
       limb.loads.mass_kg_m2 * rule.rate_1_s * rule.rate_1_s + limb.loads.stiffness_Nm_rad;
   tangent.diagonal() += limb.loads.damping_Nms_rad * rule.rate_1_s;
@@ -143,11 +150,13 @@ void read_compliance(Limb& limb, const SmallSystem& small) {
   }
 }
 
-/// Moves a muscle's nodes by the solution, computes its forces there and how far they are from balance.
-void substitute(const Limb& limb, const Eigen::VectorXd& small_solution, const TissueLoad& load, int index,
-                LimbMuscle& muscle) {
-  move_free_nodes(muscle, -muscle.free_solution - muscle.border_solution * small_solution);
-  compute_forces(muscle.tissue, limb.skeleton, load, muscle.state, muscle.system);
+/// The Newton step from the instant where it was computed: start + part * change.
+struct Way {
+  Eigen::VectorXd start_rad, change_rad;  // joints; the nodes' are in the muscles
+};
+
+/// How far a muscle is from balance, tool springs included, and the slope of its energy along the way.
+void weigh(const Limb& limb, int index, LimbMuscle& muscle) {
   Eigen::VectorXd unbalanced = muscle.system.residual_N;
   for (const ToolSpring& spring : limb.springs) {
     if (spring.muscle != index) continue;
@@ -157,8 +166,73 @@ void substitute(const Limb& limb, const Eigen::VectorXd& small_solution, const T
       if (f >= 0) unbalanced.segment<3>(3 * f) -= spring.point.weights[k] * force;
     }
   }
+  muscle.energy_slope = unbalanced.dot(muscle.change_m);
   muscle.residual_share = unbalanced.norm() / (muscle.system.force_scale_N + 1e-6);
   muscle.sound = std::isfinite(muscle.residual_share) && muscle.system.smallest_J > kSmallestJ;
+}
+
+/// Moves a muscle's nodes along the way and computes its forces there.
+void evaluate(const Limb& limb, const TissueLoad& load, double part, int index, LimbMuscle& muscle) {
+  muscle.state.now.position_m = muscle.start_m;
+  move_free_nodes(muscle, part * muscle.change_m);
+  place_clamped(muscle.tissue, limb.skeleton, muscle.state);
+  compute_forces(muscle.tissue, limb.skeleton, load, muscle.state, muscle.system);
+  weigh(limb, index, muscle);
+}
+
+/// Slope of the step's energy along the way at the present place; what is done by springs through the joints included.
+double energy_slope(Limb& limb, const TimeRule& rule, const Way& way) {
+  double slope = skeleton_residual(limb, rule).dot(way.change_rad);
+  for (const LimbMuscle& muscle : limb.muscles) {
+    if (!muscle.rigid) slope += muscle.energy_slope + muscle.system.joint_residual_Nm.dot(way.change_rad);
+  }
+  for (const ToolSpring& spring : limb.springs) {
+    const Vec3 force = spring.stiffness_N_m * (spring.target_W_m - spring_point(limb, spring));
+    for (int j = 0; j < limb.skeleton.joint_count(); ++j) {
+      slope -= force.dot(spring_slope(limb, spring, j)) * way.change_rad[j];
+    }
+  }
+  return slope;
+}
+
+/// Puts the limb at a part of the way. False when something is not finite or folded over.
+bool go(Limb& limb, const TissueLoad& load, const Way& way, double part, WorkerPool& workers) {
+  limb.now.angle_rad = way.start_rad + part * way.change_rad;
+  follow_angles(limb);
+  workers.run(static_cast<int>(limb.muscles.size()), [&](int m) {
+    if (!limb.muscles[at(m)].rigid) evaluate(limb, load, part, m, limb.muscles[at(m)]);
+  });
+  return std::all_of(limb.muscles.begin(), limb.muscles.end(), [](const LimbMuscle& m) { return m.rigid || m.sound; });
+}
+
+/// The way that the small system's solution means; all muscles' start and change.
+Way make_way(Limb& limb, const SmallSystem& small, const Eigen::VectorXd& solution) {
+  Way way{limb.now.angle_rad, Eigen::VectorXd::Zero(limb.skeleton.joint_count())};
+  for (std::size_t a = 0; a < small.joints.size(); ++a) {
+    way.change_rad[small.joints[a]] = solution[static_cast<Eigen::Index>(a)];
+  }
+  for (LimbMuscle& muscle : limb.muscles) {
+    if (muscle.rigid) continue;
+    muscle.start_m = muscle.state.now.position_m;
+    muscle.change_m = -muscle.free_solution - muscle.border_solution * solution;
+  }
+  return way;
+}
+
+/// Goes the whole way unless the energy has turned to rise steeply by then; then back towards the lowest place on it.
+bool search_way(Limb& limb, const TissueLoad& load, const Way& way, WorkerPool& workers) {
+  for (int m = 0; m < static_cast<int>(limb.muscles.size()); ++m) {
+    if (!limb.muscles[at(m)].rigid) weigh(limb, m, limb.muscles[at(m)]);
+  }
+  const double start_slope = energy_slope(limb, load.rule, way);
+  double part = 1.0;
+  for (int cut = 0; cut < kMostCuts; ++cut) {
+    const bool sound = go(limb, load, way, part, workers);
+    const double slope = sound ? energy_slope(limb, load.rule, way) : 0.0;
+    if (sound && (start_slope >= 0.0 || slope < kSteepestRise * -start_slope)) return true;
+    part *= sound ? std::clamp(start_slope / (start_slope - slope), 0.1, 0.7) : 0.3;
+  }
+  return go(limb, load, way, part, workers);
 }
 
 struct Iteration {
@@ -169,8 +243,7 @@ struct Iteration {
 
 Iteration newton_step(Limb& limb, const TissueLoad& load, WorkerPool& workers, int& definite_solves) {
   SmallSystem small = make_small_system(limb);
-  const int muscles = static_cast<int>(limb.muscles.size());
-  workers.run(muscles, [&](int m) {
+  workers.run(static_cast<int>(limb.muscles.size()), [&](int m) {
     if (!limb.muscles[at(m)].rigid) eliminate(limb, small, load, m, limb.muscles[at(m)]);
   });
   add_skeleton(limb, load.rule, small);
@@ -186,20 +259,12 @@ Iteration newton_step(Limb& limb, const TissueLoad& load, WorkerPool& workers, i
       small.size() > 0 ? Eigen::VectorXd(small.matrix.partialPivLu().solve(small.right)) : small.right;
   if (!solution.allFinite()) return {false, 0.0, 0.0};
 
+  const Way way = make_way(limb, small, solution);
   Iteration result;
-  for (std::size_t a = 0; a < small.joints.size(); ++a) {
-    const double turn = solution[static_cast<Eigen::Index>(a)];
-    limb.now.angle_rad[small.joints[a]] += turn;
-    result.turn_rad = std::max(result.turn_rad, std::abs(turn));
-  }
-  follow_angles(limb);
-  workers.run(muscles, [&](int m) {
-    if (!limb.muscles[at(m)].rigid) substitute(limb, solution, load, m, limb.muscles[at(m)]);
-  });
+  result.sound = search_way(limb, load, way, workers);
+  if (way.change_rad.size() > 0) result.turn_rad = way.change_rad.cwiseAbs().maxCoeff();
   for (const LimbMuscle& muscle : limb.muscles) {
-    if (muscle.rigid) continue;
-    result.sound = result.sound && muscle.sound;
-    result.residual_share = std::max(result.residual_share, muscle.residual_share);
+    if (!muscle.rigid) result.residual_share = std::max(result.residual_share, muscle.residual_share);
   }
   return result;
 }

@@ -11,12 +11,17 @@ namespace {
 
 /// Tendon strands are this many times stiffer than the muscle at its stiffest: nearly rigid beside it, still soft
 /// enough for the solve.
-constexpr double kStrandOverMuscle = 50.0;
+constexpr double kStrandOverMuscle = 10.0;
 /// Largest active stiffness of a fibre in F0 / lo: the steepest slope of the force-length curve is below 4; over the
 /// range that the joints use, about 2.
 constexpr double kMuscleStiffness_F0_lo = 2.0;
 /// Extension over which a strand becomes taut, in optimal fibre lengths; it then carries a tenth of F0.
-constexpr double kToe_lo = 0.002;
+constexpr double kToe_lo = 0.01;
+
+/// A point of the line stays in the string while the belly's end keeps this far from it at every angle of the joints;
+/// closer, the end could pass it and the string would fold back.
+constexpr double kClearance_m = 0.005;
+constexpr int kAngleSamples = 9;  // over the range of each joint
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -131,6 +136,47 @@ void add_points(const anatomy::MuscleLine& line, double border_place_m, bool at_
   if (!at_insertion) std::reverse(strand.points.begin(), strand.points.end());
 }
 
+/// Length of the string from its first point on, in the skeleton's pose.
+double tail_length_m(const TendonStrand& strand, const Skeleton& skeleton) {
+  double length = 0.0;
+  for (std::size_t k = 0; k + 1 < strand.points.size(); ++k) {
+    const TendonStrand::BodyPoint &a = strand.points[k], &b = strand.points[k + 1];
+    length += (skeleton.body_pose(b.body) * b.rest_m - skeleton.body_pose(a.body) * a.rest_m).norm();
+  }
+  return length;
+}
+
+/// Longest tail over the ranges of the joints, one joint at a time.
+double longest_tail_m(const TendonStrand& strand, Skeleton& skeleton) {
+  std::vector<double> angles(at(skeleton.joint_count()), 0.0);
+  double longest = 0.0;
+  for (int j = 0; j < skeleton.joint_count(); ++j) {
+    if (skeleton.joint(j).type != anatomy::JointType::Hinge) continue;
+    const auto [low, high] = skeleton.joint(j).range_rad[0];
+    for (int sample = 0; sample < kAngleSamples; ++sample) {
+      angles[at(j)] = low + (high - low) * sample / (kAngleSamples - 1);
+      skeleton.set_pose(angles);
+      longest = std::max(longest, tail_length_m(strand, skeleton));
+    }
+    angles[at(j)] = 0.0;
+  }
+  skeleton.set_pose(angles);
+  return std::max(longest, tail_length_m(strand, skeleton));
+}
+
+/// Leaves out the points that the belly's end comes too near to: a taut string keeps its length, so what its tail gains
+/// the way to its first point loses. Sets the rest length.
+void fit_points(const Vec3& border_m, Skeleton& skeleton, TendonStrand& strand) {
+  while (true) {
+    const double tail_m = tail_length_m(strand, skeleton);
+    const double first_m = (strand.points[0].rest_m - border_m).norm();
+    strand.rest_length_m = first_m + tail_m;
+    const double gain_m = longest_tail_m(strand, skeleton) - tail_m;
+    if (strand.points.size() == 1 || first_m - gain_m > kClearance_m) return;
+    strand.points.erase(strand.points.begin());
+  }
+}
+
 }  // namespace
 
 double line_length_m(const anatomy::MuscleLine& line) {
@@ -142,7 +188,7 @@ double line_length_m(const anatomy::MuscleLine& line) {
 }
 
 std::vector<TendonStrand> lay_strands(const anatomy::Muscle& muscle, const anatomy::MuscleLine& line,
-                                      const MuscleTissue& tissue) {
+                                      const MuscleTissue& tissue, Skeleton& skeleton) {
   const std::vector<int> group = tendon_groups(tissue);
   const double belly_place_m = mean_place_m(tissue, line, [&](std::size_t t) { return group[t] < 0; });
   std::map<int, double> place_of_group;
@@ -161,11 +207,7 @@ std::vector<TendonStrand> lay_strands(const anatomy::Muscle& muscle, const anato
     if (strand.nodes.empty()) continue;
     const Vec3 p = border_middle(strand, tissue);
     add_points(line, place_on_line_m(line, p), at_insertion, strand);
-    Vec3 from = p;
-    for (const TendonStrand::BodyPoint& point : strand.points) {
-      strand.rest_length_m += (point.rest_m - from).norm();
-      from = point.rest_m;
-    }
+    fit_points(p, skeleton, strand);
     strand.stiffness_N_m = kStrandOverMuscle * kMuscleStiffness_F0_lo * muscle.peak_force_N / muscle.optimal_fibre_m;
     strand.at_insertion = at_insertion;
     strand.toe_m = kToe_lo * muscle.optimal_fibre_m;

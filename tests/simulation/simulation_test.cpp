@@ -177,7 +177,7 @@ TEST(Simulation, APushOnABoneTurnsTheJoint) {
 TEST(Simulation, ARodSwingsWithThePeriodOfAPendulum) {
   anatomy::Specimen specimen = testing::hinged_bones();
   specimen.joints[0].stiffness_Nm_rad = specimen.joints[0].damping_Nms_rad = 0.0;
-  specimen.bodies[1].inertia_kg_m2[0] = 0.0;
+  specimen.bodies[1].inertia_kg_m2[0] = 1e-9;  // a thin rod
   SimulationSettings settings;
   settings.dt_s = 1e-3;
   settings.gravity_m_s2 = {9.81, 0.0, 0.0};  // along the rod
