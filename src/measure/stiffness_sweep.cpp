@@ -88,7 +88,7 @@ std::vector<StiffnessRow> sweep_stiffness(const scene::Scene& scene, simulation:
     throw bad_data(scene.name, "/co_contraction", "is missing; name the joint and its groups to measure stiffness");
   }
   const int joint = scene.co_contraction->joint;
-  const auto table = scene::measure_torques(simulation, scene.specimen, joint, angles_of(scene, joint, q_rad));
+  const auto table = scene::measure_torques(scene, simulation, angles_of(scene, joint, q_rad));
   std::vector<StiffnessRow> rows;
   for (const double level : levels) rows.push_back(measure_row(scene, table, simulation, q_rad, level));
   return rows;

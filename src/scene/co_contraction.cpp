@@ -52,25 +52,27 @@ double TorqueTable::torque(int muscle, double activation) const {
   return (1.0 - s) * row[i - 1] + s * row[i];
 }
 
-TorqueTable measure_torques(simulation::Simulation& simulation, const anatomy::Specimen& specimen, int joint,
+TorqueTable measure_torques(const Scene& scene, simulation::Simulation& simulation,
                             std::span<const double> angles_rad) {
-  TorqueTable table{kLevels, std::vector<std::vector<double>>(specimen.muscles.size())};
-  const auto settle = [&](double level) {
-    const std::vector<double> activations(specimen.muscles.size(), level);
-    if (!simulation.settle(angles_rad, activations)) {
-      throw Error(ExitStatus::CheckFailed,
-                  fmt::format("no static equilibrium at activation {} of all muscles; try a posture nearer to the "
-                              "specimen's own, or finer tetrahedra",
-                              level));
-    }
+  const CoContraction& set = *scene.co_contraction;
+  TorqueTable table{kLevels, std::vector<std::vector<double>>(scene.specimen.muscles.size())};
+  const auto settle = [&](const std::vector<double>& activations, double level) {
+    if (simulation.settle(angles_rad, activations)) return;
+    throw Error(ExitStatus::CheckFailed,
+                fmt::format("no static equilibrium with the co-contracting muscles at activation {}; try a posture nearer "
+                            "to the specimen's own, or finer tetrahedra",
+                            level));
   };
   for (const double level : kLevels) {
-    settle(level);
-    for (std::size_t m = 0; m < specimen.muscles.size(); ++m) {
-      table.torque_Nm[m].push_back(simulation.muscle_torque_Nm(static_cast<int>(m), joint));
+    std::vector<double> activations = scene.activations;
+    for (const int m : set.flexors) activations[static_cast<std::size_t>(m)] = level;
+    for (const int m : set.extensors) activations[static_cast<std::size_t>(m)] = level;
+    settle(activations, level);
+    for (std::size_t m = 0; m < table.torque_Nm.size(); ++m) {
+      table.torque_Nm[m].push_back(simulation.muscle_torque_Nm(static_cast<int>(m), set.joint));
     }
   }
-  settle(0.0);
+  settle(scene.activations, 0.0);
   return table;
 }
 

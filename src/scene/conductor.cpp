@@ -40,7 +40,7 @@ Conductor::Conductor(const Scene& scene, simulation::Simulation& simulation)
       hand_(scene.specimen, start_of_hand(scene.specimen)),
       gravity_m_s2_(scene.settings.gravity_m_s2) {
   if (scene.co_contraction) {
-    torques_ = measure_torques(simulation, scene.specimen, scene.co_contraction->joint, start_angles(scene));
+    torques_ = measure_torques(scene, simulation, start_angles(scene));
   }
   settle();
 }
