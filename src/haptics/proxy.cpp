@@ -28,7 +28,7 @@ constexpr double kTogether_m = 3e-8;
 constexpr double kSameWay = 1.0 - 5e-5;
 /// Shorter moves end the search: 0.1 um on 800 N/m are 0.08 mN.
 constexpr double kConverged_m = 1e-7;
-/// Tests of the sphere against triangles in a tick before it stops short, at about 15 ns each. Parts of the tick that keep
+/// Tests of the sphere against triangles in a tick before it stops short. Parts of the tick that keep
 /// the proxy outside are never left out.
 constexpr int kTestBudget = 2000;
 /// A stuck sphere may be off its anchor by this share of the radius (normal travel over a curved surface) before the

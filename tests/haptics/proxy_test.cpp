@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "haptics/haptic_loop.h"
+#include "effort.h"
 #include "surface_player.h"
 
 namespace myotact::haptics {
@@ -67,7 +68,7 @@ TEST(Proxy, PressingARisingOrFallingPlaneKeepsTheForceOfItsDepth) {
 }
 
 TEST(Proxy, SlidingRecoversTheFrictionCoefficient) {
-  for (const double mu : {0.1, 0.2, 0.3, 0.45, 0.6}) {
+  for (const double mu : {0.1, 0.3, 0.6}) {
     for (const double speed_m_s : {0.001, 0.02, 0.2}) {
       const ContactSettings settings = settings_with(mu);
       SurfacePlayer player = plane_player(settings, at_rest);
@@ -75,7 +76,7 @@ TEST(Proxy, SlidingRecoversTheFrictionCoefficient) {
       const double start_m = -0.5 * std::min(0.04, speed_m_s * 2.0);
       player.tick({Vec3(start_m, 1.3e-3, 0.01), Vec3::Zero()});
       double worst = 0.0;
-      const int ticks = static_cast<int>(std::min(2000.0, 0.04 / speed_m_s * 1e3));
+      const int ticks = static_cast<int>(std::min(120.0 * kEffort, 0.04 / speed_m_s * 1e3));
       for (int tick = 0; tick < ticks; ++tick) {
         const ProxyGoal goal{Vec3(start_m + speed_m_s * 1e-3 * tick, 1.3e-3, settings.radius_m - depth_m), Vec3(speed_m_s, 0, 0)};
         player.tick(goal);
@@ -108,7 +109,7 @@ TEST(Proxy, SticksToMovingTissueWithoutDrift) {
   SurfacePlayer player = plane_player(settings, swing);
   player.tick({Vec3(0, 0, 0.01), Vec3::Zero()});
   Vec3 first_m = Vec3::Zero();
-  for (int tick = 2; tick <= 4000; ++tick) {
+  for (int tick = 2; tick <= 150 * kEffort; ++tick) {
     // The hand rides on the tissue, 3 mm deep, and trembles by 0.2 mm at 9 Hz.
     const Vec3 tremor_m(0.2e-3 * std::sin(2 * std::numbers::pi * 9.0 * player.time_s()), 0, 0);
     player.tick({swing(player.time_s() + 1e-3) + tremor_m, Vec3::Zero()});
@@ -120,7 +121,7 @@ TEST(Proxy, SticksToMovingTissueWithoutDrift) {
 }
 
 TEST(Proxy, ARisingSurfaceHitsAProxyThatRestsOnItsGoal) {
-  for (const double speed_m_s : {0.005, 0.05, 0.5}) {
+  for (const double speed_m_s : {0.02, 0.1, 0.5}) {
     const ContactSettings settings = settings_with(0.3);
     SurfacePlayer player = plane_player(settings, [=](double t) { return Vec3(0, 0, speed_m_s * t - 5e-3); });
     const int ticks = static_cast<int>(13e-3 / speed_m_s * 1e3);  // until the surface is 8 mm above the device
