@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/fibre_field.h"
 #include "simulation/line_model.h"
 #include "simulation/settle.h"
 
@@ -10,13 +11,15 @@ namespace myotact::simulation {
 namespace {
 
 constexpr double kActivation = 0.5;  // the middle of the range: the rest lies on both sides
-constexpr int kMostRounds = 8;
+constexpr int kMostRounds = 16;
 /// Agreement at which the rounds end. Under half of the 5 % that a specimen is allowed.
 constexpr double kCloseEnough = 0.02;
 /// Out-of-balance share to which each round is solved.
 constexpr double kRoundShare = 1e-5;
 /// A round changes scale and gain by no more than this factor, so that the guess of the next one stays near.
 constexpr double kLargestFactor = 1.3;
+/// Force and slope are adjusted once the mean fibre length is this near to rest_stretch.
+constexpr double kLengthFits = 0.05;
 /// Limits of the whole adjustment; beyond them the mesh is too coarse or too bent to stand for the line.
 constexpr double kSmallestScale = 0.4, kLargestScale = 2.5;
 /// Turn for the slope of the tension, small against any curvature, large against rounding [rad].
@@ -49,8 +52,8 @@ LineTarget line_target(const anatomy::Specimen& specimen, int index, const Skele
 double tension_slope(const Skeleton& skeleton, int joint, LimbMuscle& muscle) {
   const TissueLoad load;
   compute_system(muscle.tissue, skeleton, load, muscle.state, muscle.system);
-  if (!muscle.factor.factor(muscle.system.matrix)) return std::nan("");
-  const Eigen::VectorXd follow = muscle.factor.solve(muscle.system.coupling_N_rad.col(joint));
+  if (factor_system(muscle) == Pivots::Unusable) return std::nan("");
+  const Eigen::VectorXd follow = solve(muscle, muscle.system.coupling_N_rad.col(joint));
   const double tension_N = muscle.system.tension_N;
   const Eigen::VectorXd kept = muscle.state.now.position_m;
   std::vector<double> angles(static_cast<std::size_t>(skeleton.joint_count()));
@@ -63,19 +66,6 @@ double tension_slope(const Skeleton& skeleton, int joint, LimbMuscle& muscle) {
   compute_forces(muscle.tissue, turned, load, muscle.state, muscle.system);
   muscle.state.now.position_m = kept;
   return (muscle.system.tension_N - tension_N) / kProbe_rad;
-}
-
-/// Mean normalised length of the fibres.
-double mean_length(const MuscleTissue& tissue, const TissueState& state) {
-  double sum = 0.0, volume = 0.0;
-  for (std::size_t t = 0; t < tissue.elements.size(); ++t) {
-    if (tissue.elements[t].peak_Pa == 0.0) continue;
-    for (std::size_t p = 0; p < kTetPoints; ++p) {
-      sum += tissue.elements[t].rest.point_volume_m3 * tissue.fibre_map.length(state.now.stretch[t * kTetPoints + p]);
-    }
-    volume += kTetPoints * tissue.elements[t].rest.point_volume_m3;
-  }
-  return volume > 0.0 ? sum / volume : tissue.fibre_map.rest_stretch;
 }
 
 double error_of(const LineAgreement& agreement) {
@@ -112,7 +102,9 @@ LineAgreement calibrate_muscle(const anatomy::Specimen& specimen, int index, con
       best_map = map;
     }
     if (!std::isfinite(now.force) || !(now.force > 0.0)) break;
-    map.offset += map.rest_stretch - mean_length(muscle.tissue, muscle.state);
+    const double short_of = map.rest_stretch - mean_fibre_length(muscle.tissue, muscle.state.now.stretch);
+    map.offset += short_of;
+    if (std::abs(short_of) > kLengthFits) continue;  // force and slope mean little at another length
     map.scale = std::clamp(map.scale * bounded(1.0 / now.force), kSmallestScale, kLargestScale);
     const double steeper = now.stiffness > 0.0 ? bounded(1.0 / now.stiffness) : kLargestFactor;
     map.gain = std::clamp(map.gain * steeper, kSmallestScale * plain.gain, kLargestScale * plain.gain);

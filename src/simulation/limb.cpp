@@ -1,5 +1,7 @@
 #include "simulation/limb.h"
 
+#include <cmath>
+
 namespace myotact::simulation {
 
 Limb::Limb(const anatomy::Specimen& specimen) : skeleton(specimen) {
@@ -78,8 +80,28 @@ void read_out(Limb& limb) {
   limb.loads.compute(limb.skeleton, {limb.gravity_m_s2, span(limb.now.velocity_rad_s), span(limb.external_torque_Nm)});
 }
 
-bool factor_definite(LimbMuscle& muscle) {
-  return muscle.factor.factor(muscle.system.matrix) && muscle.factor.positive();
+Pivots factor_system(LimbMuscle& muscle) {
+  if (!muscle.factor.factor(muscle.system.matrix)) return Pivots::Unusable;
+  const MeanTerm& mean = muscle.system.mean;
+  muscle.mean_share_Nm = 0.0;
+  bool positive = muscle.factor.positive();
+  if (mean.factor_Nm != 0.0) {
+    muscle.mean_solution = muscle.factor.solve(mean.gradient);
+    const double pivot = 1.0 + mean.factor_Nm * mean.gradient.dot(muscle.mean_solution);
+    if (!std::isfinite(pivot) || pivot == 0.0) return Pivots::Unusable;
+    positive = positive && pivot > 0.0;
+    muscle.mean_share_Nm = mean.factor_Nm / pivot;
+  }
+  return positive ? Pivots::Positive : Pivots::Mixed;
+}
+
+Eigen::MatrixXd solve(const LimbMuscle& muscle, const Eigen::MatrixXd& right) {
+  Eigen::MatrixXd solution = muscle.factor.solve(right);
+  if (muscle.mean_share_Nm != 0.0) {
+    const Eigen::RowVectorXd along = muscle.mean_share_Nm * (muscle.system.mean.gradient.transpose() * solution);
+    solution -= muscle.mean_solution * along;
+  }
+  return solution;
 }
 
 }  // namespace myotact::simulation

@@ -34,7 +34,9 @@ struct LimbMuscle {
   bool rigid = false;                 // follows the bones, exerts nothing
   TissueState state;
   TissueSystem system;
-  BlockFactor factor;
+  BlockFactor factor;                 // of the system's sparse matrix
+  Eigen::VectorXd mean_solution;      // factor^-1 mean gradient
+  double mean_share_Nm = 0.0;         // by which the mean term changes a solution, see solve()
   Eigen::VectorXd free_solution;      // matrix^-1 residual
   Eigen::MatrixXd borders;            // free dofs x unknowns of the small system
   Eigen::MatrixXd border_solution;    // matrix^-1 borders
@@ -43,6 +45,7 @@ struct LimbMuscle {
   Eigen::VectorXd start_m, change_m;  // of the Newton step: nodes where it starts, change of the free ones
   double energy_slope = 0.0;          // along that change
   double residual_share = 0.0;        // out-of-balance force over the size of the forces, springs included
+  bool balanced = false;        // within this step: needs no new tangent
   bool made_definite = false;         // the last tangent had to be
   bool sound = true;                  // the last factorisation and state were finite
   MuscleReadout readout;
@@ -88,7 +91,9 @@ void move_free_nodes(LimbMuscle& muscle, const Eigen::VectorXd& change_m);
 /// Copies the outcome of the last forces pass to the muscles' readouts, and the bones' loads to `limb.loads`.
 void read_out(Limb& limb);
 
-/// Factors the system's matrix; false when a pivot is not positive.
-bool factor_definite(LimbMuscle& muscle);
+/// Factors the system, its mean term included. Unusable: solve() must not be called.
+Pivots factor_system(LimbMuscle& muscle);
+/// (matrix + mean term)^-1 right, by Sherman and Morrison's formula.
+Eigen::MatrixXd solve(const LimbMuscle& muscle, const Eigen::MatrixXd& right);
 
 }  // namespace myotact::simulation

@@ -21,11 +21,13 @@ struct TissueMaterial {
 /// solver still bears it. Water would be 2.2 GPa.
 inline constexpr double kBulk_Pa = 3e6;
 
-/// Passive skeletal muscle across the fibres: mu of 5 .. 20 kPa is reported; the stiff end keeps the shape under the
-/// fibres' pull. Density: Mendez and Keys 1960.
+/// Passive skeletal muscle across the fibres: mu of 5 .. 20 kPa is reported, most elastography of resting muscle finds 3 ..
+/// 10 kPa. At 20 kPa the matrix alone would be stiffer along a slender muscle than its passive fibres. c: below 50 kPa
+/// single points jitter at this mu. Density: Mendez and Keys 1960.
 inline constexpr TissueMaterial kMuscleMatrix{10e3, kBulk_Pa - 2.0 / 3.0 * 10e3, 50e3, 1060.0};
 
-/// Sheath around a tendon strand: soft enough not to carry the load that the strand carries, stiff enough to follow it.
+/// Sheath around a tendon strand: soft enough not to carry the load that the strand carries (at 200 kPa the sheaths added
+/// more than the muscles to the stiffness of a relaxed elbow), stiff enough to follow it.
 inline constexpr TissueMaterial kTendonSheath{40e3, kBulk_Pa - 2.0 / 3.0 * 40e3, 100e3, 1120.0};
 
 /// Added to c per pascal of active stress: an active element needs it near clamped ends, where points fold over first.

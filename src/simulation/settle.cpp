@@ -38,10 +38,10 @@ bool prepare(const Skeleton& skeleton, TissueLoad load, double time_s, LimbMuscl
   load.rule = backward_euler(time_s);
   load.force_velocity = false;
   compute_system(muscle.tissue, skeleton, load, muscle.state, muscle.system);
-  if (factor_definite(muscle)) return true;
+  if (factor_system(muscle) == Pivots::Positive) return true;
   load.definite = true;
   compute_system(muscle.tissue, skeleton, load, muscle.state, muscle.system);
-  return factor_definite(muscle);
+  return factor_system(muscle) == Pivots::Positive;
 }
 
 /// Goes along `direction` as far as the energy falls: every force has a potential in a static solve, and its slope along
@@ -124,7 +124,7 @@ bool settle_muscle(const Skeleton& skeleton, const Vec3& gravity_m_s2, double wa
   double time_s = kFirstTime_s;
   for (int iteration = 0; iteration < kMostIterations && !(rest_share(muscle) < wanted_share); ++iteration) {
     if (!prepare(skeleton, load, time_s, muscle)) return false;
-    const Eigen::VectorXd direction = -muscle.factor.solve(muscle.system.residual_N);
+    const Eigen::VectorXd direction = -solve(muscle, muscle.system.residual_N);
     if (!direction.allFinite()) return false;
     const double part = search_line(skeleton, load, direction, muscle);
     if (part == 0.0 && time_s <= kShortestTime_s) break;
@@ -152,8 +152,8 @@ bool settle_limb(Limb& limb, std::span<const double> angles_rad, WorkerPool& wor
 void refresh_muscle_stiffness(const Limb& limb, LimbMuscle& muscle) {
   if (muscle.rigid) return;
   compute_system(muscle.tissue, limb.skeleton, static_load(limb.gravity_m_s2), muscle.state, muscle.system);
-  if (!muscle.factor.factor(muscle.system.matrix)) return;
-  const Eigen::MatrixXd solution = muscle.factor.solve(muscle.system.coupling_N_rad);
+  if (factor_system(muscle) == Pivots::Unusable) return;
+  const Eigen::MatrixXd solution = solve(muscle, muscle.system.coupling_N_rad);
   const Eigen::MatrixXd whole =
       muscle.system.joint_stiffness_Nm_rad - muscle.system.coupling_N_rad.transpose() * solution;
   if (whole.allFinite()) muscle.stiffness_Nm_rad = whole.diagonal();

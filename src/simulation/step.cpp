@@ -63,19 +63,26 @@ void fill_borders(const Limb& limb, const SmallSystem& small, int index, LimbMus
   }
 }
 
-/// Tangent, factor, border solutions of one muscle.
+/// Tangent, factor, border solutions of one muscle. A muscle that the first Newton step has balanced keeps its tangent
+/// in the later ones: only its residual is new. It is cheap, and the muscles that are out of balance set the pace.
 void eliminate(const Limb& limb, const SmallSystem& small, TissueLoad load, int index, LimbMuscle& muscle) {
+  if (muscle.balanced) {
+    muscle.free_solution = solve(muscle, muscle.system.residual_N);
+    muscle.reduced_residual.noalias() = muscle.borders.transpose() * muscle.free_solution;
+    muscle.sound = muscle.free_solution.allFinite();
+    return;
+  }
   compute_system(muscle.tissue, limb.skeleton, load, muscle.state, muscle.system);
-  muscle.made_definite = !factor_definite(muscle);
+  muscle.made_definite = factor_system(muscle) != Pivots::Positive;
   if (muscle.made_definite) {
     load.definite = true;
     compute_system(muscle.tissue, limb.skeleton, load, muscle.state, muscle.system);
-    muscle.sound = factor_definite(muscle);
+    muscle.sound = factor_system(muscle) == Pivots::Positive;
     if (!muscle.sound) return;
   }
   fill_borders(limb, small, index, muscle);
-  muscle.free_solution = muscle.factor.solve(muscle.system.residual_N);
-  muscle.border_solution = muscle.factor.solve(muscle.borders);
+  muscle.free_solution = solve(muscle, muscle.system.residual_N);
+  muscle.border_solution = solve(muscle, muscle.borders);
   muscle.reduced.noalias() = muscle.borders.transpose() * muscle.border_solution;
   muscle.reduced_residual.noalias() = muscle.borders.transpose() * muscle.free_solution;
   muscle.sound = muscle.free_solution.allFinite() && muscle.reduced.allFinite();
@@ -263,8 +270,10 @@ Iteration newton_step(Limb& limb, const TissueLoad& load, WorkerPool& workers, i
   Iteration result;
   result.sound = search_way(limb, load, way, workers);
   if (way.change_rad.size() > 0) result.turn_rad = way.change_rad.cwiseAbs().maxCoeff();
-  for (const LimbMuscle& muscle : limb.muscles) {
-    if (!muscle.rigid) result.residual_share = std::max(result.residual_share, muscle.residual_share);
+  for (LimbMuscle& muscle : limb.muscles) {
+    if (muscle.rigid) continue;
+    result.residual_share = std::max(result.residual_share, muscle.residual_share);
+    muscle.balanced = muscle.residual_share < kSolvedShare;
   }
   return result;
 }
@@ -296,6 +305,7 @@ StepReport advance(Limb& limb, const StepInput& input, WorkerPool& workers) {
   limb.spring_force_N.assign(limb.springs.size(), Vec3::Zero());
   limb.spring_compliance_m_N.assign(limb.springs.size(), Mat3::Zero());
   follow_angles(limb);
+  for (LimbMuscle& muscle : limb.muscles) muscle.balanced = false;
   StepReport report;
   for (report.iterations = 1; report.iterations <= kMostIterations; ++report.iterations) {
     const Iteration iteration = newton_step(limb, load, workers, report.definite_solves);

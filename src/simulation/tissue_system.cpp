@@ -5,7 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "simulation/fibre_curves.h"
+#include "simulation/fibre_field.h"
 
 namespace myotact::simulation {
 namespace {
@@ -29,44 +29,6 @@ TetVector gather(const TissueElement& element, const Eigen::VectorXd& values) {
     for (std::size_t i = 0; i < 3; ++i) gathered[i * kTetNodes + a] = value[i];
   }
   return gathered;
-}
-
-/// Force-velocity factor at a point and its slope against the stretch: the curve's tangent at the last step's speed,
-/// taken at the new speed, so that the damping of the fibres is implicit and one Newton step is enough.
-struct SpeedFactor {
-  double value = 1.0;
-  double slope = 0.0;
-};
-
-SpeedFactor speed_factor(const Pass& pass, std::size_t point, double stretch) {
-  if (!pass.load.force_velocity || pass.load.rule.rate_1_s == 0.0) return {};
-  const double to_speed = pass.tissue.fibre_map.gain / kLargestShortening_lo_s;
-  const double history = pass.load.rule.history(pass.state.last.stretch[point], pass.state.before.stretch[point]);
-  const double speed = to_speed * (pass.load.rule.rate_1_s * stretch - history);
-  // The tangent is taken within the range in which the curve was measured.
-  const double known = std::clamp(to_speed * pass.state.stretch_rate_1_s[point], -1.0, 1.0);
-  const double slope = force_velocity_slope(known);
-  const double value = force_velocity(known) + slope * (speed - known);
-  if (value <= 0.0) return {0.0, 0.0};  // a fibre never pushes
-  return {value, slope * to_speed * pass.load.rule.rate_1_s};
-}
-
-FibreStress fibre_stress(const Pass& pass, const TissueElement& element, std::size_t first_point,
-                         const TetPoints& points) {
-  FibreStress fibre;
-  if (element.peak_Pa == 0.0) return fibre;
-  const FibreMap& map = pass.tissue.fibre_map;
-  const double a = pass.state.activation, peak = map.scale * element.peak_Pa;
-  for (std::size_t p = 0; p < kTetPoints; ++p) {
-    const double n = map.length(points.stretch[p]);
-    const SpeedFactor speed = speed_factor(pass, first_point + p, points.stretch[p]);
-    const double length = active_force_length(n);
-    fibre.stress_Pa[p] = peak * (a * length * speed.value + passive_force_length(n));
-    fibre.slope_Pa[p] =
-        peak * ((a * active_force_length_slope(n) * speed.value + passive_force_length_slope(n)) * map.gain +
-                           a * length * speed.slope);
-  }
-  return fibre;
 }
 
 TissueMaterial material_of(const TissueElement& element, double activation) {
@@ -117,10 +79,12 @@ double dot(const TetVector& a, const TetVector& b) {
 }
 
 /// Columns and rows of the joints that move clamped nodes of the element.
-void scatter_joints(const Pass& pass, const TissueElement& element, const TetMatrix& stiffness) {
+void scatter_joints(const Pass& pass, const TissueElement& element, const TetMatrix& stiffness,
+                    const TetVector& mean_part) {
   for (int j = 0; j < pass.skeleton.joint_count(); ++j) {
     TetVector motion;
     if (!joint_motion(pass, element, j, motion)) continue;
+    pass.system.mean.joint_gradient[j] += dot(mean_part, motion);
     const TetVector force = multiply(stiffness, motion);
     for (std::size_t a = 0; a < kTetNodes; ++a) {
       const int f = pass.tissue.free_index[at(element.nodes[a])];
@@ -136,30 +100,61 @@ void scatter_joints(const Pass& pass, const TissueElement& element, const TetMat
   }
 }
 
+void scatter_mean(const TissueElement& element, const MuscleTissue& tissue, const TetVector& part,
+                  Eigen::VectorXd& gradient) {
+  for (std::size_t a = 0; a < kTetNodes; ++a) {
+    const int f = tissue.free_index[at(element.nodes[a])];
+    if (f < 0) continue;
+    for (std::size_t i = 0; i < 3; ++i) gradient[3 * f + static_cast<int>(i)] += part[i * kTetNodes + a];
+  }
+}
+
+/// Kinematics of all elements; the force of each fibre needs the mean length of all.
+void deform_elements(const Pass& pass) {
+  pass.system.points.resize(pass.tissue.elements.size());
+  for (std::size_t t = 0; t < pass.tissue.elements.size(); ++t) {
+    const TissueElement& element = pass.tissue.elements[t];
+    TetPoints& points = pass.system.points[t];
+    deform(element.rest, element.fibre, gather(element, pass.state.now.position_m), points);
+    for (std::size_t p = 0; p < kTetPoints; ++p) {
+      pass.state.now.stretch[t * kTetPoints + p] = points.stretch[p];
+      pass.system.smallest_J = std::min(pass.system.smallest_J, points.J[p]);
+    }
+  }
+}
+
 void add_elements(const Pass& pass) {
-  TetPoints points;
+  deform_elements(pass);
+  const FibreInputs fibres{pass.tissue, pass.state, pass.load, mean_fibre_length(pass.tissue, pass.state.now.stretch),
+                           mean_fibre_length(pass.tissue, pass.state.last.stretch)};
   TetMatrix stiffness;
   for (std::size_t t = 0; t < pass.tissue.elements.size(); ++t) {
     const TissueElement& element = pass.tissue.elements[t];
-    deform(element.rest, element.fibre, gather(element, pass.state.now.position_m), points);
-    const FibreStress fibre = fibre_stress(pass, element, t * kTetPoints, points);
+    const FibreStress fibre = fibre_stress(fibres, t, pass.system.points[t]);
     const TissueMaterial material = material_of(element, pass.state.activation);
-    const ElementInputs inputs{element.rest, material, points, element.fibre, fibre};
+    const ElementInputs inputs{element.rest, material, pass.system.points[t], element.fibre, fibre};
     const TetVector forces = elastic_forces(inputs);
     for (std::size_t a = 0; a < kTetNodes; ++a) {
       double* out = pass.system.internal_N.data() + 3 * element.nodes[a];
       for (std::size_t i = 0; i < 3; ++i) out[i] += forces[i * kTetNodes + a];
     }
     pass.system.force_scale_N += dot(forces, forces);
-    for (std::size_t p = 0; p < kTetPoints; ++p) {
-      pass.state.now.stretch[t * kTetPoints + p] = points.stretch[p];
-      pass.system.smallest_J = std::min(pass.system.smallest_J, points.J[p]);
-    }
     if (!pass.tangent) continue;
     elastic_stiffness(inputs, pass.load.definite, stiffness);
     scatter_matrix(element, pass.tissue, stiffness, pass.system.matrix.values());
-    scatter_joints(pass, element, stiffness);
+    const TetVector mean_part = mean_gradient(element, pass.system.points[t]);
+    scatter_mean(element, pass.tissue, mean_part, pass.system.mean.gradient);
+    scatter_joints(pass, element, stiffness, mean_part);
   }
+  if (!pass.tangent) return;
+  MeanTerm& mean = pass.system.mean;
+  const double weight = fibre_weight_Nm(pass.tissue), factor = mean_tangent_Nm(fibres);
+  const double to_length = weight > 0.0 ? pass.tissue.fibre_map.gain / weight : 0.0;
+  mean.gradient *= to_length;
+  mean.joint_gradient *= to_length;
+  mean.factor_Nm = pass.load.definite ? std::max(factor, 0.0) : factor;
+  pass.system.coupling_N_rad += mean.factor_Nm * mean.gradient * mean.joint_gradient.transpose();
+  pass.system.joint_stiffness_Nm_rad += mean.factor_Nm * mean.joint_gradient * mean.joint_gradient.transpose();
 }
 
 /// Tangent of a strand over (p, angles) with its negative eigenvalues cut off.
@@ -263,6 +258,8 @@ void run(const Pass& pass) {
     system.matrix.set_zero();
     system.coupling_N_rad.setZero();
     system.joint_stiffness_Nm_rad.setZero();
+    system.mean.gradient.setZero();
+    system.mean.joint_gradient.setZero();
   }
   add_elements(pass);
   system.force_scale_N = std::sqrt(system.force_scale_N);
@@ -302,6 +299,7 @@ TissueSystem make_system(const MuscleTissue& tissue, const Skeleton& skeleton) {
   system.coupling_N_rad = Eigen::MatrixXd::Zero(3 * tissue.free_nodes, joints);
   system.joint_stiffness_Nm_rad = Eigen::MatrixXd::Zero(joints, joints);
   system.joint_residual_Nm = system.muscle_torque_Nm = Eigen::VectorXd::Zero(joints);
+  system.mean = {Eigen::VectorXd::Zero(3 * tissue.free_nodes), Eigen::VectorXd::Zero(joints), 0.0};
   system.internal_N = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * tissue.body.size()));
   return system;
 }

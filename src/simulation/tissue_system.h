@@ -40,18 +40,28 @@ struct TissueLoad {
   bool definite = false;          // build a safe positive definite tangent
 };
 
+/// What the mean length of the fibres adds to the tangent: factor * gradient gradient^T over free nodes and angles. Dense,
+/// so the nodes' part is kept apart; coupling and joint stiffness hold theirs.
+struct MeanTerm {
+  Eigen::VectorXd gradient;        // of the mean normalised length against the free nodes [1/m]
+  Eigen::VectorXd joint_gradient;  // against the angles [1/rad]
+  double factor_Nm = 0.0;
+};
+
 /// One muscle's part of the arrow system
 ///
-///   | matrix      coupling        | | d nodes  |      | residual       |
-///   | coupling^T  joint_stiffness | | d angles | =  - | joint_residual |
+///   | matrix + mean  coupling        | | d nodes  |      | residual       |
+///   | coupling^T     joint_stiffness | | d angles | =  - | joint_residual |
 ///
 /// over its free nodes and all joint angles.
 struct TissueSystem {
   BlockMatrix matrix;
+  MeanTerm mean;
   Eigen::VectorXd residual_N;
   Eigen::MatrixXd coupling_N_rad;
   Eigen::MatrixXd joint_stiffness_Nm_rad;
   Eigen::VectorXd joint_residual_Nm;
+  std::vector<TetPoints> points;      // one an element
   // of the forces pass alone
   Eigen::VectorXd internal_N;         // at all nodes: elastic forces and strands
   Eigen::VectorXd muscle_torque_Nm;   // that the tissue exerts on the joints, positive flexes

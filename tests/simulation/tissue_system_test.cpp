@@ -53,6 +53,7 @@ struct Bench {
     Eigen::MatrixXd whole(n + 1, n + 1);
     const Eigen::MatrixXd lower(system.matrix.lower());
     whole.topLeftCorner(n, n) = lower.selfadjointView<Eigen::Lower>();
+    whole.topLeftCorner(n, n) += system.mean.factor_Nm * system.mean.gradient * system.mean.gradient.transpose();
     whole.topRightCorner(n, 1) = system.coupling_N_rad;
     whole.bottomLeftCorner(1, n) = system.coupling_N_rad.transpose();
     whole(n, n) = system.joint_stiffness_Nm_rad(0, 0);

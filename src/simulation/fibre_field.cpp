@@ -1,0 +1,90 @@
+#include "simulation/fibre_field.h"
+
+#include <algorithm>
+
+#include "simulation/fibre_curves.h"
+
+namespace myotact::simulation {
+namespace {
+
+double point_weight_Nm(const TissueElement& element) { return element.rest.point_volume_m3 * element.peak_Pa; }
+
+/// Force-velocity factor at a point and its slope against the stretch: the curve's tangent at the last step's speed,
+/// taken at the new speed, so that the damping of the fibres is implicit and one Newton step is enough.
+struct SpeedFactor {
+  double value = 1.0;
+  double slope = 0.0;
+};
+
+SpeedFactor speed_factor(const FibreInputs& in, std::size_t point, double stretch) {
+  if (!in.load.force_velocity || in.load.rule.rate_1_s == 0.0) return {};
+  const double to_speed = in.tissue.fibre_map.gain / kLargestShortening_lo_s;
+  const double history = in.load.rule.history(in.state.last.stretch[point], in.state.before.stretch[point]);
+  const double speed = to_speed * (in.load.rule.rate_1_s * stretch - history);
+  // The tangent is taken within the range in which the curve was measured.
+  const double known = std::clamp(to_speed * in.state.stretch_rate_1_s[point], -1.0, 1.0);
+  const double slope = force_velocity_slope(known);
+  const double value = force_velocity(known) + slope * (speed - known);
+  if (value <= 0.0) return {0.0, 0.0};  // a fibre never pushes
+  return {value, slope * to_speed * in.load.rule.rate_1_s};
+}
+
+}  // namespace
+
+double fibre_weight_Nm(const MuscleTissue& tissue) {
+  double weight = 0.0;
+  for (const TissueElement& element : tissue.elements) weight += kTetPoints * point_weight_Nm(element);
+  return weight;
+}
+
+double mean_fibre_length(const MuscleTissue& tissue, const std::vector<double>& stretches) {
+  double sum = 0.0, weight = 0.0;
+  for (std::size_t t = 0; t < tissue.elements.size(); ++t) {
+    const double w = point_weight_Nm(tissue.elements[t]);
+    for (std::size_t p = 0; p < kTetPoints; ++p) sum += w * tissue.fibre_map.length(stretches[t * kTetPoints + p]);
+    weight += kTetPoints * w;
+  }
+  return weight > 0.0 ? sum / weight : tissue.fibre_map.rest_stretch;
+}
+
+FibreStress fibre_stress(const FibreInputs& in, std::size_t t, const TetPoints& points) {
+  FibreStress fibre;
+  const TissueElement& element = in.tissue.elements[t];
+  if (element.peak_Pa == 0.0) return fibre;
+  const FibreMap& map = in.tissue.fibre_map;
+  const double a = in.state.activation, peak = map.scale * element.peak_Pa;
+  const double shared = active_force_length(in.mean_length);
+  const double damped = active_force_length(in.last_mean_length);
+  for (std::size_t p = 0; p < kTetPoints; ++p) {
+    const double n = map.length(points.stretch[p]);
+    const SpeedFactor speed = speed_factor(in, t * kTetPoints + p, points.stretch[p]);
+    const double active = shared + kEvenness * (n - in.mean_length) + damped * (speed.value - 1.0);
+    fibre.stress_Pa[p] = peak * (a * active + passive_force_length(n));
+    fibre.slope_Pa[p] =
+        peak * ((a * kEvenness + passive_force_length_slope(n)) * map.gain + a * damped * speed.slope);
+  }
+  return fibre;
+}
+
+double mean_tangent_Nm(const FibreInputs& in) {
+  const FibreMap& map = in.tissue.fibre_map;
+  const double slope = active_force_length_slope(in.mean_length) - kEvenness;
+  return in.state.activation * map.scale * fibre_weight_Nm(in.tissue) / map.gain * slope;
+}
+
+TetVector mean_gradient(const TissueElement& element, const TetPoints& points) {
+  TetVector gradient{};
+  for (std::size_t p = 0; p < kTetPoints; ++p) {
+    const TetVector& g = element.rest.gradients_1_m[p];
+    for (std::size_t a = 0; a < kTetNodes; ++a) {
+      const double along = element.fibre.x() * g[a] + element.fibre.y() * g[kTetNodes + a] +
+                           element.fibre.z() * g[2 * kTetNodes + a];
+      for (std::size_t i = 0; i < 3; ++i) {
+        gradient[i * kTetNodes + a] += point_weight_Nm(element) * along * points.fibre[p][static_cast<Eigen::Index>(i)];
+      }
+    }
+  }
+  return gradient;
+}
+
+}  // namespace myotact::simulation

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "simulation/tissue_system.h"
+
+namespace myotact::simulation {
+
+// A muscle's fibres run through the whole belly and hold one number of sarcomeres each, so their force follows from the
+// length of the whole fibre. Taken point by point instead, the falling limb of the force-length curve lets single points
+// snap to twice their length while their neighbours shorten, which no muscle does at this scale. Therefore
+//
+//   active stress = a peak [ fL(mean n) + h (n - mean n) ] + damping,      h > 0
+//
+// the muscle's mean length decides the force, and a point that differs from the mean is drawn back as on the rising limb.
+// The second term adds nothing to the muscle's force. Passive stress is local.
+
+/// h: slope of the force-length curve at n = 0.8, the middle of its rising limb.
+inline constexpr double kEvenness = 1.0;
+
+/// Mean of the normalised fibre length, weighted by volume times peak stress; rest_stretch without fibres.
+double mean_fibre_length(const MuscleTissue& tissue, const std::vector<double>& stretches);
+
+/// Sum of volume times peak stress [N m].
+double fibre_weight_Nm(const MuscleTissue& tissue);
+
+/// Nominal stress and its slope against the point's own stretch at the four points of an element.
+struct FibreInputs {
+  const MuscleTissue& tissue;
+  const TissueState& state;
+  const TissueLoad& load;
+  double mean_length = 0.0;       // now
+  double last_mean_length = 0.0;  // at the last instant; scales the damping
+};
+FibreStress fibre_stress(const FibreInputs& inputs, std::size_t element, const TetPoints& points);
+
+/// How the mean length enters the tangent: factor * (gradient of the mean)(gradient of the mean)^T [N m].
+double mean_tangent_Nm(const FibreInputs& inputs);
+
+/// Part of the gradient of the mean length against an element's nodes, times fibre_weight_Nm / gain [N].
+TetVector mean_gradient(const TissueElement& element, const TetPoints& points);
+
+}  // namespace myotact::simulation
