@@ -14,8 +14,14 @@ int index_of(const std::vector<Part>& parts, const std::string& key) {
 
 }  // namespace
 
-int find_muscle(const Specimen& specimen, const std::string& key) { return index_of(specimen.muscles, key); }
-int find_joint(const Specimen& specimen, const std::string& key) { return index_of(specimen.joints, key); }
-int find_body(const Specimen& specimen, const std::string& key) { return index_of(specimen.bodies, key); }
+int find_muscle(const Specimen& specimen, const std::string& key) {
+  return index_of(specimen.muscles, key);
+}
+int find_joint(const Specimen& specimen, const std::string& key) {
+  return index_of(specimen.joints, key);
+}
+int find_body(const Specimen& specimen, const std::string& key) {
+  return index_of(specimen.bodies, key);
+}
 
 }  // namespace myotact::anatomy

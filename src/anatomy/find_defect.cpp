@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cmath>
 
+#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "anatomy/specimen.h"
@@ -9,13 +11,97 @@ namespace myotact::anatomy {
 
 namespace {
 
+/// No limb is larger; what lies farther out was probably written in millimetres.
+constexpr double kFarthest_m = 10.0;
+
+bool is_near(const Vec3& position_m) {
+  return position_m.allFinite() && position_m.norm() <= kFarthest_m;
+}
+
+bool is_index(int index, std::size_t count) {
+  return index >= 0 && static_cast<std::size_t>(index) < count;
+}
+
+/// Keys become names of files and of columns.
+std::string defect_of_key(const std::string& kind, const std::string& key) {
+  const bool plain = std::all_of(key.begin(), key.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '.';
+  });
+  constexpr std::size_t kLongestKey = 100;
+  if (plain && !key.empty() && key.front() != '.' && key.size() <= kLongestKey) return "";
+  return fmt::format("{} \"{}\": a key must be 1 to {} of a-z, 0-9, _ and ., and not begin with a point", kind,
+                     key.substr(0, kLongestKey), kLongestKey);
+}
+
+std::string defect_of_keys(const Specimen& specimen) {
+  for (const Body& body : specimen.bodies) {
+    if (auto defect = defect_of_key("body", body.key); !defect.empty()) return defect;
+  }
+  for (const Bone& bone : specimen.bones) {
+    if (auto defect = defect_of_key("bone", bone.key); !defect.empty()) return defect;
+  }
+  for (const Joint& joint : specimen.joints) {
+    if (auto defect = defect_of_key("joint", joint.key); !defect.empty()) return defect;
+  }
+  for (const Muscle& muscle : specimen.muscles) {
+    if (auto defect = defect_of_key("muscle", muscle.key); !defect.empty()) return defect;
+  }
+  return "";
+}
+
+/// References between the parts; the other checks rely on them.
+std::string defect_of_references(const Specimen& specimen) {
+  const std::size_t bodies = specimen.bodies.size();
+  for (const Bone& bone : specimen.bones) {
+    if (!is_index(bone.body, bodies))
+      return fmt::format("bone {}: its body is {}; there are {}", bone.key, bone.body, bodies);
+  }
+  for (const Joint& joint : specimen.joints) {
+    if (!is_index(joint.parent, bodies) || !is_index(joint.child, bodies)) {
+      return fmt::format("joint {}: its bodies are {} and {}; there are {}", joint.key, joint.parent, joint.child,
+                         bodies);
+    }
+  }
+  const auto is_muscle = [&](int m) { return is_index(m, specimen.muscles.size()); };
+  for (const MuscleLine& line : specimen.lines) {
+    if (!is_muscle(line.muscle))
+      return fmt::format("a line names muscle {}; there are {}", line.muscle, specimen.muscles.size());
+    for (const LinePoint& point : line.points) {
+      if (!is_index(point.body, bodies)) return fmt::format("a line names body {}; there are {}", point.body, bodies);
+    }
+  }
+  for (const MuscleGroup& group : specimen.groups) {
+    const bool known = is_index(group.joint, specimen.joints.size()) &&
+                       std::all_of(group.flexors.begin(), group.flexors.end(), is_muscle) &&
+                       std::all_of(group.extensors.begin(), group.extensors.end(), is_muscle);
+    if (!known) return "a group names a joint or a muscle that is not there";
+  }
+  return "";
+}
+
+std::string defect_of_body(const Body& body) {
+  if (!(body.mass_kg > 0.0 && body.mass_kg <= 1e3)) {
+    return fmt::format("body {}: mass_kg is {}; must be > 0 and at most 1000", body.key, to_text(body.mass_kg));
+  }
+  if (!is_near(body.com_m)) return fmt::format("body {}: com_m must lie within 10 m; are the units metres?", body.key);
+  const auto& [xx, yy, zz, xy, xz, yz] = body.inertia_kg_m2;
+  Mat3 inertia;
+  inertia << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+  const bool positive = inertia.allFinite() && xx > 0.0 && xx * yy - xy * xy > 0.0 && inertia.determinant() > 0.0;
+  return positive ? ""
+                  : fmt::format("body {}: inertia_kg_m2 must be positive definite, in the order xx yy zz xy xz yz",
+                                body.key);
+}
+
 std::string defect_of_skeleton(const Specimen& specimen) {
   if (specimen.bodies.empty()) return "bodies: is empty; a specimen needs at least one body";
   for (const Body& body : specimen.bodies) {
-    if (!(body.mass_kg > 0.0)) return fmt::format("body {}: mass_kg is {}; must be > 0", body.key, to_text(body.mass_kg));
+    if (auto defect = defect_of_body(body); !defect.empty()) return defect;
   }
   for (const Joint& joint : specimen.joints) {
     if (joint.parent == joint.child) return fmt::format("joint {}: parent and child are the same body", joint.key);
+    if (!is_near(joint.centre_m))
+      return fmt::format("joint {}: centre_m must lie within 10 m; are the units metres?", joint.key);
     const std::size_t wanted = static_cast<std::size_t>(joint.type == JointType::Weld        ? 0
                                                         : joint.type == JointType::Hinge     ? 1
                                                         : joint.type == JointType::Universal ? 2
@@ -25,7 +111,7 @@ std::string defect_of_skeleton(const Specimen& specimen) {
                          joint.range_rad.size(), wanted);
     }
     for (const Vec3& axis : joint.axes) {
-      if (std::abs(axis.norm() - 1.0) > 1e-6) return fmt::format("joint {}: an axis is not of length 1", joint.key);
+      if (!(std::abs(axis.norm() - 1.0) <= 1e-6)) return fmt::format("joint {}: an axis is not of length 1", joint.key);
     }
     for (const auto& [lowest, highest] : joint.range_rad) {
       if (!(lowest < highest)) return fmt::format("joint {}: range_rad must rise", joint.key);
@@ -40,19 +126,64 @@ std::string defect_of_mechanics(const Muscle& muscle) {
     double value, lowest, highest;
   };
   constexpr double kHalfPi = 1.5707963267948966;
-  for (const Bound& b : {Bound{"peak_force_N", muscle.peak_force_N, 1e-3, 1e5},
-                         Bound{"optimal_fibre_m", muscle.optimal_fibre_m, 1e-4, 1.0},
-                         Bound{"pennation_rad", muscle.pennation_rad, 0.0, 0.9 * kHalfPi},
-                         Bound{"rest_stretch", muscle.rest_stretch, 0.3, 1.8},
-                         Bound{"tendon_slack_m", muscle.tendon_slack_m, 0.0, 1.0},
-                         Bound{"activation_tau_s", muscle.activation_tau_s, 1e-3, 1.0},
-                         Bound{"deactivation_tau_s", muscle.deactivation_tau_s, 1e-3, 1.0}}) {
+  for (const Bound& b :
+       {Bound{"peak_force_N", muscle.peak_force_N, 1e-3, 1e5},
+        Bound{"optimal_fibre_m", muscle.optimal_fibre_m, 1e-4, 1.0},
+        Bound{"pennation_rad", muscle.pennation_rad, 0.0, 0.9 * kHalfPi},
+        Bound{"rest_stretch", muscle.rest_stretch, 0.3, 1.8}, Bound{"tendon_slack_m", muscle.tendon_slack_m, 0.0, 1.0},
+        Bound{"activation_tau_s", muscle.activation_tau_s, 1e-3, 1.0},
+        Bound{"deactivation_tau_s", muscle.deactivation_tau_s, 1e-3, 1.0}}) {
     if (!(b.value >= b.lowest && b.value <= b.highest)) {
       return fmt::format("muscle {}: {} is {}; must be between {} and {}", muscle.key, b.name, to_text(b.value),
                          to_text(b.lowest), to_text(b.highest));
     }
   }
   return "";
+}
+
+/// Largest distance of a mid-side node from the middle of its edge, over the edge's length. At a quarter the element's
+/// map folds at the corner (the quarter-point element of fracture mechanics).
+constexpr double kMostMidsideOffset = 0.24;
+
+std::string defect_of_midsides(const Muscle& muscle, std::size_t t) {
+  const auto node = [&](int n) -> const Vec3& { return muscle.tets.nodes_m[static_cast<std::size_t>(n)]; };
+  for (std::size_t e = 0; e < geometry::kTetEdges.size(); ++e) {
+    const Vec3& a = node(muscle.tets.corners[t][static_cast<std::size_t>(geometry::kTetEdges[e][0])]);
+    const Vec3& b = node(muscle.tets.corners[t][static_cast<std::size_t>(geometry::kTetEdges[e][1])]);
+    const Vec3 offset = node(muscle.tets.midsides[t][e]) - 0.5 * (a + b);
+    if (!(offset.norm() <= kMostMidsideOffset * (b - a).norm())) {
+      return fmt::format(
+          "muscle {}: tet {}: the node in the middle of edge {} is not there; the order is VTK's: edges "
+          "01 12 02 03 13 23",
+          muscle.key, t, e);
+    }
+  }
+  return "";
+}
+
+/// Every node belongs to a tet, lies within reach, and the muscle hangs on something.
+std::string defect_of_nodes(const Muscle& muscle, std::size_t body_count) {
+  const auto& tets = muscle.tets;
+  std::vector<bool> used(tets.nodes_m.size(), false);
+  for (const auto& tet : tets.corners) {
+    for (const int n : tet) used[static_cast<std::size_t>(n)] = true;
+  }
+  for (const auto& tet : tets.midsides) {
+    for (const int n : tet) used[static_cast<std::size_t>(n)] = true;
+  }
+  bool attached = false;
+  for (std::size_t n = 0; n < tets.nodes_m.size(); ++n) {
+    if (!used[n]) return fmt::format("muscle {}: node {} belongs to no tet; remove it", muscle.key, n);
+    if (!is_near(tets.nodes_m[n])) {
+      return fmt::format("muscle {}: node {} must lie within 10 m; are the units metres?", muscle.key, n);
+    }
+    if (muscle.attachments[n] < -1 || muscle.attachments[n] >= static_cast<int>(body_count)) {
+      return fmt::format("muscle {}: node {} is attached to body {}; must be -1 .. {}", muscle.key, n,
+                         muscle.attachments[n], static_cast<int>(body_count) - 1);
+    }
+    attached |= muscle.attachments[n] >= 0;
+  }
+  return attached ? "" : fmt::format("muscle {}: no node is attached to a body; it would float away", muscle.key);
 }
 
 std::string defect_of_tets(const Muscle& muscle, std::size_t body_count) {
@@ -71,27 +202,25 @@ std::string defect_of_tets(const Muscle& muscle, std::size_t body_count) {
       return fmt::format("muscle {}: tet {} has volume {} m^3; must be > 0. Run myotact-prepare on the surface again",
                          muscle.key, t, to_text(volume));
     }
-    if (std::abs(muscle.fibres[t].norm() - 1.0) > 1e-6) {
+    if (tets.quadratic()) {
+      if (auto defect = defect_of_midsides(muscle, t); !defect.empty()) return defect;
+    }
+    if (!(std::abs(muscle.fibres[t].norm() - 1.0) <= 1e-6)) {
       return fmt::format("muscle {}: the fibre of tet {} is not of length 1", muscle.key, t);
     }
-    if (!muscle.sections_m2.empty() && !(muscle.sections_m2[t] > 0.0)) {
-      return fmt::format("muscle {}: the section of tet {} must be > 0", muscle.key, t);
+    if (!muscle.sections_m2.empty() && !(muscle.sections_m2[t] > 0.0 && muscle.sections_m2[t] < 1.0)) {
+      return fmt::format("muscle {}: the section of tet {} must be > 0 and < 1 m^2", muscle.key, t);
     }
   }
-  bool attached = false;
-  for (std::size_t n = 0; n < muscle.attachments.size(); ++n) {
-    if (muscle.attachments[n] < -1 || muscle.attachments[n] >= static_cast<int>(body_count)) {
-      return fmt::format("muscle {}: node {} is attached to body {}; must be -1 .. {}", muscle.key, n,
-                         muscle.attachments[n], static_cast<int>(body_count) - 1);
-    }
-    attached |= muscle.attachments[n] >= 0;
-  }
-  return attached ? "" : fmt::format("muscle {}: no node is attached to a body; it would float away", muscle.key);
+  return defect_of_nodes(muscle, body_count);
 }
 
 std::string defect_of_surface(const std::string& what, const geometry::TriangleMesh& surface) {
   const int bad = geometry::bad_edge_count(surface);
   if (surface.triangles.empty()) return what + ": has no triangles";
+  if (!std::all_of(surface.positions_m.begin(), surface.positions_m.end(), is_near)) {
+    return what + ": a vertex lies beyond 10 m; are the units metres?";
+  }
   return bad == 0 ? "" : fmt::format("{}: is not closed ({} bad edges); close it and prepare it again", what, bad);
 }
 
@@ -102,6 +231,12 @@ std::string defect_of_lines(const Specimen& specimen) {
     if (line.points.size() < 2) return fmt::format("line of {}: needs at least two points", key);
     if (line.points.front().kind != LinePointKind::Origin || line.points.back().kind != LinePointKind::Insertion) {
       return fmt::format("line of {}: must begin with an origin and end with an insertion", key);
+    }
+    for (std::size_t p = 0; p < line.points.size(); ++p) {
+      if (!is_near(line.points[p].position_m)) return fmt::format("line of {}: point {} must lie within 10 m", key, p);
+      if (p > 0 && line.points[p].position_m == line.points[p - 1].position_m) {
+        return fmt::format("line of {}: points {} and {} are the same; remove one", key, p - 1, p);
+      }
     }
     ++lines_of_muscle[static_cast<std::size_t>(line.muscle)];
   }
@@ -116,6 +251,8 @@ std::string defect_of_lines(const Specimen& specimen) {
 }  // namespace
 
 std::string find_defect(const Specimen& specimen) {
+  if (auto defect = defect_of_keys(specimen); !defect.empty()) return defect;
+  if (auto defect = defect_of_references(specimen); !defect.empty()) return defect;
   if (auto defect = defect_of_skeleton(specimen); !defect.empty()) return defect;
   for (const Bone& bone : specimen.bones) {
     if (auto defect = defect_of_surface("bone " + bone.key, bone.surface); !defect.empty()) return defect;

@@ -23,7 +23,8 @@ struct Loader {
   /// A mesh file named in the specimen: a relative path that stays inside the folder.
   std::filesystem::path part(const JsonValue& name) const {
     const std::filesystem::path relative = name.string();
-    if (relative.is_absolute() || std::any_of(relative.begin(), relative.end(), [](const auto& p) { return p == ".."; })) {
+    if (relative.is_absolute() ||
+        std::any_of(relative.begin(), relative.end(), [](const auto& p) { return p == ".."; })) {
       throw name.error("must be a path inside the specimen folder");
     }
     return folder / relative;
@@ -37,8 +38,8 @@ int reference(const JsonValue& name, const std::vector<Part>& parts, const char*
   for (const Part& part : parts) keys.push_back(part.key);
   const auto found = std::find(keys.begin(), keys.end(), key);
   if (found != keys.end()) return static_cast<int>(found - keys.begin());
-  throw name.error(fmt::format("names the {} \"{}\" that is not there; the nearest is \"{}\"", kind, key,
-                               nearest_word(key, keys)));
+  throw name.error(
+      fmt::format("names the {} \"{}\" that is not there; the nearest is \"{}\"", kind, key, nearest_word(key, keys)));
 }
 
 template <class Part>
@@ -222,9 +223,11 @@ void read_lists(JsonObject& root, Loader& loader) {
 
 Specimen load_specimen(const std::filesystem::path& folder) {
   const auto file = folder / "specimen.json";
-  if (!std::filesystem::exists(file)) {
-    throw Error(ExitStatus::NoInput, folder.string() + ": is no specimen folder: specimen.json is missing; make one "
-                                                       "with myotact-prepare");
+  std::error_code failure;  // a path that cannot even be examined is no specimen either
+  if (!std::filesystem::exists(file, failure)) {
+    throw Error(ExitStatus::NoInput, folder.string() +
+                                         ": is no specimen folder: specimen.json is missing; make one "
+                                         "with myotact-prepare");
   }
   const nlohmann::json json = read_json(file);
   JsonObject root(JsonValue(json, file.string()));

@@ -106,8 +106,9 @@ struct Specimen {
 /// Throws Error NoInput or BadData naming file, place, value, allowed range and remedy.
 Specimen load_specimen(const std::filesystem::path& folder);
 
-/// Writes the folder completely, or throws Error InputOutput and leaves nothing half-written: the files go to a
-/// temporary folder beside it that is renamed at the end. An existing specimen folder is replaced.
+/// Writes the folder completely, or throws Error (InputOutput; BadData for a specimen with a defect) and leaves nothing
+/// half-written: the files go to a temporary folder beside it that is renamed at the end. An existing specimen folder is
+/// replaced.
 void save_specimen(const Specimen& specimen, const std::filesystem::path& folder);
 
 /// What makes a specimen unusable, as one sentence with place, value and remedy; empty when all is well.

@@ -1,16 +1,15 @@
 #include "core/file.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <memory>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <openssl/evp.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "core/error.h"
 
@@ -54,7 +53,8 @@ std::string read_file(const std::filesystem::path& path) {
   // Non-blocking, so that a named pipe cannot hang the program before it is refused below.
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (file.get() < 0) {
-    throw Error(ExitStatus::NoInput, fmt::format("{}: cannot be opened: {}", path.string(), std::strerror(errno)));
+    throw Error(ExitStatus::NoInput, fmt::format("{}: cannot be opened: {}. Check the path and its permissions.",
+                                                 path.string(), std::strerror(errno)));
   }
   struct stat status {};
   if (::fstat(file.get(), &status) != 0) throw io_error(path, "cannot be examined");

@@ -29,6 +29,24 @@ std::string line_and_column(const std::string& text, std::size_t byte) {
   return fmt::format("{}:{}", line, column);
 }
 
+/// A value as it appears in a message: short whatever the file holds, and never by recursion into nested lists.
+std::string shown(const nlohmann::json& value) {
+  if (value.is_array()) return "a list";
+  if (value.is_object()) return "an object";
+  constexpr std::size_t kLongestShown = 60;
+  const std::string text = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return text.size() <= kLongestShown ? text : text.substr(0, kLongestShown) + "...";
+}
+
+/// Where the number that does not fit a double stands; nlohmann quotes it but does not say where.
+std::string place_of_number(const std::string& text, const std::string& message) {
+  const std::size_t opening = message.find('\'');
+  const std::size_t closing = message.rfind('\'');
+  if (opening == std::string::npos || closing <= opening + 1) return "";
+  const std::size_t byte = text.find(message.substr(opening + 1, closing - opening - 1));
+  return byte == std::string::npos ? "" : line_and_column(text, byte + 1);
+}
+
 /// What nlohmann's message says after its own position, which is already named.
 std::string reason(const std::string& message) {
   const std::size_t position = message.find(": ", message.find("column"));
@@ -43,7 +61,7 @@ nlohmann::json parse_json(const std::string& text, const std::string& file) {
   } catch (const nlohmann::json::parse_error& failure) {
     throw bad_data(file, line_and_column(text, failure.byte), reason(failure.what()));
   } catch (const nlohmann::json::exception& failure) {  // a number beyond the range of a double
-    throw bad_data(file, "", failure.what());
+    throw bad_data(file, place_of_number(text, failure.what()), "holds a number beyond 1.8e308; write a smaller one");
   }
 }
 
@@ -52,7 +70,7 @@ nlohmann::json read_json(const std::filesystem::path& path) {
 }
 
 double JsonValue::number() const {
-  if (!value_->is_number()) throw error(fmt::format("is {}; must be a number", value_->dump()));
+  if (!value_->is_number()) throw error(fmt::format("is {}; must be a number", shown(*value_)));
   return value_->get<double>();
 }
 
@@ -71,19 +89,19 @@ int JsonValue::integer_between(int lowest, int highest) const {
 }
 
 bool JsonValue::boolean() const {
-  if (!value_->is_boolean()) throw error(fmt::format("is {}; must be true or false", value_->dump()));
+  if (!value_->is_boolean()) throw error(fmt::format("is {}; must be true or false", shown(*value_)));
   return value_->get<bool>();
 }
 
 std::string JsonValue::string() const {
-  if (!value_->is_string()) throw error(fmt::format("is {}; must be a text in quotes", value_->dump()));
+  if (!value_->is_string()) throw error(fmt::format("is {}; must be a text in quotes", shown(*value_)));
   return value_->get<std::string>();
 }
 
 std::string JsonValue::one_of(const std::vector<std::string>& allowed) const {
   std::string word = string();
   if (std::find(allowed.begin(), allowed.end(), word) == allowed.end()) {
-    throw error(fmt::format("is \"{}\"; must be one of {} (nearest: \"{}\")", word, join(allowed),
+    throw error(fmt::format("is {}; must be one of {} (nearest: \"{}\")", shown(*value_), join(allowed),
                             nearest_word(word, allowed)));
   }
   return word;
@@ -95,7 +113,7 @@ Vec3 JsonValue::vec3() const {
 }
 
 std::vector<JsonValue> JsonValue::elements() const {
-  if (!value_->is_array()) throw error("must be a list");
+  if (!value_->is_array()) throw error(fmt::format("is {}; must be a list", shown(*value_)));
   std::vector<JsonValue> parts;
   for (std::size_t i = 0; i < value_->size(); ++i) {
     parts.emplace_back((*value_)[i], file_, fmt::format("{}/{}", pointer_, i));
@@ -116,7 +134,8 @@ std::vector<std::string> JsonValue::strings() const {
 }
 
 JsonObject::JsonObject(const JsonValue& value) : value_(value) {
-  if (!value.raw().is_object()) throw value.error("must be an object in braces");
+  if (!value.raw().is_object())
+    throw value.error(fmt::format("is {}; must be an object in braces", shown(value.raw())));
 }
 
 std::optional<JsonValue> JsonObject::find(const std::string& key) {

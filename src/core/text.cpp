@@ -15,6 +15,7 @@ std::string to_text(double value) {
 }
 
 std::optional<double> parse_number(std::string_view text) {
+  if (text.starts_with("+") && !text.starts_with("+-")) text.remove_prefix(1);  // from_chars refuses it
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
@@ -42,10 +43,24 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string nearest_word(std::string_view word, std::span<const std::string> candidates) {
+  constexpr std::size_t kLongestCompared = 64;
+  word = word.substr(0, kLongestCompared);
   const auto nearest = std::min_element(candidates.begin(), candidates.end(), [&](const auto& a, const auto& b) {
     return edit_distance(word, a) < edit_distance(word, b);
   });
   return nearest == candidates.end() ? std::string() : *nearest;
+}
+
+std::vector<std::string_view> words_of(std::string_view line) {
+  std::vector<std::string_view> words;
+  while (true) {
+    const std::size_t start = line.find_first_not_of(" \t\r");
+    if (start == std::string_view::npos) return words;
+    line.remove_prefix(start);
+    const std::size_t length = std::min(line.find_first_of(" \t\r"), line.size());
+    words.push_back(line.substr(0, length));
+    line.remove_prefix(length);
+  }
 }
 
 std::string join(std::span<const std::string> words, std::string_view separator) {

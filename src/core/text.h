@@ -4,17 +4,22 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace myotact {
 
 /// Shortest text that reads back to the same double ("nan" and "inf" included). Independent of the locale.
 std::string to_text(double value);
 
-/// The whole of `text` as a number, or nothing. Independent of the locale.
+/// The whole of `text` as a number, or nothing; a leading "+" is allowed. Independent of the locale.
 std::optional<double> parse_number(std::string_view text);
 
 /// The candidate with the smallest edit distance to `word`, for "did you mean"; empty when there are no candidates.
+/// Of a longer word only the first 64 bytes are compared, so that no input makes this slow.
 std::string nearest_word(std::string_view word, std::span<const std::string> candidates);
+
+/// The parts of `line` between blanks (space, tab, carriage return).
+std::vector<std::string_view> words_of(std::string_view line);
 
 /// "a, b, c".
 std::string join(std::span<const std::string> words, std::string_view separator = ", ");

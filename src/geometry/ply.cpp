@@ -42,20 +42,9 @@ struct Element {
 
 struct Header {
   std::vector<Element> elements;
+  bool has_format = false;
   std::size_t size = 0;  // bytes up to the body
 };
-
-std::vector<std::string_view> words_of(std::string_view line) {
-  std::vector<std::string_view> words;
-  while (true) {
-    const std::size_t start = line.find_first_not_of(" \t\r");
-    if (start == std::string_view::npos) return words;
-    line.remove_prefix(start);
-    const std::size_t length = std::min(line.find_first_of(" \t\r"), line.size());
-    words.push_back(line.substr(0, length));
-    line.remove_prefix(length);
-  }
-}
 
 /// Reads values off the body and knows the byte it is at.
 class Body {
@@ -68,21 +57,27 @@ class Body {
     const char* from = bytes_.data() + position_;
     position_ += size_of(type);
     switch (type) {
-      case Scalar::Int8: return as<std::int8_t>(from);
-      case Scalar::Uint8: return as<std::uint8_t>(from);
-      case Scalar::Int16: return as<std::int16_t>(from);
-      case Scalar::Uint16: return as<std::uint16_t>(from);
-      case Scalar::Int32: return as<std::int32_t>(from);
-      case Scalar::Uint32: return as<std::uint32_t>(from);
-      case Scalar::Float32: return static_cast<double>(as<float>(from));
-      case Scalar::Float64: return as<double>(from);
+      case Scalar::Int8:
+        return as<std::int8_t>(from);
+      case Scalar::Uint8:
+        return as<std::uint8_t>(from);
+      case Scalar::Int16:
+        return as<std::int16_t>(from);
+      case Scalar::Uint16:
+        return as<std::uint16_t>(from);
+      case Scalar::Int32:
+        return as<std::int32_t>(from);
+      case Scalar::Uint32:
+        return as<std::uint32_t>(from);
+      case Scalar::Float32:
+        return static_cast<double>(as<float>(from));
+      case Scalar::Float64:
+        return as<double>(from);
     }
     return 0.0;
   }
 
-  Error error(const std::string& problem) const {
-    return bad_data(file_, fmt::format("byte {}", position_), problem);
-  }
+  Error error(const std::string& problem) const { return bad_data(file_, fmt::format("byte {}", position_), problem); }
 
   std::size_t left() const { return bytes_.size() - position_; }
 
@@ -104,14 +99,22 @@ Scalar scalar_named(const std::string& file, std::string_view word, int line) {
     std::string_view name;
     Scalar type;
   };
-  static constexpr std::array<Name, 16> kNames = {{{"char", Scalar::Int8},     {"int8", Scalar::Int8},
-                                                   {"uchar", Scalar::Uint8},   {"uint8", Scalar::Uint8},
-                                                   {"short", Scalar::Int16},   {"int16", Scalar::Int16},
-                                                   {"ushort", Scalar::Uint16}, {"uint16", Scalar::Uint16},
-                                                   {"int", Scalar::Int32},     {"int32", Scalar::Int32},
-                                                   {"uint", Scalar::Uint32},   {"uint32", Scalar::Uint32},
-                                                   {"float", Scalar::Float32}, {"float32", Scalar::Float32},
-                                                   {"double", Scalar::Float64}, {"float64", Scalar::Float64}}};
+  static constexpr std::array<Name, 16> kNames = {{{"char", Scalar::Int8},
+                                                   {"int8", Scalar::Int8},
+                                                   {"uchar", Scalar::Uint8},
+                                                   {"uint8", Scalar::Uint8},
+                                                   {"short", Scalar::Int16},
+                                                   {"int16", Scalar::Int16},
+                                                   {"ushort", Scalar::Uint16},
+                                                   {"uint16", Scalar::Uint16},
+                                                   {"int", Scalar::Int32},
+                                                   {"int32", Scalar::Int32},
+                                                   {"uint", Scalar::Uint32},
+                                                   {"uint32", Scalar::Uint32},
+                                                   {"float", Scalar::Float32},
+                                                   {"float32", Scalar::Float32},
+                                                   {"double", Scalar::Float64},
+                                                   {"float64", Scalar::Float64}}};
   for (const Name& known : kNames) {
     if (known.name == word) return known.type;
   }
@@ -143,6 +146,7 @@ void read_header_line(const std::string& file, std::string_view line, int number
     if (words.size() < 2 || words[1] != "binary_little_endian") {
       throw bad_data(file, place, "must be binary_little_endian; convert the file");
     }
+    header.has_format = true;
   } else if (words[0] == "element") {
     header.elements.push_back(element_of(file, words, number));
   } else if (words[0] == "property" && !header.elements.empty()) {
@@ -165,6 +169,7 @@ Header read_header(const std::string& file, std::string_view bytes) {
       continue;
     }
     if (line.starts_with("end_header")) {
+      if (!header.has_format) throw bad_data(file, "2:1", "the line \"format binary_little_endian 1.0\" is missing");
       header.size = start;
       return header;
     }
@@ -231,7 +236,8 @@ TriangleMesh read_ply(const std::filesystem::path& path) {
   Body body(file, bytes, header.size);
   TriangleMesh mesh;
   for (const Element& element : header.elements) {
-    if (element.properties.empty() && element.count > 0) throw body.error("element " + element.name + " has no property");
+    if (element.properties.empty() && element.count > 0)
+      throw body.error("element " + element.name + " has no property");
     if (element.name == "vertex") {
       read_vertices(element, body, mesh);
     } else {

@@ -24,8 +24,7 @@ constexpr std::size_t kFacet_bytes = 50;       // normal, three corners, two unu
 class Welder {
  public:
   int vertex(const Vec3& position) {
-    const auto [found, added] =
-        index_.try_emplace(to_array(position), static_cast<int>(mesh_.positions_m.size()));
+    const auto [found, added] = index_.try_emplace(to_array(position), static_cast<int>(mesh_.positions_m.size()));
     if (added) mesh_.positions_m.push_back(position);
     return found->second;
   }
@@ -61,18 +60,6 @@ TriangleMesh read_binary(const std::string& file, std::string_view bytes, std::s
   return welder.take();
 }
 
-std::vector<std::string_view> words_of(std::string_view line) {
-  std::vector<std::string_view> words;
-  while (true) {
-    const std::size_t start = line.find_first_not_of(" \t\r");
-    if (start == std::string_view::npos) return words;
-    line.remove_prefix(start);
-    const std::size_t length = std::min(line.find_first_of(" \t\r"), line.size());
-    words.push_back(line.substr(0, length));
-    line.remove_prefix(length);
-  }
-}
-
 Vec3 corner_of(const std::string& file, const std::vector<std::string_view>& words, int line) {
   Vec3 position = Vec3::Constant(std::nan(""));
   for (std::size_t k = 0; k < 3 && words.size() == 4; ++k) {
@@ -82,27 +69,52 @@ Vec3 corner_of(const std::string& file, const std::vector<std::string_view>& wor
   return position;
 }
 
+/// Corners gathered until their facet ends; other lines of the format carry nothing that is needed.
+class AsciiFacets {
+ public:
+  explicit AsciiFacets(const std::string& file) : file_(file) {}
+
+  void read_line(const std::vector<std::string_view>& words, int number) {
+    if (words[0] == "vertex") {
+      if (filled_ == 3) throw error(number, "a facet has more than 3 corners");
+      corners_[filled_++] = corner_of(file_, words, number);
+    } else if (words[0] == "endfacet") {
+      if (filled_ != 3) throw error(number, "a facet has fewer than 3 corners");
+      welder_.add(corners_);
+      filled_ = 0;
+    } else if (words[0] == "solid" || words[0] == "endsolid") {
+      open_ = words[0] == "solid";
+    } else if (words[0] != "facet" && words[0] != "outer" && words[0] != "endloop") {
+      throw error(number, "is no line of an STL");
+    }
+  }
+
+  TriangleMesh finish(int number) {
+    if (open_ || filled_ != 0) throw error(number, "the file ends without endsolid; it was cut off, export it again");
+    return welder_.take();
+  }
+
+ private:
+  Error error(int number, const char* problem) const { return bad_data(file_, fmt::format("{}:1", number), problem); }
+
+  const std::string& file_;
+  Welder welder_;
+  std::array<Vec3, 3> corners_;
+  std::size_t filled_ = 0;
+  bool open_ = false;
+};
+
 TriangleMesh read_ascii(const std::string& file, std::string_view text) {
-  Welder welder;
-  std::array<Vec3, 3> corners;
-  std::size_t filled = 0;
+  AsciiFacets facets(file);
   int number = 0;
   while (!text.empty()) {
     ++number;
     const std::size_t end = std::min(text.find('\n'), text.size());
     const auto words = words_of(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
-    if (words.empty()) continue;
-    if (words[0] == "vertex") {
-      if (filled == 3) throw bad_data(file, fmt::format("{}:1", number), "a facet has more than 3 corners");
-      corners[filled++] = corner_of(file, words, number);
-    } else if (words[0] == "endfacet") {
-      if (filled != 3) throw bad_data(file, fmt::format("{}:1", number), "a facet has fewer than 3 corners");
-      welder.add(corners);
-      filled = 0;
-    }
+    if (!words.empty()) facets.read_line(words, number);
   }
-  return welder.take();
+  return facets.finish(number);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ namespace {
 
 constexpr int kLinearTet = 10, kQuadraticTet = 24;  // VTK cell types
 constexpr int kMostElements = 20'000'000;
+constexpr std::size_t kLongestShown = 40;  // characters of a wrong word in a message
 
 /// Words of a text file, one after the other, with the line they stand in.
 class Words {
@@ -35,22 +36,26 @@ class Words {
     return position_ == text_.size();
   }
 
+  /// What is left of the present line; the next word comes from the line after it.
   std::string_view rest_of_line() {
     const std::size_t end = std::min(text_.find('\n', position_), text_.size());
     const std::string_view line = text_.substr(position_, end - position_);
-    position_ = end;
+    position_ = std::min(end + 1, text_.size());
+    if (end < text_.size()) ++line_;
     return line;
   }
 
   void expect(std::string_view word) {
     const std::string_view found = next();
-    if (found != word) throw error(fmt::format("is \"{}\"; must be \"{}\"", found, word));
+    if (found != word) throw error(fmt::format("is \"{}\"; must be \"{}\"", found.substr(0, kLongestShown), word));
   }
 
   double number() {
     const std::string_view word = next();
     const auto value = parse_number(word);
-    if (!value || !std::isfinite(*value)) throw error(fmt::format("\"{}\" is no finite number", word));
+    if (!value || !std::isfinite(*value)) {
+      throw error(fmt::format("\"{}\" is no finite number", word.substr(0, kLongestShown)));
+    }
     return *value;
   }
 
@@ -62,9 +67,7 @@ class Words {
     return static_cast<int>(value);
   }
 
-  Error error(const std::string& problem) const {
-    return bad_data(file_, fmt::format("line {}", line_), problem);
-  }
+  Error error(const std::string& problem) const { return bad_data(file_, fmt::format("line {}", line_), problem); }
 
  private:
   static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
@@ -91,7 +94,7 @@ void read_points(Words& words, TetMesh& mesh) {
 }
 
 void read_cells(Words& words, TetMesh& mesh) {
-  const int count = words.integer(0, kMostElements);
+  const int count = words.integer(1, kMostElements);
   words.integer(0, std::numeric_limits<int>::max());  // size of the list: implied by the cells
   const int last_node = static_cast<int>(mesh.nodes_m.size()) - 1;
   for (int i = 0; i < count; ++i) {
@@ -122,7 +125,10 @@ void read_cell_types(Words& words, const TetMesh& mesh) {
 
 /// "SCALARS name type [components]" followed by "LOOKUP_TABLE name" and one number an entry.
 std::vector<double> read_scalars(Words& words, std::size_t count) {
-  words.rest_of_line();
+  const auto type_and_components = words_of(words.rest_of_line());
+  if (type_and_components.size() > 1 && type_and_components[1] != "1") {
+    throw words.error("scalars must have 1 component");
+  }
   words.expect("LOOKUP_TABLE");
   words.next();
   std::vector<double> values;
@@ -169,7 +175,7 @@ void read_data(Words& words, TetFile& file) {
       if (of_cells && name == "section") file.sections_m2 = std::move(values);
       if (!of_cells && name == "attachment") file.attachments = to_integers(values, words);
     } else {
-      throw words.error(fmt::format("\"{}\" is not read; must be SCALARS or VECTORS", kind));
+      throw words.error(fmt::format("\"{}\" is not read; must be SCALARS or VECTORS", kind.substr(0, kLongestShown)));
     }
   }
 }
@@ -213,8 +219,7 @@ TetFile read_vtk(const std::filesystem::path& path) {
   if (words.rest_of_line().find("vtk DataFile") == std::string_view::npos) {
     throw words.error("is no legacy VTK file (\"# vtk DataFile Version\" is missing)");
   }
-  words.next();  // the title's first word; the rest follows
-  words.rest_of_line();
+  words.rest_of_line();  // the title, which may be empty
   words.expect("ASCII");
   words.expect("DATASET");
   words.expect("UNSTRUCTURED_GRID");

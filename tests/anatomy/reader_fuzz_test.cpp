@@ -1,0 +1,172 @@
+#include <fstream>
+#include <functional>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "anatomy/specimen.h"
+#include "core/file.h"
+#include "core/json_reader.h"
+#include "geometry/mesh_files.h"
+#include "support/synthetic_specimen.h"
+#include "support/temporary_folder.h"
+
+// Broken bytes never crash a reader: each gives a result or an Error. The mutations are drawn from a fixed seed, so
+// that a failure comes again.
+
+namespace myotact::anatomy {
+namespace {
+
+constexpr int kRounds = 1500;  // a few seconds for all readers together, under sanitizers too
+
+class Mutator {
+ public:
+  std::string broken(std::string bytes) {
+    const int changes = 1 + below(4);
+    for (int i = 0; i < changes && !bytes.empty(); ++i) change(bytes);
+    return bytes;
+  }
+
+ private:
+  int below(std::size_t limit) { return static_cast<int>(random_() % limit); }
+  std::size_t place(const std::string& bytes) { return static_cast<std::size_t>(below(bytes.size())); }
+
+  void change(std::string& bytes) {
+    static const std::string kTokens[] = {"-1", "nan", "1e999", "99999999999", "\"", "{", "[", "\n", "\xff", "0"};
+    switch (below(6)) {
+      case 0:
+        bytes[place(bytes)] = static_cast<char>(below(256));
+        return;
+      case 1:
+        bytes[place(bytes)] ^= static_cast<char>(1 << below(8));
+        return;
+      case 2:
+        bytes.resize(place(bytes));
+        return;
+      case 3:
+        bytes.erase(place(bytes), static_cast<std::size_t>(below(40)));
+        return;
+      case 4:
+        bytes.insert(place(bytes), bytes.substr(place(bytes), static_cast<std::size_t>(below(60))));
+        return;
+      default:
+        bytes.insert(place(bytes), kTokens[below(std::size(kTokens))]);
+        return;
+    }
+  }
+
+  std::mt19937 random_{20261121};
+};
+
+/// Without the flush to disk of write_file, which would take longer than the reading.
+void write_quickly(const std::filesystem::path& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+struct Tally {
+  int read = 0, refused = 0;
+};
+
+/// Runs `reader` on mutations of `bytes`, written to `path`.
+Tally fuzz(const std::string& bytes, const std::filesystem::path& path, const std::function<void()>& reader) {
+  Mutator mutator;
+  Tally tally;
+  for (int round = 0; round < kRounds; ++round) {
+    write_quickly(path, mutator.broken(bytes));
+    try {
+      reader();
+      ++tally.read;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(path.filename().string()), std::string::npos) << error.what();
+      ++tally.refused;
+    }
+  }
+  return tally;
+}
+
+class ReaderFuzz : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    myotact::testing::BarShape shape;
+    shape.cells = {1, 1, 1};
+    save_specimen(myotact::testing::single_muscle(shape), folder_ / "s");
+  }
+
+  std::string part(const std::string& name) const { return read_file(folder_ / "s" / name); }
+
+  myotact::testing::TemporaryFolder folder_;
+};
+
+TEST_F(ReaderFuzz, Ply) {
+  const auto tally = fuzz(part("bones/upper.ply"), folder_ / "f.ply",
+                          [&] { EXPECT_FALSE(geometry::read_ply(folder_ / "f.ply").triangles.empty()); });
+  EXPECT_GT(tally.refused, kRounds / 4);
+}
+
+TEST_F(ReaderFuzz, BinaryStl) {
+  std::string bytes(80, ' ');
+  const std::uint32_t facets = 12;
+  bytes.append(reinterpret_cast<const char*>(&facets), sizeof facets);
+  bytes.resize(bytes.size() + 50 * facets, '\1');
+  const auto tally = fuzz(bytes, folder_ / "f.stl", [&] { geometry::read_stl(folder_ / "f.stl"); });
+  EXPECT_GT(tally.read, 0);
+  EXPECT_GT(tally.refused, kRounds / 4);
+}
+
+TEST_F(ReaderFuzz, AsciiStl) {
+  std::string text = "solid s\n";
+  for (int i = 0; i < 5; ++i) {
+    text += "facet normal 0 0 1\nouter loop\nvertex 0 0 1\nvertex 1.5 0 0\nvertex 0 1e-3 0\nendloop\nendfacet\n";
+  }
+  const auto tally = fuzz(text + "endsolid s\n", folder_ / "f.stl", [&] { geometry::read_stl(folder_ / "f.stl"); });
+  EXPECT_GT(tally.read, 0);
+  EXPECT_GT(tally.refused, kRounds / 4);
+}
+
+TEST_F(ReaderFuzz, Vtk) {
+  const auto tally = fuzz(part("muscles/flexor.vtk"), folder_ / "f.vtk",
+                          [&] { EXPECT_FALSE(geometry::read_vtk(folder_ / "f.vtk").mesh.corners.empty()); });
+  EXPECT_GT(tally.refused, kRounds / 4);
+}
+
+TEST_F(ReaderFuzz, Json) {
+  const auto tally = fuzz(part("specimen.json"), folder_ / "f.json", [&] { read_json(folder_ / "f.json"); });
+  EXPECT_GT(tally.refused, kRounds / 4);
+}
+
+TEST_F(ReaderFuzz, SpecimenWithBrokenJson) {
+  const auto path = folder_ / "s/specimen.json";
+  Mutator mutator;
+  const std::string whole = part("specimen.json");
+  for (int round = 0; round < kRounds / 3; ++round) {
+    write_quickly(path, mutator.broken(whole));
+    try {
+      EXPECT_EQ(find_defect(load_specimen(folder_ / "s")), "");
+    } catch (const Error& error) {
+      EXPECT_NE(error.status(), ExitStatus::Internal) << error.what();
+    }
+  }
+}
+
+/// Without check sums, so that broken meshes reach the checks behind the readers.
+TEST_F(ReaderFuzz, SpecimenWithBrokenParts) {
+  auto json = read_json(folder_ / "s/specimen.json");
+  json.erase("files");
+  write_file(folder_ / "s/specimen.json", json.dump());
+  for (const char* name : {"muscles/flexor.vtk", "skins/flexor.ply"}) {
+    const std::string whole = part(name);
+    Mutator mutator;
+    for (int round = 0; round < kRounds / 3; ++round) {
+      write_quickly(folder_ / "s" / name, mutator.broken(whole));
+      try {
+        EXPECT_EQ(find_defect(load_specimen(folder_ / "s")), "");
+      } catch (const Error& error) {
+        EXPECT_EQ(error.status(), ExitStatus::BadData) << error.what();
+      }
+    }
+    write_file(folder_ / "s" / name, whole);
+  }
+}
+
+}  // namespace
+}  // namespace myotact::anatomy
