@@ -6,13 +6,6 @@
 #include "simulation/vector_clones.h"
 
 namespace myotact::simulation {
-namespace {
-
-/// Four doubles side by side, anywhere in memory; the compiler maps them to what the processor has. Only reached through
-/// pointers: passed by value they would need a calling convention that older processors lack.
-typedef double Pack __attribute__((vector_size(32), aligned(8), may_alias));
-
-}  // namespace
 
 /// Eliminates columns [start, start + width) inside the panel of these columns, over all rows below. `scaled` receives
 /// L D of the rows below the panel.

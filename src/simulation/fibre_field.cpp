@@ -77,10 +77,10 @@ TetVector mean_gradient(const TissueElement& element, const TetPoints& points) {
   for (std::size_t p = 0; p < kTetPoints; ++p) {
     const TetVector& g = element.rest.gradients_1_m[p];
     for (std::size_t a = 0; a < kTetNodes; ++a) {
-      const double along = element.fibre.x() * g[a] + element.fibre.y() * g[kTetNodes + a] +
-                           element.fibre.z() * g[2 * kTetNodes + a];
+      const double along = element.fibre.x() * g[a] + element.fibre.y() * g[kTetStride + a] +
+                           element.fibre.z() * g[2 * kTetStride + a];
       for (std::size_t i = 0; i < 3; ++i) {
-        gradient[i * kTetNodes + a] += point_weight_Nm(element) * along * points.fibre[p][static_cast<Eigen::Index>(i)];
+        gradient[i * kTetStride + a] += point_weight_Nm(element) * along * points.fibre[p][static_cast<Eigen::Index>(i)];
       }
     }
   }

@@ -22,21 +22,41 @@ MYOTACT_INTO_CLONES double volume_stress(const TissueMaterial& m, const TetPoint
   return m.volume_term_Pa() * (points.mean_J - m.rest_ratio()) + m.fluctuation_Pa * (points.J[p] - points.mean_J);
 }
 
-/// out[i * 10 + a] = scale * sum_A matrix(i, A) dN_a/dX_A.
-MYOTACT_INTO_CLONES void push_gradients(const std::array<double, 9>& matrix, const TetVector& gradients, double scale, double* out) {
+/// out[i * 12 + a] = scale * sum_A matrix(i, A) dN_a/dX_A.
+MYOTACT_INTO_CLONES void push_gradients(const std::array<double, 9>& matrix, const TetVector& gradients, double scale,
+                                        double* out) {
   for (int i = 0; i < 3; ++i) {
     const double m0 = scale * matrix[at(3 * i)], m1 = scale * matrix[at(3 * i + 1)], m2 = scale * matrix[at(3 * i + 2)];
-    for (int a = 0; a < kTetNodes; ++a) {
-      out[i * kTetNodes + a] =
-          m0 * gradients[at(a)] + m1 * gradients[at(kTetNodes + a)] + m2 * gradients[at(2 * kTetNodes + a)];
+    for (int a = 0; a < kTetStride; ++a) {
+      out[i * kTetStride + a] =
+          m0 * gradients[at(a)] + m1 * gradients[at(kTetStride + a)] + m2 * gradients[at(2 * kTetStride + a)];
     }
   }
 }
 
-/// sum[c] += factor * row[c] for one block of 10 columns; kept in registers by the compiler.
-MYOTACT_INTO_CLONES void accumulate(double factor, const double* row, std::array<double, kTetNodes>& sum) {
-  for (int c = 0; c < kTetNodes; ++c) sum[at(c)] += factor * row[c];
-}
+/// The 12 places of one component, held in registers.
+struct Strip {
+  Pack low = {}, middle = {}, high = {};
+
+  MYOTACT_INTO_CLONES void add(double factor, const double* row) {
+    const Pack* packs = reinterpret_cast<const Pack*>(row);
+    low += factor * packs[0];
+    middle += factor * packs[1];
+    high += factor * packs[2];
+  }
+  MYOTACT_INTO_CLONES void add_to(double* row) const {
+    Pack* packs = reinterpret_cast<Pack*>(row);
+    packs[0] += low;
+    packs[1] += middle;
+    packs[2] += high;
+  }
+  MYOTACT_INTO_CLONES void take_from(double* row) const {
+    Pack* packs = reinterpret_cast<Pack*>(row);
+    packs[0] -= low;
+    packs[1] -= middle;
+    packs[2] -= high;
+  }
+};
 
 struct RankRows {
   std::array<TetVector, kRankRows> row;
@@ -45,7 +65,7 @@ struct RankRows {
 
 /// Every term of the tangent that is a scaled outer product of a vector with itself.
 MYOTACT_INTO_CLONES RankRows rank_rows(const ElementInputs& in, bool definite) {
-  RankRows rows{};
+  RankRows rows;
   const double volume = in.rest.point_volume_m3;
   const double c = in.material.fluctuation_Pa;
   TetVector& mean = rows.row[kRankRows - 1];
@@ -63,10 +83,10 @@ MYOTACT_INTO_CLONES RankRows rank_rows(const ElementInputs& in, bool definite) {
     const double slope = in.stress.slope_Pa[at(p)];
     rows.factor[at(3 * p + 2)] =
         volume * (definite ? std::max(slope, 0.0) - std::max(geometric, 0.0) : slope - geometric);
-    for (int a = 0; a < kTetNodes; ++a) {
-      const double along = in.fibre.x() * gradients[at(a)] + in.fibre.y() * gradients[at(kTetNodes + a)] +
-                           in.fibre.z() * gradients[at(2 * kTetNodes + a)];
-      for (int i = 0; i < 3; ++i) rows.row[at(3 * p + 2)][at(i * kTetNodes + a)] = in.points.fibre[at(p)][i] * along;
+    for (int a = 0; a < kTetStride; ++a) {
+      const double along = in.fibre.x() * gradients[at(a)] + in.fibre.y() * gradients[at(kTetStride + a)] +
+                           in.fibre.z() * gradients[at(2 * kTetStride + a)];
+      for (int i = 0; i < 3; ++i) rows.row[at(3 * p + 2)][at(i * kTetStride + a)] = in.points.fibre[at(p)][i] * along;
     }
   }
   rows.factor[kRankRows - 1] = kTetPoints * volume * (in.material.volume_term_Pa() - c);
@@ -74,13 +94,18 @@ MYOTACT_INTO_CLONES RankRows rank_rows(const ElementInputs& in, bool definite) {
 }
 
 MYOTACT_INTO_CLONES void fill_outer_products(const RankRows& rows, TetMatrix& stiffness) {
-  for (int r = 0; r < kTetDofs; ++r) {
-    std::array<double, kRankRows> factor;
-    for (std::size_t k = 0; k < kRankRows; ++k) factor[k] = rows.factor[k] * rows.row[k][at(r)];
-    for (int block = r / kTetNodes; block < 3; ++block) {
-      std::array<double, kTetNodes> sum{};
-      for (std::size_t k = 0; k < kRankRows; ++k) accumulate(factor[k], &rows.row[k][at(block * kTetNodes)], sum);
-      std::copy(sum.begin(), sum.end(), &stiffness[at(r * kTetDofs + block * kTetNodes)]);
+  for (int i = 0; i < 3; ++i) {
+    for (int a = 0; a < kTetNodes; ++a) {
+      const int r = i * kTetStride + a;
+      for (int block = i; block < 3; ++block) {
+        Strip sum;
+        for (std::size_t k = 0; k < kRankRows; ++k) {
+          sum.add(rows.factor[k] * rows.row[k][at(r)], &rows.row[k][at(block * kTetStride)]);
+        }
+        double* out = &stiffness[at(r * kTetDofs + block * kTetStride)];
+        std::fill_n(out, kTetStride, 0.0);
+        sum.add_to(out);
+      }
     }
   }
 }
@@ -109,29 +134,30 @@ MYOTACT_INTO_CLONES PointScales point_scales(const ElementInputs& in, int p, boo
 /// skew terms of the second derivative of J: block (i, j) gets eps_ijk v_k, v = F (grad a x grad b).
 MYOTACT_INTO_CLONES void add_node_terms(const ElementInputs& in, const std::array<PointScales, kTetPoints>& scales, int a,
                     TetMatrix& stiffness) {
-  std::array<double, kTetNodes> unit{};
-  std::array<std::array<double, kTetNodes>, 3> skew{};
+  Strip unit, skew_x, skew_y, skew_z;
   for (int p = 0; p < kTetPoints; ++p) {
     const TetVector& g = in.rest.gradients_1_m[at(p)];
     const std::array<double, 9>& F = in.points.F[at(p)];
-    const Vec3 own(g[at(a)], g[at(kTetNodes + a)], g[at(2 * kTetNodes + a)]);
+    const Vec3 own(g[at(a)], g[at(kTetStride + a)], g[at(2 * kTetStride + a)]);
     const PointScales& scale = scales[at(p)];
     const Vec3 direct = scale.identity * own + scale.along * own.dot(in.fibre) * in.fibre;
-    for (int A = 0; A < 3; ++A) accumulate(direct[A], &g[at(A * kTetNodes)], unit);
-    for (int k = 0; k < 3; ++k) {
-      // Row k of F times the cross-product matrix of own: (F_k x own) . grad b, up to the scale.
-      const Vec3 row(F[at(3 * k)], F[at(3 * k + 1)], F[at(3 * k + 2)]);
-      const Vec3 factor = scale.curvature * row.cross(own);
-      for (int A = 0; A < 3; ++A) accumulate(factor[A], &g[at(A * kTetNodes)], skew[at(k)]);
+    // Row k of F times the cross-product matrix of own: (F_k x own) . grad b, up to the scale.
+    const Vec3 x = scale.curvature * Vec3(F[0], F[1], F[2]).cross(own);
+    const Vec3 y = scale.curvature * Vec3(F[3], F[4], F[5]).cross(own);
+    const Vec3 z = scale.curvature * Vec3(F[6], F[7], F[8]).cross(own);
+    for (int A = 0; A < 3; ++A) {
+      const double* slopes = &g[at(A * kTetStride)];
+      unit.add(direct[A], slopes);
+      skew_x.add(x[A], slopes);
+      skew_y.add(y[A], slopes);
+      skew_z.add(z[A], slopes);
     }
   }
-  const auto row = [&](int i, int j) { return &stiffness[at((i * kTetNodes + a) * kTetDofs + j * kTetNodes)]; };
-  for (int b = 0; b < kTetNodes; ++b) {
-    for (int i = 0; i < 3; ++i) row(i, i)[b] += unit[at(b)];
-    row(0, 1)[b] += skew[2][at(b)];
-    row(0, 2)[b] -= skew[1][at(b)];
-    row(1, 2)[b] += skew[0][at(b)];
-  }
+  const auto row = [&](int i, int j) { return &stiffness[at((i * kTetStride + a) * kTetDofs + j * kTetStride)]; };
+  for (int i = 0; i < 3; ++i) unit.add_to(row(i, i));
+  skew_z.add_to(row(0, 1));
+  skew_y.take_from(row(0, 2));
+  skew_x.add_to(row(1, 2));
 }
 
 }  // namespace
@@ -158,7 +184,7 @@ TetRest make_tet_rest(const std::array<Vec3, 4>& corners_m) {
       gradient[4 + e] = 4.0 * (coordinate(i) * slopes[at(j)] + coordinate(j) * slopes[at(i)]);
     }
     for (int a = 0; a < kTetNodes; ++a) {
-      for (int A = 0; A < 3; ++A) rest.gradients_1_m[at(p)][at(A * kTetNodes + a)] = gradient[at(a)][A];
+      for (int A = 0; A < 3; ++A) rest.gradients_1_m[at(p)][at(A * kTetStride + a)] = gradient[at(a)][A];
     }
   }
   return rest;
@@ -172,8 +198,8 @@ void deform(const TetRest& rest, const Vec3& fibre, const TetVector& position_m,
     for (int i = 0; i < 3; ++i) {
       for (int A = 0; A < 3; ++A) {
         double sum = 0.0;
-        const double* x = &position_m[at(i * kTetNodes)];
-        const double* g = &rest.gradients_1_m[at(p)][at(A * kTetNodes)];
+        const double* x = &position_m[at(i * kTetStride)];
+        const double* g = &rest.gradients_1_m[at(p)][at(A * kTetStride)];
         for (int a = 0; a < kTetNodes; ++a) sum += x[a] * g[a];
         F[at(3 * i + A)] = sum;
       }
@@ -222,11 +248,15 @@ void elastic_stiffness(const ElementInputs& inputs, bool definite, TetMatrix& st
 
 TetVector multiply(const TetMatrix& stiffness, const TetVector& vector) {
   TetVector product{};
-  for (int r = 0; r < kTetDofs; ++r) {
-    const int first = r / kTetNodes * kTetNodes;
-    for (int c = first; c < kTetDofs; ++c) product[at(r)] += stiffness[at(r * kTetDofs + c)] * vector[at(c)];
-    for (int c = first + kTetNodes; c < kTetDofs; ++c) {
-      product[at(c)] += stiffness[at(r * kTetDofs + c)] * vector[at(r)];
+  for (int i = 0; i < 3; ++i) {
+    for (int a = 0; a < kTetNodes; ++a) {
+      const int r = i * kTetStride + a;
+      for (int c = i * kTetStride; c < kTetDofs; ++c) {
+        product[at(r)] += stiffness[at(r * kTetDofs + c)] * vector[at(c)];
+      }
+      for (int c = (i + 1) * kTetStride; c < kTetDofs; ++c) {
+        product[at(c)] += stiffness[at(r * kTetDofs + c)] * vector[at(r)];
+      }
     }
   }
   return product;

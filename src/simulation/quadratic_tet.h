@@ -6,21 +6,24 @@
 #include "simulation/material.h"
 
 // One quadratic tetrahedron: 10 nodes, straight-sided at rest, 4 integration points. Vectors of an element are
-// component-major: entry [i * 10 + a] is component i of node a. Pure functions, no allocation.
+// component-major and padded with zeros to whole vector registers: entry [i * 12 + a] is component i of node a < 10.
+// Pure functions, no allocation.
 
 namespace myotact::simulation {
 
 inline constexpr int kTetNodes = 10;
 inline constexpr int kTetPoints = 4;
-inline constexpr int kTetDofs = 3 * kTetNodes;
+inline constexpr int kTetStride = 12;              // from one component to the next
+inline constexpr int kTetDofs = 3 * kTetStride;    // entries of a vector, padding included
 
 using TetVector = std::array<double, kTetDofs>;
-/// Row-major stiffness. Only the blocks (component i, component j) with i <= j are filled, each with all 10 x 10 pairs.
+/// Row-major stiffness. Only the blocks (component i, component j) with i <= j are filled, each with all 10 x 10 pairs;
+/// its padding columns are zero, its padding rows are not touched.
 using TetMatrix = std::array<double, kTetDofs * kTetDofs>;
 
 /// What does not change: gradients of the shape functions in the rest position and the volume of a point.
 struct TetRest {
-  std::array<TetVector, kTetPoints> gradients_1_m{};  // [point][A * 10 + a] = dN_a / dX_A
+  std::array<TetVector, kTetPoints> gradients_1_m{};  // [point][A * 12 + a] = dN_a / dX_A
   double point_volume_m3 = 0.0;                       // the same at the 4 points
 };
 

@@ -87,7 +87,7 @@ std::vector<double> unit_pull(const MuscleTissue& tissue) {
       for (std::size_t a = 0; a < kTetNodes; ++a) {
         double along = 0.0;
         for (std::size_t A = 0; A < 3; ++A) {
-          along += element.rest.gradients_1_m[p][A * kTetNodes + a] * element.fibre[static_cast<Eigen::Index>(A)];
+          along += element.rest.gradients_1_m[p][A * kTetStride + a] * element.fibre[static_cast<Eigen::Index>(A)];
         }
         pull[at(element.nodes[a])] += element.rest.point_volume_m3 * along / element.section_m2;
       }

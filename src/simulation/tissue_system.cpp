@@ -23,10 +23,10 @@ struct Pass {
 };
 
 TetVector gather(const TissueElement& element, const Eigen::VectorXd& values) {
-  TetVector gathered;
+  TetVector gathered{};
   for (std::size_t a = 0; a < kTetNodes; ++a) {
     const double* value = values.data() + 3 * element.nodes[a];
-    for (std::size_t i = 0; i < 3; ++i) gathered[i * kTetNodes + a] = value[i];
+    for (std::size_t i = 0; i < 3; ++i) gathered[i * kTetStride + a] = value[i];
   }
   return gathered;
 }
@@ -50,7 +50,7 @@ void scatter_matrix(const TissueElement& element, const MuscleTissue& tissue, co
       for (std::size_t j = 0; j < 3; ++j) {
         double* out = values + slot.base + static_cast<int>(j) * slot.stride;
         for (std::size_t i = 0; i < 3; ++i) {
-          const std::size_t r = i * kTetNodes + row, c = j * kTetNodes + column;
+          const std::size_t r = i * kTetStride + row, c = j * kTetStride + column;
           out[i] += i <= j ? stiffness[r * kTetDofs + c] : stiffness[c * kTetDofs + r];
         }
       }
@@ -67,7 +67,7 @@ bool joint_motion(const Pass& pass, const TissueElement& element, int joint, Tet
     if (body < 0 || !pass.skeleton.is_distal(body, joint)) continue;
     any = true;
     const Vec3 slope = pass.skeleton.point_derivative(body, joint, node_vector(pass.state.now.position_m, element.nodes[a]));
-    for (std::size_t i = 0; i < 3; ++i) motion[i * kTetNodes + a] = slope[static_cast<Eigen::Index>(i)];
+    for (std::size_t i = 0; i < 3; ++i) motion[i * kTetStride + a] = slope[static_cast<Eigen::Index>(i)];
   }
   return any;
 }
@@ -90,7 +90,7 @@ void scatter_joints(const Pass& pass, const TissueElement& element, const TetMat
       const int f = pass.tissue.free_index[at(element.nodes[a])];
       if (f < 0) continue;
       for (std::size_t i = 0; i < 3; ++i) {
-        pass.system.coupling_N_rad(3 * f + static_cast<int>(i), j) += force[i * kTetNodes + a];
+        pass.system.coupling_N_rad(3 * f + static_cast<int>(i), j) += force[i * kTetStride + a];
       }
     }
     for (int k = 0; k < pass.skeleton.joint_count(); ++k) {
@@ -105,7 +105,7 @@ void scatter_mean(const TissueElement& element, const MuscleTissue& tissue, cons
   for (std::size_t a = 0; a < kTetNodes; ++a) {
     const int f = tissue.free_index[at(element.nodes[a])];
     if (f < 0) continue;
-    for (std::size_t i = 0; i < 3; ++i) gradient[3 * f + static_cast<int>(i)] += part[i * kTetNodes + a];
+    for (std::size_t i = 0; i < 3; ++i) gradient[3 * f + static_cast<int>(i)] += part[i * kTetStride + a];
   }
 }
 
@@ -136,7 +136,7 @@ void add_elements(const Pass& pass) {
     const TetVector forces = elastic_forces(inputs);
     for (std::size_t a = 0; a < kTetNodes; ++a) {
       double* out = pass.system.internal_N.data() + 3 * element.nodes[a];
-      for (std::size_t i = 0; i < 3; ++i) out[i] += forces[i * kTetNodes + a];
+      for (std::size_t i = 0; i < 3; ++i) out[i] += forces[i * kTetStride + a];
     }
     pass.system.force_scale_N += dot(forces, forces);
     if (!pass.tangent) continue;

@@ -18,3 +18,11 @@
 
 /// Put before a helper of such a function, so that it is compiled as a part of each of them.
 #define MYOTACT_INTO_CLONES [[gnu::always_inline]] inline
+
+namespace myotact::simulation {
+
+/// Four doubles side by side, anywhere in memory; the compiler maps them to what the processor has. Only reached through
+/// pointers: passed by value they would need a calling convention that older processors lack.
+typedef double Pack __attribute__((vector_size(32), aligned(8), may_alias));
+
+}  // namespace myotact::simulation

@@ -37,10 +37,10 @@ struct Element {
     return 0.5 * (corners[static_cast<std::size_t>(i)] + corners[static_cast<std::size_t>(j)]);
   }
   TetVector affine(const Mat3& F) const {
-    TetVector x;
+    TetVector x{};
     for (std::size_t a = 0; a < kTetNodes; ++a) {
       const Vec3 p = F * rest_node(a);
-      for (std::size_t i = 0; i < 3; ++i) x[i * kTetNodes + a] = p[static_cast<Eigen::Index>(i)];
+      for (std::size_t i = 0; i < 3; ++i) x[i * kTetStride + a] = p[static_cast<Eigen::Index>(i)];
     }
     return x;
   }
@@ -51,7 +51,7 @@ struct Element {
     TetVector x = affine(F);
     std::mt19937 random(7);
     std::uniform_real_distribution<double> noise(-4e-4, 4e-4);
-    for (double& value : x) value += noise(random);
+    for (std::size_t k = 0; k < x.size(); ++k) x[k] += k % kTetStride < kTetNodes ? noise(random) : 0.0;
     return x;
   }
   TetPoints points_at(const TetVector& x) const {
@@ -174,7 +174,7 @@ Mat3 uniform_stress_Pa(const Element& element, const Mat3& F) {
   Mat3 moment = Mat3::Zero();
   for (std::size_t a = 0; a < kTetNodes; ++a) {
     for (std::size_t i = 0; i < 3; ++i) {
-      moment.row(static_cast<Eigen::Index>(i)) += forces[i * kTetNodes + a] * element.rest_node(a).transpose();
+      moment.row(static_cast<Eigen::Index>(i)) += forces[i * kTetStride + a] * element.rest_node(a).transpose();
     }
   }
   return moment / (4.0 * element.rest.point_volume_m3);
