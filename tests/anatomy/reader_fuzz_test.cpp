@@ -17,7 +17,7 @@
 namespace myotact::anatomy {
 namespace {
 
-constexpr int kRounds = 3000;  // a few seconds for all readers together, under sanitizers too
+constexpr int kRounds = 1500;  // a few seconds for all readers together, under sanitizers too
 
 class Mutator {
  public:
