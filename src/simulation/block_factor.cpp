@@ -155,9 +155,9 @@ void BlockFactor::make_fronts(const std::vector<std::vector<int>>& neighbours) {
   }
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
     Front& front = fronts_[f];
-    const std::size_t size = 3 * front.nodes.size(), stride = size + kFrontPadding;
-    values_.emplace_back(size * stride, 0.0);
-    work_.resize(std::max(work_.size(), kFrontPanel * stride));
+    const std::size_t size = 3 * front.nodes.size();
+    values_.emplace_back(3 * at(front.own) * (size + kFrontPadding), 0.0);
+    largest_front_ = std::max(largest_front_, size);
     if (at(front.own) == front.nodes.size()) continue;
     Front& above = fronts_[at(front_of[at(front.nodes[at(front.own)])])];
     above.children.push_back(static_cast<int>(f));
@@ -165,6 +165,12 @@ void BlockFactor::make_fronts(const std::vector<std::vector<int>>& neighbours) {
       const auto found = std::lower_bound(above.nodes.begin(), above.nodes.end(), front.nodes[k]);
       front.place_in_parent.push_back(static_cast<int>(found - above.nodes.begin()));
     }
+  }
+  std::size_t top = 0;
+  for (const Front& front : fronts_) {
+    for (int child : front.children) top -= remainder_places(fronts_[at(child)]);
+    top += remainder_places(front);
+    deepest_stack_ = std::max(deepest_stack_, top);
   }
 }
 
@@ -190,15 +196,30 @@ void BlockFactor::place_entries(const BlockMatrix& pattern) {
   }
 }
 
-DenseFront BlockFactor::dense(std::size_t f) const {
+/// Places of a front's remainder on the stack: its lower triangle, column after column.
+std::size_t BlockFactor::remainder_places(const Front& front) {
+  const std::size_t below = 3 * (front.nodes.size() - at(front.own));
+  return below * (below + 1) / 2;
+}
+
+void BlockFactor::reserve(Workspace& work) const {
+  const std::size_t stride = largest_front_ + kFrontPadding;
+  work.front.resize(std::max(work.front.size(), largest_front_ * stride));
+  work.panel.resize(std::max(work.panel.size(), kFrontPanel * stride));
+  work.stack.resize(std::max(work.stack.size(), deepest_stack_));
+  work.top = 0;
+}
+
+DenseFront BlockFactor::kept(std::size_t f) const {
   const int size = 3 * static_cast<int>(fronts_[f].nodes.size());
   // The values are this object's own; const callers only read them.
   return {const_cast<double*>(values_[f].data()), size + kFrontPadding, size, 3 * fronts_[f].own};
 }
 
-void BlockFactor::assemble_front(std::size_t f, const double* values) {
+DenseFront BlockFactor::assemble_front(std::size_t f, const double* values, Workspace& work) const {
   const Front& front = fronts_[f];
-  const DenseFront to = dense(f);
+  DenseFront to = kept(f);
+  to.values = work.front.data();
   for (int c = 0; c < to.size; ++c) std::fill(to.column(c) + c, to.column(c) + to.size, 0.0);
   for (const Entry& entry : entries_[f]) {
     for (int j = 0; j < 3; ++j) {
@@ -209,29 +230,46 @@ void BlockFactor::assemble_front(std::size_t f, const double* values) {
       }
     }
   }
-  for (int child : front.children) {
-    const DenseFront from = dense(at(child));
-    const std::vector<int>& place = fronts_[at(child)].place_in_parent;
+  for (std::size_t c = front.children.size(); c-- > 0;) {
+    const Front& child = fronts_[at(front.children[c])];
+    const std::vector<int>& place = child.place_in_parent;
     const int count = static_cast<int>(place.size());
+    work.top -= remainder_places(child);
+    const double* from = work.stack.data() + work.top;  // the next column's diagonal
     for (int b = 0; b < count; ++b) {
       for (int j = 0; j < 3; ++j) {
-        const double* remainder = from.column(from.own + 3 * b + j) + from.own;
         double* column = to.column(3 * place[at(b)] + j);
-        for (int a = b; a < count; ++a) {
-          for (int i = 0; i < 3; ++i) column[3 * place[at(a)] + i] += remainder[3 * a + i];
+        for (int i = j; i < 3; ++i) column[3 * place[at(b)] + i] += *from++;
+        for (int a = b + 1; a < count; ++a, from += 3) {
+          for (int i = 0; i < 3; ++i) column[3 * place[at(a)] + i] += from[i];
         }
       }
     }
   }
+  return to;
+}
+
+/// Own columns to where solve() finds them, the remainder onto the stack.
+void BlockFactor::keep_front(std::size_t f, const DenseFront& dense, Workspace& work) {
+  const DenseFront to = kept(f);
+  for (int c = 0; c < dense.own; ++c) std::copy(dense.column(c) + c, dense.column(c) + dense.size, to.column(c) + c);
+  double* stack = work.stack.data() + work.top;
+  for (int c = dense.own; c < dense.size; ++c) {
+    stack = std::copy(dense.column(c) + c, dense.column(c) + dense.size, stack);
+  }
+  work.top += remainder_places(fronts_[f]);
 }
 
 bool BlockFactor::factor(const BlockMatrix& matrix) {
+  thread_local Workspace work;
+  reserve(work);
   positive_ = true;
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
-    assemble_front(f, matrix.lower().valuePtr());
-    const Pivots pivots = eliminate_front(dense(f), work_.data());
+    const DenseFront dense = assemble_front(f, matrix.lower().valuePtr(), work);
+    const Pivots pivots = eliminate_front(dense, work.panel.data());
     if (pivots != Pivots::Positive) positive_ = false;
     if (pivots == Pivots::Unusable) return false;
+    keep_front(f, dense, work);
   }
   return true;
 }
@@ -241,7 +279,7 @@ Eigen::MatrixXd BlockFactor::solve(const Eigen::MatrixXd& right) const {
   for (std::size_t node = 0; node < order_.size(); ++node) {
     x.middleRows<3>(3 * order_[node]) = right.middleRows<3>(static_cast<Eigen::Index>(3 * node));
   }
-  Eigen::VectorXd local(static_cast<Eigen::Index>(work_.size()));
+  Eigen::VectorXd local = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(largest_front_));
   const auto sweep = [&](const Front& front, auto&& solve_front) {
     for (Eigen::Index column = 0; column < x.cols(); ++column) {
       for (std::size_t k = 0; k < front.nodes.size(); ++k) {
@@ -254,10 +292,10 @@ Eigen::MatrixXd BlockFactor::solve(const Eigen::MatrixXd& right) const {
     }
   };
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
-    sweep(fronts_[f], [this, f](double* values) { solve_forward(dense(f), values); });
+    sweep(fronts_[f], [this, f](double* values) { solve_forward(kept(f), values); });
   }
   for (std::size_t f = fronts_.size(); f-- > 0;) {
-    sweep(fronts_[f], [this, f](double* values) { solve_backward(dense(f), values); });
+    sweep(fronts_[f], [this, f](double* values) { solve_backward(kept(f), values); });
   }
   Eigen::MatrixXd result(right.rows(), right.cols());
   for (std::size_t node = 0; node < order_.size(); ++node) {

@@ -10,8 +10,8 @@
 namespace myotact::simulation {
 
 /// L D L^T of a symmetric BlockMatrix by the multifrontal method: nodes are ordered by minimum degree, neighbouring
-/// columns of like structure are eliminated together in dense fronts. The pattern is analysed once; every factorisation
-/// after that allocates no fronts. No pivoting: meant for positive definite matrices; an indefinite one is factored too
+/// columns of like structure are eliminated together in dense fronts. The pattern is analysed once; a factorisation
+/// allocates nothing but each thread's own workspace, once. No pivoting: meant for positive definite matrices; an indefinite one is factored too
 /// as long as no pivot vanishes.
 class BlockFactor {
  public:
@@ -44,14 +44,24 @@ class BlockFactor {
 
   void make_fronts(const std::vector<std::vector<int>>& neighbours);
   void place_entries(const BlockMatrix& pattern);
-  void assemble_front(std::size_t front, const double* values);
-  DenseFront dense(std::size_t front) const;
+  /// What a factorisation works in: one front, its panel, and the remainders that wait for their parents. Fronts are
+  /// met children first, so the waiting remainders are a stack. One a thread, small enough to stay in its cache.
+  struct Workspace {
+    std::vector<double> front, panel, stack;
+    std::size_t top = 0;
+  };
+  static std::size_t remainder_places(const Front& front);
+  void reserve(Workspace& work) const;
+  DenseFront assemble_front(std::size_t front, const double* values, Workspace& work) const;
+  void keep_front(std::size_t front, const DenseFront& dense, Workspace& work);
+  DenseFront kept(std::size_t front) const;
 
   std::vector<int> order_;                  // elimination position of each node
   std::vector<Front> fronts_;
   std::vector<std::vector<Entry>> entries_;  // one list a front
-  std::vector<std::vector<double>> values_;  // one dense matrix a front, see dense_front.h
-  std::vector<double> work_;
+  std::vector<std::vector<double>> values_;  // own columns of each front after factor(), see dense_front.h
+  std::size_t largest_front_ = 0;           // rows
+  std::size_t deepest_stack_ = 0;           // places
   bool positive_ = false;
 };
 

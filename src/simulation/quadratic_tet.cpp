@@ -196,12 +196,11 @@ void deform(const TetRest& rest, const Vec3& fibre, const TetVector& position_m,
   for (int p = 0; p < kTetPoints; ++p) {
     std::array<double, 9>& F = points.F[at(p)];
     for (int i = 0; i < 3; ++i) {
+      const Pack* x = reinterpret_cast<const Pack*>(&position_m[at(i * kTetStride)]);
       for (int A = 0; A < 3; ++A) {
-        double sum = 0.0;
-        const double* x = &position_m[at(i * kTetStride)];
-        const double* g = &rest.gradients_1_m[at(p)][at(A * kTetStride)];
-        for (int a = 0; a < kTetNodes; ++a) sum += x[a] * g[a];
-        F[at(3 * i + A)] = sum;
+        const Pack* g = reinterpret_cast<const Pack*>(&rest.gradients_1_m[at(p)][at(A * kTetStride)]);
+        const Pack sum = x[0] * g[0] + x[1] * g[1] + x[2] * g[2];
+        F[at(3 * i + A)] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
       }
     }
     const Vec3 r0(F[0], F[1], F[2]), r1(F[3], F[4], F[5]), r2(F[6], F[7], F[8]);
