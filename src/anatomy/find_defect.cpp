@@ -93,29 +93,46 @@ std::string defect_of_body(const Body& body) {
                                 body.key);
 }
 
+std::size_t axis_count(JointType type) {
+  switch (type) {
+    case JointType::Weld:
+      return 0;
+    case JointType::Hinge:
+      return 1;
+    case JointType::Universal:
+      return 2;
+    case JointType::Ball:
+      return 3;
+  }
+  return 0;
+}
+
+std::string defect_of_joint(const Joint& joint) {
+  if (joint.parent == joint.child) return fmt::format("joint {}: parent and child are the same body", joint.key);
+  if (!is_near(joint.centre_m)) {
+    return fmt::format("joint {}: centre_m must lie within 10 m; are the units metres?", joint.key);
+  }
+  const std::size_t wanted = axis_count(joint.type);
+  if (joint.axes.size() != wanted || joint.range_rad.size() != wanted) {
+    return fmt::format("joint {}: has {} axes and {} ranges; its type needs {} of each", joint.key, joint.axes.size(),
+                       joint.range_rad.size(), wanted);
+  }
+  for (const Vec3& axis : joint.axes) {
+    if (!(std::abs(axis.norm() - 1.0) <= 1e-6)) return fmt::format("joint {}: an axis is not of length 1", joint.key);
+  }
+  for (const auto& [lowest, highest] : joint.range_rad) {
+    if (!(lowest < highest)) return fmt::format("joint {}: range_rad must rise", joint.key);
+  }
+  return "";
+}
+
 std::string defect_of_skeleton(const Specimen& specimen) {
   if (specimen.bodies.empty()) return "bodies: is empty; a specimen needs at least one body";
   for (const Body& body : specimen.bodies) {
     if (auto defect = defect_of_body(body); !defect.empty()) return defect;
   }
   for (const Joint& joint : specimen.joints) {
-    if (joint.parent == joint.child) return fmt::format("joint {}: parent and child are the same body", joint.key);
-    if (!is_near(joint.centre_m))
-      return fmt::format("joint {}: centre_m must lie within 10 m; are the units metres?", joint.key);
-    const std::size_t wanted = static_cast<std::size_t>(joint.type == JointType::Weld        ? 0
-                                                        : joint.type == JointType::Hinge     ? 1
-                                                        : joint.type == JointType::Universal ? 2
-                                                                                             : 3);
-    if (joint.axes.size() != wanted || joint.range_rad.size() != wanted) {
-      return fmt::format("joint {}: has {} axes and {} ranges; its type needs {} of each", joint.key, joint.axes.size(),
-                         joint.range_rad.size(), wanted);
-    }
-    for (const Vec3& axis : joint.axes) {
-      if (!(std::abs(axis.norm() - 1.0) <= 1e-6)) return fmt::format("joint {}: an axis is not of length 1", joint.key);
-    }
-    for (const auto& [lowest, highest] : joint.range_rad) {
-      if (!(lowest < highest)) return fmt::format("joint {}: range_rad must rise", joint.key);
-    }
+    if (auto defect = defect_of_joint(joint); !defect.empty()) return defect;
   }
   return "";
 }
