@@ -145,37 +145,48 @@ std::vector<int> to_integers(const std::vector<double>& values, const Words& wor
   return integers;
 }
 
-/// Data arrays of the points or the cells, until the next section.
+std::vector<Vec3> read_vectors(Words& words, std::size_t count) {
+  words.next();  // the type
+  std::vector<Vec3> vectors;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = words.number();
+    const double y = words.number();
+    vectors.emplace_back(x, y, words.number());
+  }
+  return vectors;
+}
+
+/// One array of the cells or the points; arrays with other names are read over.
+void read_array(Words& words, std::string_view kind, bool of_cells, TetFile& file) {
+  const std::string_view name = words.next();
+  const std::size_t count = of_cells ? file.mesh.corners.size() : file.mesh.nodes_m.size();
+  if (kind == "VECTORS") {
+    std::vector<Vec3> vectors = read_vectors(words, count);
+    if (of_cells && name == "fibre") file.fibres = std::move(vectors);
+    return;
+  }
+  if (kind != "SCALARS") {
+    throw words.error(fmt::format("\"{}\" is not read; must be SCALARS or VECTORS", kind.substr(0, kLongestShown)));
+  }
+  const std::vector<double> values = read_scalars(words, count);
+  if (of_cells && name == "region") file.regions = to_integers(values, words);
+  if (of_cells && name == "section") file.sections_m2 = values;
+  if (!of_cells && name == "attachment") file.attachments = to_integers(values, words);
+}
+
+/// Data arrays of the points or the cells, to the end of the file.
 void read_data(Words& words, TetFile& file) {
   bool of_cells = false;
   while (!words.at_end()) {
     const std::string_view kind = words.next();
-    if (kind == "CELL_DATA" || kind == "POINT_DATA") {
-      of_cells = kind == "CELL_DATA";
-      const std::size_t wanted = of_cells ? file.mesh.corners.size() : file.mesh.nodes_m.size();
-      if (static_cast<std::size_t>(words.integer(0, kMostElements)) != wanted) {
-        throw words.error(fmt::format("{} must have {} entries", kind, wanted));
-      }
+    if (kind != "CELL_DATA" && kind != "POINT_DATA") {
+      read_array(words, kind, of_cells, file);
       continue;
     }
-    const std::string_view name = words.next();
-    const std::size_t count = of_cells ? file.mesh.corners.size() : file.mesh.nodes_m.size();
-    if (kind == "VECTORS") {
-      words.next();
-      std::vector<Vec3> vectors;
-      for (std::size_t i = 0; i < count; ++i) {
-        const double x = words.number();
-        const double y = words.number();
-        vectors.emplace_back(x, y, words.number());
-      }
-      if (of_cells && name == "fibre") file.fibres = std::move(vectors);
-    } else if (kind == "SCALARS") {
-      std::vector<double> values = read_scalars(words, count);
-      if (of_cells && name == "region") file.regions = to_integers(values, words);
-      if (of_cells && name == "section") file.sections_m2 = std::move(values);
-      if (!of_cells && name == "attachment") file.attachments = to_integers(values, words);
-    } else {
-      throw words.error(fmt::format("\"{}\" is not read; must be SCALARS or VECTORS", kind.substr(0, kLongestShown)));
+    of_cells = kind == "CELL_DATA";
+    const std::size_t wanted = of_cells ? file.mesh.corners.size() : file.mesh.nodes_m.size();
+    if (static_cast<std::size_t>(words.integer(0, kMostElements)) != wanted) {
+      throw words.error(fmt::format("{} must have {} entries", kind, wanted));
     }
   }
 }
