@@ -14,7 +14,9 @@ namespace {
 constexpr double kLargestZeroShare = 0.15;
 constexpr int kSmallFront = 6;  // nodes
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 using Lists = std::vector<std::vector<int>>;
 
@@ -80,8 +82,10 @@ std::vector<int> postorder(const std::vector<int>& parent) {
   Lists children(parent.size());
   std::vector<int> stack;
   for (int j = n - 1; j >= 0; --j) {
-    if (parent[at(j)] >= 0) children[at(parent[at(j)])].push_back(j);
-    else stack.push_back(j);
+    if (parent[at(j)] >= 0)
+      children[at(parent[at(j)])].push_back(j);
+    else
+      stack.push_back(j);
   }
   std::vector<int> position(parent.size());
   int next = n;  // parents are met before their children: number from the end
@@ -225,7 +229,8 @@ DenseFront BlockFactor::assemble_front(std::size_t f, const double* values, Work
     for (int j = 0; j < 3; ++j) {
       for (int i = 0; i < 3; ++i) {
         const double value = values[entry.slot.base + j * entry.slot.stride + i];
-        const int row = 3 * entry.row + (entry.transposed ? j : i), column = 3 * entry.column + (entry.transposed ? i : j);
+        const int row = 3 * entry.row + (entry.transposed ? j : i),
+                  column = 3 * entry.column + (entry.transposed ? i : j);
         to.column(column)[row] += value;
       }
     }

@@ -11,8 +11,8 @@ namespace myotact::simulation {
 
 /// L D L^T of a symmetric BlockMatrix by the multifrontal method: nodes are ordered by minimum degree, neighbouring
 /// columns of like structure are eliminated together in dense fronts. The pattern is analysed once; a factorisation
-/// allocates nothing but each thread's own workspace, once. No pivoting: meant for positive definite matrices; an indefinite one is factored too
-/// as long as no pivot vanishes.
+/// allocates nothing but each thread's own workspace, once. No pivoting: meant for positive definite matrices; an
+/// indefinite one is factored too as long as no pivot vanishes.
 class BlockFactor {
  public:
   BlockFactor() = default;
@@ -30,9 +30,9 @@ class BlockFactor {
  private:
   /// A group of neighbouring columns with one dense front: its own nodes first, then the nodes below that it touches.
   struct Front {
-    std::vector<int> nodes;           // in elimination order's numbering; the first `own` are eliminated here
+    std::vector<int> nodes;  // in elimination order's numbering; the first `own` are eliminated here
     int own = 0;
-    std::vector<int> children;        // fronts whose remainder is added here
+    std::vector<int> children;         // fronts whose remainder is added here
     std::vector<int> place_in_parent;  // of each node after the own ones, in the parent's list
   };
   /// A block of the matrix and where it goes.
@@ -56,12 +56,12 @@ class BlockFactor {
   void keep_front(std::size_t front, const DenseFront& dense, Workspace& work);
   DenseFront kept(std::size_t front) const;
 
-  std::vector<int> order_;                  // elimination position of each node
+  std::vector<int> order_;  // elimination position of each node
   std::vector<Front> fronts_;
   std::vector<std::vector<Entry>> entries_;  // one list a front
   std::vector<std::vector<double>> values_;  // own columns of each front after factor(), see dense_front.h
-  std::size_t largest_front_ = 0;           // rows
-  std::size_t deepest_stack_ = 0;           // places
+  std::size_t largest_front_ = 0;            // rows
+  std::size_t deepest_stack_ = 0;            // places
   bool positive_ = false;
 };
 

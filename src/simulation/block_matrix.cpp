@@ -34,7 +34,9 @@ BlockSlot BlockMatrix::slot(int row, int column) const {
   return {static_cast<int>(found - matrix_.innerIndexPtr()), static_cast<int>(last - first)};
 }
 
-void BlockMatrix::set_zero() { std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0); }
+void BlockMatrix::set_zero() {
+  std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0);
+}
 
 void BlockMatrix::add(int row, int column, const Mat3& block) {
   const bool stored = row >= column;

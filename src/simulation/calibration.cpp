@@ -83,7 +83,9 @@ LineAgreement measure(const LineTarget& target, const Skeleton& skeleton, LimbMu
   return agreement;
 }
 
-double bounded(double factor) { return std::clamp(factor, 1.0 / kLargestFactor, kLargestFactor); }
+double bounded(double factor) {
+  return std::clamp(factor, 1.0 / kLargestFactor, kLargestFactor);
+}
 
 }  // namespace
 

@@ -7,7 +7,9 @@
 namespace myotact::simulation {
 namespace {
 
-double point_weight_Nm(const TissueElement& element) { return element.rest.point_volume_m3 * element.peak_Pa; }
+double point_weight_Nm(const TissueElement& element) {
+  return element.rest.point_volume_m3 * element.peak_Pa;
+}
 
 /// Force-velocity factor at a point and its slope against the stretch: the curve's tangent at the last step's speed,
 /// taken at the new speed, so that the damping of the fibres is implicit and one Newton step is enough.
@@ -60,8 +62,7 @@ FibreStress fibre_stress(const FibreInputs& in, std::size_t t, const TetPoints& 
     const SpeedFactor speed = speed_factor(in, t * kTetPoints + p, points.stretch[p]);
     const double active = shared + kEvenness * (n - in.mean_length) + damped * (speed.value - 1.0);
     fibre.stress_Pa[p] = peak * (a * active + passive_force_length(n));
-    fibre.slope_Pa[p] =
-        peak * ((a * kEvenness + passive_force_length_slope(n)) * map.gain + a * damped * speed.slope);
+    fibre.slope_Pa[p] = peak * ((a * kEvenness + passive_force_length_slope(n)) * map.gain + a * damped * speed.slope);
   }
   return fibre;
 }
@@ -77,10 +78,11 @@ TetVector mean_gradient(const TissueElement& element, const TetPoints& points) {
   for (std::size_t p = 0; p < kTetPoints; ++p) {
     const TetVector& g = element.rest.gradients_1_m[p];
     for (std::size_t a = 0; a < kTetNodes; ++a) {
-      const double along = element.fibre.x() * g[a] + element.fibre.y() * g[kTetStride + a] +
-                           element.fibre.z() * g[2 * kTetStride + a];
+      const double along =
+          element.fibre.x() * g[a] + element.fibre.y() * g[kTetStride + a] + element.fibre.z() * g[2 * kTetStride + a];
       for (std::size_t i = 0; i < 3; ++i) {
-        gradient[i * kTetStride + a] += point_weight_Nm(element) * along * points.fibre[p][static_cast<Eigen::Index>(i)];
+        gradient[i * kTetStride + a] +=
+            point_weight_Nm(element) * along * points.fibre[p][static_cast<Eigen::Index>(i)];
       }
     }
   }

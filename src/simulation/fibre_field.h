@@ -5,13 +5,13 @@
 namespace myotact::simulation {
 
 // A muscle's fibres run through the whole belly and hold one number of sarcomeres each, so their force follows from the
-// length of the whole fibre. Taken point by point instead, the falling limb of the force-length curve lets single points
-// snap to twice their length while their neighbours shorten, which no muscle does at this scale. Therefore
+// length of the whole fibre. Taken point by point instead, the falling limb of the force-length curve lets single
+// points snap to twice their length while their neighbours shorten, which no muscle does at this scale. Therefore
 //
 //   active stress = a peak [ fL(mean n) + h (n - mean n) ] + damping,      h > 0
 //
-// the muscle's mean length decides the force, and a point that differs from the mean is drawn back as on the rising limb.
-// The second term adds nothing to the muscle's force. Passive stress is local.
+// the muscle's mean length decides the force, and a point that differs from the mean is drawn back as on the rising
+// limb. The second term adds nothing to the muscle's force. Passive stress is local.
 
 /// h: slope of the force-length curve at n = 0.8, the middle of its rising limb.
 inline constexpr double kEvenness = 1.0;

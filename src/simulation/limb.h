@@ -13,8 +13,8 @@ namespace myotact::simulation {
 
 /// A spring between a place in the world and a material point of a muscle or a point of a body.
 struct ToolSpring {
-  int muscle = -1;                    // or -1: `body` and `body_rest_m` say where
-  MaterialPoint point;                // of the muscle's mesh
+  int muscle = -1;      // or -1: `body` and `body_rest_m` say where
+  MaterialPoint point;  // of the muscle's mesh
   int body = -1;
   Vec3 body_rest_m = Vec3::Zero();
   Vec3 target_W_m = Vec3::Zero();
@@ -23,15 +23,15 @@ struct ToolSpring {
 
 /// What a muscle does at the end of a step or settle.
 struct MuscleReadout {
-  Eigen::VectorXd torque_Nm;          // one a joint, positive flexes
-  double tension_N = 0.0;             // on its insertion
-  double smallest_J = 1.0;            // volume ratio over the integration points
+  Eigen::VectorXd torque_Nm;  // one a joint, positive flexes
+  double tension_N = 0.0;     // on its insertion
+  double smallest_J = 1.0;    // volume ratio over the integration points
 };
 
 /// One muscle: model, state, and what a solve leaves behind. Owned by one task at a time.
 struct LimbMuscle {
   MuscleTissue tissue;
-  bool rigid = false;                 // follows the bones, exerts nothing
+  bool rigid = false;  // follows the bones, exerts nothing
   TissueState state;
   TissueSystem system;
   BlockFactor factor;                 // of the system's sparse matrix
@@ -45,11 +45,11 @@ struct LimbMuscle {
   Eigen::VectorXd start_m, change_m;  // of the Newton step: nodes where it starts, change of the free ones
   double energy_slope = 0.0;          // along that change
   double residual_share = 0.0;        // out-of-balance force over the size of the forces, springs included
-  bool balanced = false;        // within this step: needs no new tangent
+  bool balanced = false;              // within this step: needs no new tangent
   bool made_definite = false;         // the last tangent had to be
   bool sound = true;                  // the last factorisation and state were finite
   MuscleReadout readout;
-  Eigen::VectorXd stiffness_Nm_rad;   // quasi-static, one a joint, of the last refresh
+  Eigen::VectorXd stiffness_Nm_rad;  // quasi-static, one a joint, of the last refresh
 };
 
 /// Angles of all joints at one instant.
@@ -68,8 +68,8 @@ struct Limb {
   Eigen::VectorXd external_torque_Nm;
   Vec3 gravity_m_s2 = Vec3::Zero();
   std::vector<LimbMuscle> muscles;
-  std::vector<ToolSpring> springs;      // of the present step
-  std::vector<Vec3> spring_force_N;     // on the tissue or bone
+  std::vector<ToolSpring> springs;          // of the present step
+  std::vector<Vec3> spring_force_N;         // on the tissue or bone
   std::vector<Mat3> spring_compliance_m_N;  // of the tissue under each spring in the present step
 
   std::span<const double> angles() const {

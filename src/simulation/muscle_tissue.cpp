@@ -12,7 +12,9 @@
 namespace myotact::simulation {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 Error refuse(const anatomy::Muscle& muscle, const std::string& problem) {
   return bad_data("specimen", "muscle " + muscle.key, problem);
@@ -25,7 +27,9 @@ struct BellyShape {
   std::vector<double> sections_m2;
 };
 
-bool is_belly(anatomy::TissueRegion region) { return region != anatomy::TissueRegion::Tendon; }
+bool is_belly(anatomy::TissueRegion region) {
+  return region != anatomy::TissueRegion::Tendon;
+}
 
 BellyShape belly_shape(const anatomy::Muscle& muscle, const anatomy::MuscleLine& line) {
   BellyShape shape;
@@ -75,7 +79,8 @@ void add_masses(MuscleTissue& tissue) {
   for (const TissueElement& element : tissue.elements) {
     const TissueMaterial& material = element.sheath ? kTendonSheath : kMuscleMatrix;
     const double mass = material.density_kg_m3 * kTetPoints * element.rest.point_volume_m3;
-    for (std::size_t a = 0; a < kTetNodes; ++a) tissue.mass_kg[at(element.nodes[a])] += mass * (a < 4 ? 1.0 / 36.0 : 4.0 / 27.0);
+    for (std::size_t a = 0; a < kTetNodes; ++a)
+      tissue.mass_kg[at(element.nodes[a])] += mass * (a < 4 ? 1.0 / 36.0 : 4.0 / 27.0);
   }
 }
 
@@ -167,8 +172,8 @@ MuscleTissue build_muscle_tissue(const anatomy::Specimen& specimen, int index) {
   MuscleTissue tissue;
   tissue.mesh = geometry::make_quadratic(muscle.tets, &edges);
   const BellyShape shape = belly_shape(muscle, *found);
-  tissue.fibre_map = {muscle.rest_stretch,
-                      shape.length_m / (muscle.optimal_fibre_m * std::cos(muscle.pennation_rad)), 0.0, 1.0};
+  tissue.fibre_map = {muscle.rest_stretch, shape.length_m / (muscle.optimal_fibre_m * std::cos(muscle.pennation_rad)),
+                      0.0, 1.0};
   add_elements(muscle, shape, tissue);
   add_masses(tissue);
   add_clamps(muscle, edges, tissue);

@@ -22,7 +22,7 @@ struct TissueElement {
   double peak_Pa = 0.0;     // nominal fibre stress at full activation and optimal length; 0: no fibres (sheath)
   bool sheath = false;
   /// Slots of the pairs (a, b), a <= b, row by row, in the matrix of free nodes; base -1 where a node is clamped.
-  std::array<BlockSlot, kTetNodes * (kTetNodes + 1) / 2> slots{};
+  std::array<BlockSlot, kTetNodes*(kTetNodes + 1) / 2> slots{};
 };
 
 /// Normalised fibre length n = rest_stretch + offset + gain (stretch - 1), and the scale of the peak stress. Offset and
@@ -39,17 +39,17 @@ struct FibreMap {
 /// A muscle as the solver sees it: everything that does not change while it moves. n nodes, of which some are clamped
 /// to bodies and move exactly with them; the rest are free and numbered in the order of the nodes.
 struct MuscleTissue {
-  geometry::TetMesh mesh;           // quadratic, rest position
-  std::vector<int> body;            // n: body that clamps the node, or -1
-  std::vector<int> free_index;      // n: number among the free nodes, or -1
+  geometry::TetMesh mesh;       // quadratic, rest position
+  std::vector<int> body;        // n: body that clamps the node, or -1
+  std::vector<int> free_index;  // n: number among the free nodes, or -1
   int free_nodes = 0;
-  std::vector<double> mass_kg;      // n, lumped
+  std::vector<double> mass_kg;  // n, lumped
   std::vector<TissueElement> elements;
   FibreMap fibre_map;
   std::vector<TendonStrand> strands;
-  std::vector<int> bodies;          // that clamp nodes
-  Eigen::MatrixXd blend;            // n x bodies: share of each body's motion in a smooth guess, rows sum to 1
-  BlockMatrix pattern;              // of the free nodes, zero
+  std::vector<int> bodies;  // that clamp nodes
+  Eigen::MatrixXd blend;    // n x bodies: share of each body's motion in a smooth guess, rows sum to 1
+  BlockMatrix pattern;      // of the free nodes, zero
   int insertion_body = -1;
   Vec3 insertion_rest_m = Vec3::Zero();  // where the muscle's line ends, and the point before it
   int before_insertion_body = -1;

@@ -15,7 +15,9 @@ namespace {
 /// Rows of the low-rank part: shear, volume fluctuation and fibre at each point, and the element's mean volume.
 constexpr int kRankRows = 3 * kTetPoints + 1;
 
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+constexpr std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 /// Pressure-like factor of the cofactor at a point: L (mean J - rest) + c (J - mean J).
 MYOTACT_INTO_CLONES double volume_stress(const TissueMaterial& m, const TetPoints& points, std::size_t p) {
@@ -132,8 +134,8 @@ MYOTACT_INTO_CLONES PointScales point_scales(const ElementInputs& in, int p, boo
 
 /// Adds, for one node a, the terms that are a multiple of the unit matrix (same in every component block) and the
 /// skew terms of the second derivative of J: block (i, j) gets eps_ijk v_k, v = F (grad a x grad b).
-MYOTACT_INTO_CLONES void add_node_terms(const ElementInputs& in, const std::array<PointScales, kTetPoints>& scales, int a,
-                    TetMatrix& stiffness) {
+MYOTACT_INTO_CLONES void add_node_terms(const ElementInputs& in, const std::array<PointScales, kTetPoints>& scales,
+                                        int a, TetMatrix& stiffness) {
   Strip unit, skew_x, skew_y, skew_z;
   for (int p = 0; p < kTetPoints; ++p) {
     const TetVector& g = in.rest.gradients_1_m[at(p)];

@@ -13,8 +13,8 @@ namespace myotact::simulation {
 
 inline constexpr int kTetNodes = 10;
 inline constexpr int kTetPoints = 4;
-inline constexpr int kTetStride = 12;              // from one component to the next
-inline constexpr int kTetDofs = 3 * kTetStride;    // entries of a vector, padding included
+inline constexpr int kTetStride = 12;            // from one component to the next
+inline constexpr int kTetDofs = 3 * kTetStride;  // entries of a vector, padding included
 
 using TetVector = std::array<double, kTetDofs>;
 /// Row-major stiffness. Only the blocks (component i, component j) with i <= j are filled, each with all 10 x 10 pairs;

@@ -44,8 +44,9 @@ bool prepare(const Skeleton& skeleton, TissueLoad load, double time_s, LimbMuscl
   return factor_system(muscle) == Pivots::Positive;
 }
 
-/// Goes along `direction` as far as the energy falls: every force has a potential in a static solve, and its slope along
-/// the way is residual . direction, so the slope alone tells where to stop. Returns the part gone, 0 when none helps.
+/// Goes along `direction` as far as the energy falls: every force has a potential in a static solve, and its slope
+/// along the way is residual . direction, so the slope alone tells where to stop. Returns the part gone, 0 when none
+/// helps.
 double search_line(const Skeleton& skeleton, const TissueLoad& load, const Eigen::VectorXd& direction,
                    LimbMuscle& muscle) {
   const double slope = -muscle.system.residual_N.dot(direction);
@@ -94,7 +95,8 @@ bool settle_all(Limb& limb, double wanted_share, WorkerPool& workers) {
   std::vector<char> settled(limb.muscles.size(), 1);
   workers.run(static_cast<int>(limb.muscles.size()), [&](int m) {
     const auto i = static_cast<std::size_t>(m);
-    if (!limb.muscles[i].rigid) settled[i] = settle_muscle(limb.skeleton, limb.gravity_m_s2, wanted_share, limb.muscles[i]);
+    if (!limb.muscles[i].rigid)
+      settled[i] = settle_muscle(limb.skeleton, limb.gravity_m_s2, wanted_share, limb.muscles[i]);
   });
   return std::all_of(settled.begin(), settled.end(), [](char s) { return s != 0; });
 }

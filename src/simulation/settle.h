@@ -14,9 +14,9 @@ bool settle_limb(Limb& limb, std::span<const double> angles_rad, WorkerPool& wor
 /// below `wanted_share` of the size of the forces. False when it does not get there.
 bool settle_muscle(const Skeleton& skeleton, const Vec3& gravity_m_s2, double wanted_share, LimbMuscle& muscle);
 
-/// Refreshes the quasi-static stiffness of one muscle about every joint: -d(torque)/d(angle) at held activation with the
-/// tissue following in equilibrium (Schur complement of the static tangent, no inertia, no force-velocity). Keeps the
-/// old value when the tangent is singular.
+/// Refreshes the quasi-static stiffness of one muscle about every joint: -d(torque)/d(angle) at held activation with
+/// the tissue following in equilibrium (Schur complement of the static tangent, no inertia, no force-velocity). Keeps
+/// the old value when the tangent is singular.
 void refresh_muscle_stiffness(const Limb& limb, LimbMuscle& muscle);
 
 }  // namespace myotact::simulation

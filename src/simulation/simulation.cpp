@@ -20,8 +20,12 @@ namespace {
 /// A step that fails is cut in halves this often before it is given up.
 constexpr int kMostHalvings = 3;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-double unit_range(double value) { return value >= 0.0 ? std::min(value, 1.0) : 0.0; }  // NaN becomes 0
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+double unit_range(double value) {
+  return value >= 0.0 ? std::min(value, 1.0) : 0.0;
+}  // NaN becomes 0
 
 /// FNV-1a over the bytes of numbers.
 void add_to_hash(std::span<const double> values, std::uint64_t& hash) {
@@ -32,7 +36,9 @@ void add_to_hash(std::span<const double> values, std::uint64_t& hash) {
   }
 }
 
-std::span<const double> as_span(const Eigen::VectorXd& v) { return {v.data(), static_cast<std::size_t>(v.size())}; }
+std::span<const double> as_span(const Eigen::VectorXd& v) {
+  return {v.data(), static_cast<std::size_t>(v.size())};
+}
 
 /// A muscle line with what does not change.
 struct LineRest {
@@ -61,7 +67,7 @@ struct Simulation::Impl {
       measure_line(*found, limb.skeleton, geometry);
       lines.push_back({&*found, arc_fractions(line_points_W(*found, limb.skeleton)), geometry.length_m});
     }
-    surfaces.follow(limb, true, workers);
+    workers.run(surfaces.count(), [&](int surface) { surfaces.follow(limb, surface, true); });
     read_out(limb);
   }
 
@@ -74,7 +80,7 @@ struct Simulation::Impl {
   std::vector<LineRest> lines;  // one a muscle
   std::uint64_t steps = 0;
   double time_s = 0.0;
-  int whole_steps = 0;  // of equal length since the last restart; the second-order rule needs one
+  int whole_steps = 0;   // of equal length since the last restart; the second-order rule needs one
   int next_refresh = 0;  // muscle whose stiffness is refreshed by the next step
   int failed_steps = 0;
 
@@ -151,15 +157,18 @@ Simulation::Simulation(const anatomy::Specimen& specimen, const SimulationSettin
     throw bad_data("scene", "/dt_s", "is " + to_text(settings.dt_s) + " s; must be in (0, 0.1]");
   }
   if (!settings.tissue.empty() && settings.tissue.size() != specimen.muscles.size()) {
-    throw bad_data("scene", "/tissue", "names " + std::to_string(settings.tissue.size()) + " models for " +
-                                           std::to_string(specimen.muscles.size()) + " muscles; must be one a muscle");
+    throw bad_data("scene", "/tissue",
+                   "names " + std::to_string(settings.tissue.size()) + " models for " +
+                       std::to_string(specimen.muscles.size()) + " muscles; must be one a muscle");
   }
   impl_ = std::make_unique<Impl>(specimen, settings);
 }
 
 Simulation::~Simulation() = default;
 
-void Simulation::set_excitation(int muscle, double excitation) { impl_->excitations[at(muscle)] = unit_range(excitation); }
+void Simulation::set_excitation(int muscle, double excitation) {
+  impl_->excitations[at(muscle)] = unit_range(excitation);
+}
 
 void Simulation::set_joint_locked(int joint, bool locked) {
   if (impl_->limb.skeleton.locked(joint) == locked) return;
@@ -168,7 +177,9 @@ void Simulation::set_joint_locked(int joint, bool locked) {
   impl_->whole_steps = 0;
 }
 
-void Simulation::set_gravity(const Vec3& gravity_m_s2) { impl_->limb.gravity_m_s2 = gravity_m_s2; }
+void Simulation::set_gravity(const Vec3& gravity_m_s2) {
+  impl_->limb.gravity_m_s2 = gravity_m_s2;
+}
 
 void Simulation::set_joint_torque(int joint, double torque_Nm) {
   impl_->limb.external_torque_Nm[joint] = std::isfinite(torque_Nm) ? torque_Nm : 0.0;
@@ -176,8 +187,9 @@ void Simulation::set_joint_torque(int joint, double torque_Nm) {
 
 bool Simulation::settle(std::span<const double> joint_angles_rad, std::span<const double> activations) {
   Impl& in = *impl_;
-  const bool usable = joint_angles_rad.size() == static_cast<std::size_t>(in.limb.skeleton.joint_count()) &&
-                      std::all_of(joint_angles_rad.begin(), joint_angles_rad.end(), [](double q) { return std::isfinite(q); });
+  const bool usable =
+      joint_angles_rad.size() == static_cast<std::size_t>(in.limb.skeleton.joint_count()) &&
+      std::all_of(joint_angles_rad.begin(), joint_angles_rad.end(), [](double q) { return std::isfinite(q); });
   if (!usable) return false;
   for (std::size_t m = 0; m < in.limb.muscles.size(); ++m) {
     in.excitations[m] = in.limb.muscles[m].state.activation = m < activations.size() ? unit_range(activations[m]) : 0.0;
@@ -185,7 +197,7 @@ bool Simulation::settle(std::span<const double> joint_angles_rad, std::span<cons
   const bool settled = settle_limb(in.limb, joint_angles_rad, in.workers);
   in.workers.run(static_cast<int>(in.limb.muscles.size()),
                  [&](int m) { refresh_muscle_stiffness(in.limb, in.limb.muscles[at(m)]); });
-  in.surfaces.follow(in.limb, true, in.workers);
+  in.workers.run(in.surfaces.count(), [&](int surface) { in.surfaces.follow(in.limb, surface, true); });
   in.whole_steps = 0;
   return settled;
 }
@@ -196,8 +208,8 @@ void Simulation::step(std::span<const messages::ToolState> tools) {
   for (std::size_t m = 0; m < in.limb.muscles.size(); ++m) {
     const anatomy::Muscle& muscle = in.specimen.muscles[m];
     double& activation = in.limb.muscles[m].state.activation;
-    activation = step_activation(activation, in.excitations[m],
-                                 {muscle.activation_tau_s, muscle.deactivation_tau_s}, dt_s);
+    activation =
+        step_activation(activation, in.excitations[m], {muscle.activation_tau_s, muscle.deactivation_tau_s}, dt_s);
   }
   in.limb.springs = tool_springs(tools, {in.specimen, in.surfaces.skins()}, in.limb);
   push_history(in.limb);
@@ -210,19 +222,28 @@ void Simulation::step(std::span<const messages::ToolState> tools) {
     sound = in.advance_in_parts(dt_s, 1);
     if (!sound) in.freeze();
   }
-  if (!in.limb.muscles.empty()) {
-    refresh_muscle_stiffness(in.limb, in.limb.muscles[at(in.next_refresh)]);
-    in.next_refresh = (in.next_refresh + 1) % static_cast<int>(in.limb.muscles.size());
-  }
-  in.surfaces.follow(in.limb, false, in.workers);
+  // One muscle's stiffness a step, beside the surfaces: it reads the positions that they read.
+  in.workers.run(in.surfaces.count() + 1, [&](int task) {
+    if (task > 0) in.surfaces.follow(in.limb, task - 1, false);
+    if (task == 0 && !in.limb.muscles.empty()) refresh_muscle_stiffness(in.limb, in.limb.muscles[at(in.next_refresh)]);
+  });
+  in.next_refresh = (in.next_refresh + 1) % std::max(1, static_cast<int>(in.limb.muscles.size()));
   ++in.steps;
   in.time_s += dt_s;
 }
 
-double Simulation::time_s() const { return impl_->time_s; }
-double Simulation::activation(int muscle) const { return impl_->limb.muscles[at(muscle)].state.activation; }
-double Simulation::excitation(int muscle) const { return impl_->excitations[at(muscle)]; }
-int Simulation::failed_steps() const { return impl_->failed_steps; }
+double Simulation::time_s() const {
+  return impl_->time_s;
+}
+double Simulation::activation(int muscle) const {
+  return impl_->limb.muscles[at(muscle)].state.activation;
+}
+double Simulation::excitation(int muscle) const {
+  return impl_->excitations[at(muscle)];
+}
+int Simulation::failed_steps() const {
+  return impl_->failed_steps;
+}
 
 double Simulation::muscle_force_N(int muscle) const {
   const LimbMuscle& m = impl_->limb.muscles[at(muscle)];
@@ -245,8 +266,7 @@ JointReadout Simulation::joint(int joint) const {
     const int muscle = static_cast<int>(m);
     readout.net_torque_Nm += limb.muscles[m].readout.torque_Nm[joint];
     readout.stiffness_Nm_rad += limb.muscles[m].stiffness_Nm_rad[joint];
-    const LineJointTerms terms =
-        line_joint_terms(impl_->line_geometry_of(muscle), impl_->line_force_of(muscle), joint);
+    const LineJointTerms terms = line_joint_terms(impl_->line_geometry_of(muscle), impl_->line_force_of(muscle), joint);
     readout.line_muscle_Nm_rad += terms.muscle_Nm_rad;
     readout.line_geometry_Nm_rad += terms.geometry_Nm_rad;
   }
@@ -259,8 +279,12 @@ void Simulation::refresh_stiffness(int joint) {
                      [&](int m) { refresh_muscle_stiffness(impl_->limb, impl_->limb.muscles[at(m)]); });
 }
 
-Pose Simulation::body_pose(int body) const { return impl_->limb.skeleton.body_pose(body); }
-std::span<const Vec3> Simulation::skin_world_m(int muscle) const { return impl_->surfaces.current_m(muscle); }
+Pose Simulation::body_pose(int body) const {
+  return impl_->limb.skeleton.body_pose(body);
+}
+std::span<const Vec3> Simulation::skin_world_m(int muscle) const {
+  return impl_->surfaces.current_m(muscle);
+}
 
 std::vector<Vec3> Simulation::line_world_m(int muscle) const {
   return line_points_W(*impl_->lines[at(muscle)].line, impl_->limb.skeleton);
@@ -296,7 +320,8 @@ void Simulation::write_local_model(const messages::ToolState& tool, messages::Lo
   for (int j = 0; j < in.limb.skeleton.joint_count(); ++j) {
     if (!in.limb.skeleton.moves(j)) continue;
     const JointReadout readout = joint(j);
-    model.joint = {readout.angle_rad, readout.velocity_rad_s, readout.inertia_kg_m2, in.limb.loads.damping_Nms_rad[j],
+    model.joint = {readout.angle_rad,        readout.velocity_rad_s,
+                   readout.inertia_kg_m2,    in.limb.loads.damping_Nms_rad[j],
                    readout.stiffness_Nm_rad, readout.net_torque_Nm};
     break;
   }

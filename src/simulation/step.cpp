@@ -21,7 +21,9 @@ constexpr double kSmallestJ = -0.5;
 constexpr double kSteepestRise = 0.5;
 constexpr int kMostCuts = 5;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 /// The unknowns of the small system: angles of the joints that may turn, then 3 numbers a spring.
 struct SmallSystem {
@@ -30,9 +32,7 @@ struct SmallSystem {
   Eigen::VectorXd right;
 
   Eigen::Index size() const { return right.size(); }
-  Eigen::Index spring_row(std::size_t spring) const {
-    return static_cast<Eigen::Index>(joints.size() + 3 * spring);
-  }
+  Eigen::Index spring_row(std::size_t spring) const { return static_cast<Eigen::Index>(joints.size() + 3 * spring); }
 };
 
 SmallSystem make_small_system(const Limb& limb) {
@@ -93,8 +93,8 @@ Eigen::VectorXd skeleton_residual(Limb& limb, const TimeRule& rule) {
   const Eigen::VectorXd& q = limb.now.angle_rad;
   const Eigen::VectorXd velocity =
       rule.rate_1_s * q - rule.now_1_s * limb.last.angle_rad + rule.before_1_s * limb.before.angle_rad;
-  const Eigen::VectorXd acceleration = rule.rate_1_s * velocity - rule.now_1_s * limb.last.velocity_rad_s +
-                                       rule.before_1_s * limb.before.velocity_rad_s;
+  const Eigen::VectorXd acceleration =
+      rule.rate_1_s * velocity - rule.now_1_s * limb.last.velocity_rad_s + rule.before_1_s * limb.before.velocity_rad_s;
   const auto span = [](const Eigen::VectorXd& v) {
     return std::span<const double>(v.data(), static_cast<std::size_t>(v.size()));
   };
@@ -104,8 +104,7 @@ Eigen::VectorXd skeleton_residual(Limb& limb, const TimeRule& rule) {
 
 void add_skeleton(Limb& limb, const TimeRule& rule, SmallSystem& small) {
   const Eigen::VectorXd residual = skeleton_residual(limb, rule);
-  Eigen::MatrixXd tangent =
-      limb.loads.mass_kg_m2 * rule.rate_1_s * rule.rate_1_s + limb.loads.stiffness_Nm_rad;
+  Eigen::MatrixXd tangent = limb.loads.mass_kg_m2 * rule.rate_1_s * rule.rate_1_s + limb.loads.stiffness_Nm_rad;
   tangent.diagonal() += limb.loads.damping_Nms_rad * rule.rate_1_s;
   for (std::size_t a = 0; a < small.joints.size(); ++a) {
     const auto row = static_cast<Eigen::Index>(a);
@@ -280,8 +279,8 @@ Iteration newton_step(Limb& limb, const TissueLoad& load, WorkerPool& workers, i
 
 /// Rates that the next step starts from.
 void finish(Limb& limb, const TimeRule& rule) {
-  limb.now.velocity_rad_s = rule.rate_1_s * limb.now.angle_rad - rule.now_1_s * limb.last.angle_rad +
-                            rule.before_1_s * limb.before.angle_rad;
+  limb.now.velocity_rad_s =
+      rule.rate_1_s * limb.now.angle_rad - rule.now_1_s * limb.last.angle_rad + rule.before_1_s * limb.before.angle_rad;
   for (LimbMuscle& muscle : limb.muscles) {
     TissueState& state = muscle.state;
     for (std::size_t p = 0; p < state.stretch_rate_1_s.size(); ++p) {

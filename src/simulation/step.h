@@ -17,8 +17,8 @@ struct StepInput {
 };
 
 struct StepReport {
-  bool sound = true;   // false: the state holds no usable result; go back and take shorter steps
-  int iterations = 0;  // Newton steps
+  bool sound = true;        // false: the state holds no usable result; go back and take shorter steps
+  int iterations = 0;       // Newton steps
   int definite_solves = 0;  // muscles whose tangent had to be made definite
   double residual_share = 0.0;
 };

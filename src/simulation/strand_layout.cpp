@@ -23,7 +23,9 @@ constexpr double kToe_lo = 0.01;
 constexpr double kClearance_m = 0.005;
 constexpr int kAngleSamples = 9;  // over the range of each joint
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 /// Arc length of the place on the rest line nearest to p [m].
 double place_on_line_m(const anatomy::MuscleLine& line, const Vec3& p) {
@@ -120,7 +122,8 @@ TendonStrand border(const MuscleTissue& tissue, const std::vector<char>& of_end,
 
 Vec3 border_middle(const TendonStrand& strand, const MuscleTissue& tissue) {
   Vec3 p = Vec3::Zero();
-  for (std::size_t k = 0; k < strand.nodes.size(); ++k) p += strand.weights[k] * tissue.mesh.nodes_m[at(strand.nodes[k])];
+  for (std::size_t k = 0; k < strand.nodes.size(); ++k)
+    p += strand.weights[k] * tissue.mesh.nodes_m[at(strand.nodes[k])];
   return p;
 }
 

@@ -3,7 +3,9 @@
 namespace myotact::simulation {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 std::vector<const geometry::TriangleMesh*> all_surfaces(const anatomy::Specimen& specimen) {
   std::vector<const geometry::TriangleMesh*> surfaces;
@@ -25,7 +27,8 @@ Surfaces::Surfaces(const anatomy::Specimen& specimen, const Limb& limb) : specim
     skins_.push_back(embed_skin(specimen.muscles[m].skin, limb.muscles[m].tissue.mesh));
   }
   const std::vector<const geometry::TriangleMesh*> surfaces = all_surfaces(specimen);
-  for (const geometry::TriangleMesh* surface : surfaces) frames_.push_back({surface->positions_m, surface->positions_m});
+  for (const geometry::TriangleMesh* surface : surfaces)
+    frames_.push_back({surface->positions_m, surface->positions_m});
   patch_ = std::make_unique<LocalPatch>(surfaces);
 }
 
@@ -41,14 +44,12 @@ void Surfaces::update(const Limb& limb, int surface) {
   for (std::size_t v = 0; v < frame.current_m.size(); ++v) frame.current_m[v] = pose * bone.surface.positions_m[v];
 }
 
-void Surfaces::follow(const Limb& limb, bool restart, WorkerPool& workers) {
-  workers.run(static_cast<int>(frames_.size()), [&](int surface) {
-    Frame& frame = frames_[at(surface)];
-    frame.previous_m.swap(frame.current_m);
-    update(limb, surface);
-    if (restart) frame.previous_m = frame.current_m;
-    patch_->update_surface(surface, frame.previous_m, frame.current_m);
-  });
+void Surfaces::follow(const Limb& limb, int surface, bool restart) {
+  Frame& frame = frames_[at(surface)];
+  frame.previous_m.swap(frame.current_m);
+  update(limb, surface);
+  if (restart) frame.previous_m = frame.current_m;
+  patch_->update_surface(surface, frame.previous_m, frame.current_m);
 }
 
 }  // namespace myotact::simulation

@@ -19,9 +19,11 @@ class Surfaces {
   std::span<const Vec3> current_m(int surface) const { return frames_[static_cast<std::size_t>(surface)].current_m; }
   const LocalPatch& patch() const { return *patch_; }
 
-  /// The current frame becomes the previous one, and the present state of the limb the current one. With `restart` both
-  /// frames become the present state: after a jump there is no motion to play.
-  void follow(const Limb& limb, bool restart, WorkerPool& workers);
+  int count() const { return static_cast<int>(frames_.size()); }
+  /// The current frame of one surface becomes its previous one, and the present state of the limb the current one. With
+  /// `restart` both frames become the present state: after a jump there is no motion to play. Different surfaces may be
+  /// followed by different threads at once.
+  void follow(const Limb& limb, int surface, bool restart);
 
  private:
   struct Frame {

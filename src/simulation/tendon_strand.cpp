@@ -51,8 +51,8 @@ StrandState evaluate_strand(const TendonStrand& strand, const Skeleton& skeleton
   state.tension_N = tension.force_N;
   state.coupling_N_rad = Eigen::Matrix3Xd::Zero(3, joints);
   state.stiffness_Nm_rad = Eigen::MatrixXd::Zero(joints, joints);
-  Vec3 by_p = Vec3::Zero();                                      // dl/dp
-  Eigen::VectorXd by_angle = Eigen::VectorXd::Zero(joints);      // dl/dq
+  Vec3 by_p = Vec3::Zero();                                         // dl/dp
+  Eigen::VectorXd by_angle = Eigen::VectorXd::Zero(joints);         // dl/dq
   Eigen::Matrix3Xd slope_from = Eigen::Matrix3Xd::Zero(3, joints);  // of the segment's start; p moves by itself
   Vec3 from = p_W_m;
   int body_from = -1;

@@ -17,24 +17,24 @@ struct TendonStrand {
     int body = -1;
     Vec3 rest_m = Vec3::Zero();
   };
-  std::vector<int> nodes;        // of the muscle's mesh, on the border between belly and tendon
-  std::vector<double> weights;   // one a node, >= 0, sum 1
+  std::vector<int> nodes;         // of the muscle's mesh, on the border between belly and tendon
+  std::vector<double> weights;    // one a node, >= 0, sum 1
   std::vector<BodyPoint> points;  // from the belly to the bone
   double rest_length_m = 0.0;
-  double stiffness_N_m = 0.0;    // beyond the toe
-  bool at_insertion = true;      // which end of the muscle
-  double toe_m = 0.0;            // the force rises as a parabola over this extension, so that its slope is continuous
+  double stiffness_N_m = 0.0;  // beyond the toe
+  bool at_insertion = true;    // which end of the muscle
+  double toe_m = 0.0;          // the force rises as a parabola over this extension, so that its slope is continuous
 };
 
 /// Force and tangent of a strand in one state. Unknowns: p, then one angle a joint.
 struct StrandState {
   double length_m = 0.0;
   double tension_N = 0.0;
-  Vec3 pull_N = Vec3::Zero();      // slope of the energy against p
-  Eigen::VectorXd torque_Nm;       // slope of the energy against the angles
-  Mat3 stiffness_N_m = Mat3::Zero();        // second derivatives: p p
-  Eigen::Matrix3Xd coupling_N_rad;          // p angle
-  Eigen::MatrixXd stiffness_Nm_rad;         // angle angle
+  Vec3 pull_N = Vec3::Zero();         // slope of the energy against p
+  Eigen::VectorXd torque_Nm;          // slope of the energy against the angles
+  Mat3 stiffness_N_m = Mat3::Zero();  // second derivatives: p p
+  Eigen::Matrix3Xd coupling_N_rad;    // p angle
+  Eigen::MatrixXd stiffness_Nm_rad;   // angle angle
 };
 
 /// Length at the pose with the belly's end at p.

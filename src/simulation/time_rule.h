@@ -15,8 +15,12 @@ struct TimeRule {
 };
 
 /// First order; needs one past value.
-inline TimeRule backward_euler(double dt_s) { return {1.0 / dt_s, 1.0 / dt_s, 0.0}; }
+inline TimeRule backward_euler(double dt_s) {
+  return {1.0 / dt_s, 1.0 / dt_s, 0.0};
+}
 /// Second order (BDF2); the two past values must be dt_s apart.
-inline TimeRule second_order(double dt_s) { return {1.5 / dt_s, 2.0 / dt_s, 0.5 / dt_s}; }
+inline TimeRule second_order(double dt_s) {
+  return {1.5 / dt_s, 2.0 / dt_s, 0.5 / dt_s};
+}
 
 }  // namespace myotact::simulation

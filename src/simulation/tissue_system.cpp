@@ -10,7 +10,9 @@
 namespace myotact::simulation {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 /// Everything that a pass over the elements needs.
 struct Pass {
@@ -66,7 +68,8 @@ bool joint_motion(const Pass& pass, const TissueElement& element, int joint, Tet
     const int body = pass.tissue.body[at(element.nodes[a])];
     if (body < 0 || !pass.skeleton.is_distal(body, joint)) continue;
     any = true;
-    const Vec3 slope = pass.skeleton.point_derivative(body, joint, node_vector(pass.state.now.position_m, element.nodes[a]));
+    const Vec3 slope =
+        pass.skeleton.point_derivative(body, joint, node_vector(pass.state.now.position_m, element.nodes[a]));
     for (std::size_t i = 0; i < 3; ++i) motion[i * kTetStride + a] = slope[static_cast<Eigen::Index>(i)];
   }
   return any;

@@ -27,21 +27,23 @@ struct TissueState {
 /// At rest in the rest position.
 TissueState make_state(const MuscleTissue& tissue);
 
-inline Vec3 node_vector(const Eigen::VectorXd& values, int node) { return values.segment<3>(3 * node); }
+inline Vec3 node_vector(const Eigen::VectorXd& values, int node) {
+  return values.segment<3>(3 * node);
+}
 
 /// Puts every clamped node of the present iterate where its body is.
 void place_clamped(const MuscleTissue& tissue, const Skeleton& skeleton, TissueState& state);
 
 /// What a solve is made of besides elasticity.
 struct TissueLoad {
-  TimeRule rule;                  // all zero: static, no inertia, no force-velocity
-  bool force_velocity = true;     // false in static solves that use the rule as a damper only
+  TimeRule rule;               // all zero: static, no inertia, no force-velocity
+  bool force_velocity = true;  // false in static solves that use the rule as a damper only
   Vec3 gravity_m_s2 = Vec3::Zero();
-  bool definite = false;          // build a safe positive definite tangent
+  bool definite = false;  // build a safe positive definite tangent
 };
 
-/// What the mean length of the fibres adds to the tangent: factor * gradient gradient^T over free nodes and angles. Dense,
-/// so the nodes' part is kept apart; coupling and joint stiffness hold theirs.
+/// What the mean length of the fibres adds to the tangent: factor * gradient gradient^T over free nodes and angles.
+/// Dense, so the nodes' part is kept apart; coupling and joint stiffness hold theirs.
 struct MeanTerm {
   Eigen::VectorXd gradient;        // of the mean normalised length against the free nodes [1/m]
   Eigen::VectorXd joint_gradient;  // against the angles [1/rad]
@@ -61,13 +63,13 @@ struct TissueSystem {
   Eigen::MatrixXd coupling_N_rad;
   Eigen::MatrixXd joint_stiffness_Nm_rad;
   Eigen::VectorXd joint_residual_Nm;
-  std::vector<TetPoints> points;      // one an element
+  std::vector<TetPoints> points;  // one an element
   // of the forces pass alone
-  Eigen::VectorXd internal_N;         // at all nodes: elastic forces and strands
-  Eigen::VectorXd muscle_torque_Nm;   // that the tissue exerts on the joints, positive flexes
-  double tension_N = 0.0;             // on the insertion, along the line's last segment
-  double force_scale_N = 0.0;         // size of the nodal forces, to judge a residual by
-  double smallest_J = 1.0;            // over the integration points
+  Eigen::VectorXd internal_N;        // at all nodes: elastic forces and strands
+  Eigen::VectorXd muscle_torque_Nm;  // that the tissue exerts on the joints, positive flexes
+  double tension_N = 0.0;            // on the insertion, along the line's last segment
+  double force_scale_N = 0.0;        // size of the nodal forces, to judge a residual by
+  double smallest_J = 1.0;           // over the integration points
 };
 
 TissueSystem make_system(const MuscleTissue& tissue, const Skeleton& skeleton);

@@ -14,10 +14,16 @@ constexpr double kStiffestSpring_N_m = 1e6;
 /// A target farther away than this is not a hand's [m].
 constexpr double kFarthestTarget_m = 10.0;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
-bool usable_stiffness(double stiffness_N_m) { return stiffness_N_m > 0.0 && stiffness_N_m <= kStiffestSpring_N_m; }
-bool usable_target(const Vec3& target_m) { return target_m.allFinite() && target_m.norm() < kFarthestTarget_m; }
+bool usable_stiffness(double stiffness_N_m) {
+  return stiffness_N_m > 0.0 && stiffness_N_m <= kStiffestSpring_N_m;
+}
+bool usable_target(const Vec3& target_m) {
+  return target_m.allFinite() && target_m.norm() < kFarthestTarget_m;
+}
 
 bool usable_barycentric(const std::array<double, 3>& b) {
   return std::all_of(b.begin(), b.end(), [](double v) { return v >= -1.0 && v <= 2.0; });
@@ -31,9 +37,9 @@ const geometry::TriangleMesh* surface_of(const anatomy::Specimen& specimen, int 
 
 std::optional<ToolSpring> contact_spring(const messages::ToolContact& contact, const TouchableParts& parts) {
   const geometry::TriangleMesh* surface = surface_of(parts.specimen, contact.surface);
-  const bool usable = surface != nullptr && contact.triangle >= 0 &&
-                      at(contact.triangle) < surface->triangles.size() && usable_stiffness(contact.stiffness_N_m) &&
-                      usable_target(to_vec3(contact.target_world_m)) && usable_barycentric(contact.barycentric);
+  const bool usable = surface != nullptr && contact.triangle >= 0 && at(contact.triangle) < surface->triangles.size() &&
+                      usable_stiffness(contact.stiffness_N_m) && usable_target(to_vec3(contact.target_world_m)) &&
+                      usable_barycentric(contact.barycentric);
   if (!usable) return std::nullopt;
   ToolSpring spring;
   spring.target_W_m = to_vec3(contact.target_world_m);
@@ -46,7 +52,8 @@ std::optional<ToolSpring> contact_spring(const messages::ToolContact& contact, c
     return spring;
   }
   spring.body = parts.specimen.bones[at(contact.surface - muscles)].body;
-  for (std::size_t c = 0; c < 3; ++c) spring.body_rest_m += contact.barycentric[c] * surface->positions_m[at(triangle[c])];
+  for (std::size_t c = 0; c < 3; ++c)
+    spring.body_rest_m += contact.barycentric[c] * surface->positions_m[at(triangle[c])];
   return spring;
 }
 

@@ -26,7 +26,8 @@ FibreStress fibre_of(const TetPoints& points) {
 }
 
 struct Element {
-  std::array<Vec3, 4> corners{Vec3(0, 0, 0), Vec3(0.010, 0.001, 0), Vec3(0.002, 0.012, 0.001), Vec3(0.001, 0.002, 0.009)};
+  std::array<Vec3, 4> corners{Vec3(0, 0, 0), Vec3(0.010, 0.001, 0), Vec3(0.002, 0.012, 0.001),
+                              Vec3(0.001, 0.002, 0.009)};
   TetRest rest = make_tet_rest(corners);
   TissueMaterial material = kMuscleMatrix;
   Vec3 fibre = Vec3(1.0, 0.5, -0.3).normalized();
@@ -122,8 +123,8 @@ TEST(QuadraticTet, StiffnessIsTheSlopeOfTheForces) {
     down[k] -= h;
     const TetVector f_up = element.forces(up), f_down = element.forces(down);
     for (std::size_t r = 0; r < x.size(); ++r) {
-      EXPECT_NEAR(stiffness(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(k)), (f_up[r] - f_down[r]) / (2.0 * h),
-                  1e-6 * stiffness.cwiseAbs().maxCoeff());
+      EXPECT_NEAR(stiffness(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(k)),
+                  (f_up[r] - f_down[r]) / (2.0 * h), 1e-6 * stiffness.cwiseAbs().maxCoeff());
     }
   }
   EXPECT_LT((stiffness - stiffness.transpose()).norm(), 1e-12 * stiffness.norm());
@@ -192,8 +193,8 @@ double free_lateral(const Element& element, double stretch) {
 
 }  // namespace
 
-// Stretch, lateral stretch and nominal stress of the stable neo-Hookean law with E 60 kPa, nu 0.49, found from its closed
-// form by another program; they are given to the digits compared here.
+// Stretch, lateral stretch and nominal stress of the stable neo-Hookean law with E 60 kPa, nu 0.49, found from its
+// closed form by another program; they are given to the digits compared here.
 TEST(QuadraticTet, UniaxialStatesAreThoseOfTheStableNeoHookeanLaw) {
   struct State {
     double stretch, lateral, nominal_Pa;

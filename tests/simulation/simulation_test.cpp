@@ -173,7 +173,8 @@ TEST(Simulation, APushOnABoneTurnsTheJoint) {
   EXPECT_GT(simulation.joint(0).angle_rad, 0.0);
 }
 
-// Rod of 0.2 m, hinged at its end, no spring or damper: the mathematical period of small swings is 2 pi sqrt(2 L / 3 g).
+// Rod of 0.2 m, hinged at its end, no spring or damper: the mathematical period of small swings is 2 pi sqrt(2 L / 3
+// g).
 TEST(Simulation, ARodSwingsWithThePeriodOfAPendulum) {
   anatomy::Specimen specimen = testing::hinged_bones();
   specimen.joints[0].stiffness_Nm_rad = specimen.joints[0].damping_Nms_rad = 0.0;

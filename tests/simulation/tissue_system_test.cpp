@@ -23,7 +23,10 @@ testing::BarShape short_bar(int tendon_cells) {
 /// One muscle on the hinge in a state of large deformation, with history.
 struct Bench {
   explicit Bench(const anatomy::Specimen& given)
-      : specimen(given), skeleton(specimen), tissue(build_muscle_tissue(specimen, 0)), state(make_state(tissue)),
+      : specimen(given),
+        skeleton(specimen),
+        tissue(build_muscle_tissue(specimen, 0)),
+        state(make_state(tissue)),
         system(make_system(tissue, skeleton)) {
     load.rule = second_order(0.01);
     load.gravity_m_s2 = {0.0, 0.0, -9.81};
@@ -66,8 +69,10 @@ struct Bench {
     return nullptr;
   }
   void move(Eigen::Index k, double by) {
-    if (double* x = k < system.residual_N.size() ? unknown(k) : nullptr) *x += by;
-    else turn(angle + by);
+    if (double* x = k < system.residual_N.size() ? unknown(k) : nullptr)
+      *x += by;
+    else
+      turn(angle + by);
   }
 
   anatomy::Specimen specimen;
@@ -109,7 +114,8 @@ TEST(TissueSystem, PatchTestHolds) {
   const double low = -0.0099, high = 0.0099;  // of the cross-section; the bar is 20 mm wide
   std::vector<std::size_t> inside;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const bool at_side = nodes[i].y() < low || nodes[i].y() > high || nodes[i].z() < 0.03 + low || nodes[i].z() > 0.03 + high;
+    const bool at_side =
+        nodes[i].y() < low || nodes[i].y() > high || nodes[i].z() < 0.03 + low || nodes[i].z() > 0.03 + high;
     if (at_side || specimen.muscles[0].attachments[i] >= 0) continue;
     nodes[i] += Vec3(noise(random), noise(random), noise(random));
     inside.push_back(i);

@@ -7,7 +7,9 @@
 namespace myotact::testing {
 namespace {
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
+std::size_t index(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 /// The six tets of a cell: one for each order in which the axes are walked from the lowest to the highest corner.
 constexpr std::array<std::array<int, 3>, 6> kAxisOrders = {
@@ -47,8 +49,8 @@ geometry::TetMesh box_mesh(const Vec3& origin_m, const Vec3& size_m, const std::
   for (int k = 0; k <= cells[2]; ++k) {
     for (int j = 0; j <= cells[1]; ++j) {
       for (int i = 0; i <= cells[0]; ++i) {
-        mesh.nodes_m.push_back(origin_m + Vec3(size_m.x() * i / cells[0], size_m.y() * j / cells[1],
-                                               size_m.z() * k / cells[2]));
+        mesh.nodes_m.push_back(origin_m +
+                               Vec3(size_m.x() * i / cells[0], size_m.y() * j / cells[1], size_m.z() * k / cells[2]));
       }
     }
   }
@@ -82,8 +84,7 @@ geometry::TriangleMesh boundary_surface(const geometry::TetMesh& mesh) {
       if (uses[sorted(nodes)] != 1) continue;
       std::array<int, 3> triangle{};
       for (std::size_t c = 0; c < 3; ++c) {
-        const auto [found, added] =
-            vertex_of_node.try_emplace(nodes[c], static_cast<int>(surface.positions_m.size()));
+        const auto [found, added] = vertex_of_node.try_emplace(nodes[c], static_cast<int>(surface.positions_m.size()));
         if (added) surface.positions_m.push_back(mesh.nodes_m[index(nodes[c])]);
         triangle[c] = found->second;
       }
@@ -123,8 +124,7 @@ anatomy::Muscle bar_muscle(const std::string& key, const BarShape& shape) {
     const bool at_insertion = node.x() > end_m - tolerance_m;
     muscle.attachments.push_back(at_origin ? 0 : at_insertion ? 1 : -1);
   }
-  muscle.skin =
-      boundary_surface(box_mesh(low_m, size_m, {2 * shape.cells[0], 2 * shape.cells[1], 2 * shape.cells[2]}));
+  muscle.skin = boundary_surface(box_mesh(low_m, size_m, {2 * shape.cells[0], 2 * shape.cells[1], 2 * shape.cells[2]}));
   return muscle;
 }
 
