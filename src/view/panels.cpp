@@ -46,12 +46,14 @@ void draw_play(ViewControls& controls) {
 
 void draw_sliders(ViewControls& controls) {
   ImGui::TextUnformatted("Activation");
-  if (slider("flexors", controls.flexors, 0.0f, 1.0f) | slider("extensors", controls.extensors, 0.0f, 1.0f)) {
+  const bool flexors_moved = slider("flexors", controls.flexors, 0.0f, 1.0f);  // both are drawn, whichever moved
+  if (slider("extensors", controls.extensors, 0.0f, 1.0f) || flexors_moved) {
     controls.levels_changed = true;
     controls.balance_changed = false;
   }
   ImGui::TextUnformatted("Co-contraction at zero net torque");
-  if (slider("common", controls.common, 0.0f, 1.0f) | slider("difference", controls.difference, -0.5f, 0.5f)) {
+  const bool common_moved = slider("common", controls.common, 0.0f, 1.0f);
+  if (slider("difference", controls.difference, -0.5f, 0.5f) || common_moved) {
     controls.balance_changed = true;
     controls.levels_changed = false;
   }

@@ -27,10 +27,10 @@ for _ in $(seq 240); do
 done
 id="$(xdotool search --name Myotact | head -1)"
 xdotool windowmove "$id" 0 0
-sleep 3
+sleep 5
 import -window root "$folder/before.png"
 xdotool mousemove 900 135 mousedown 1 mousemove 960 135 mousemove 1020 135 mouseup 1
-sleep 3
+sleep 5
 import -window root "$folder/after.png"
 if [ -n "${MYOTACT_KEEP_PICTURES:-}" ]; then cp "$folder"/*.png "$MYOTACT_KEEP_PICTURES"; fi
 
