@@ -29,13 +29,20 @@ id="$(xdotool search --name Myotact | head -1)"
 xdotool windowmove "$id" 0 0
 sleep 5
 import -window root "$folder/before.png"
-xdotool mousemove 900 135 mousedown 1 mousemove 960 135 mousemove 1020 135 mouseup 1
-sleep 5
-import -window root "$folder/after.png"
+# A slow machine may draw seldom: the drag is repeated until a picture shows it.
+for _ in $(seq 6); do
+  xdotool mousemove 900 135 mousedown 1
+  for x in 930 960 990 1020; do sleep 0.3; xdotool mousemove "$x" 135; done
+  sleep 0.5
+  xdotool mouseup 1
+  sleep 3
+  import -window root "$folder/after.png"
+  # The slider's track (x 888..1148, y 127..144) must look different: its grip stands elsewhere.
+  changed="$(compare -metric AE -fuzz 5% -extract 260x17+888+127 "$folder/before.png" "$folder/after.png" null: 2>&1 || true)"
+  echo "changed pixels of the slider: $changed"
+  [ "${changed%%.*}" -le 100 ] || break
+done
 if [ -n "${MYOTACT_KEEP_PICTURES:-}" ]; then cp "$folder"/*.png "$MYOTACT_KEEP_PICTURES"; fi
 
-# The slider's track (x 888..1148, y 127..144) must look different: its grip stands elsewhere.
-changed="$(compare -metric AE -fuzz 5% -extract 260x17+888+127 "$folder/before.png" "$folder/after.png" null: 2>&1 || true)"
-echo "changed pixels of the slider: $changed"
 [ "${changed%%.*}" -gt 100 ]
 kill -0 "$window"
