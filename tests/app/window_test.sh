@@ -10,13 +10,17 @@ for tool in Xvfb xdotool import convert; do
   fi
 done
 folder="$(mktemp -d)"
-display=":$((90 + RANDOM % 900))"
-Xvfb "$display" -screen 0 1280x800x24 -nolisten tcp >/dev/null 2>&1 &
+Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp 3>"$folder/display" >/dev/null 2>&1 &
 server=$!
 window=""
 trap 'kill ${window:-} $server 2>/dev/null; rm -rf "$folder"' EXIT
-export DISPLAY="$display"
-for _ in $(seq 50); do xdotool getdisplaygeometry >/dev/null 2>&1 && break; sleep 0.1; done
+for _ in $(seq 300); do [ -s "$folder/display" ] && break; sleep 0.1; done
+if [ ! -s "$folder/display" ]; then
+  echo "skipped: the virtual display did not start"
+  exit 77
+fi
+DISPLAY=":$(cat "$folder/display")"
+export DISPLAY
 
 "$program" view elbow --out "$folder" >"$folder/log" 2>&1 &
 window=$!
