@@ -29,6 +29,7 @@ int replay(const Options& options) {
   const scene::Recording recording = scene::read_recording(options.file);
   const nlohmann::json header = parse_json(recording.header_json, options.file.string() + " (header)");
   const scene::Scene scene = scene::scene_of_recording(header, options.file, overrides_of(options));
+  scene::require_fit(recording, scene.specimen, options.file);
   simulation::Simulation simulation(scene.specimen, scene.settings);
   scene::Conductor start(scene, simulation);  // puts the simulation where the recording began
   const std::size_t same = first_difference(recording, simulation);

@@ -56,8 +56,16 @@ std::string reason(const std::string& message) {
 }  // namespace
 
 nlohmann::json parse_json(const std::string& text, const std::string& file) {
+  // Deeper values would overflow the stack where they are written out again, which the library does by recursion.
+  constexpr int kDeepestNesting = 64;  // eight times the deepest value of our formats
+  const auto refuse_depth = [&](int depth, nlohmann::json::parse_event_t, const nlohmann::json&) {
+    if (depth > kDeepestNesting) {
+      throw bad_data(file, "", fmt::format("nests lists or objects deeper than {}; flatten them", kDeepestNesting));
+    }
+    return true;
+  };
   try {
-    return nlohmann::json::parse(text, nullptr, true, true);
+    return nlohmann::json::parse(text, refuse_depth, true, true);
   } catch (const nlohmann::json::parse_error& failure) {
     throw bad_data(file, line_and_column(text, failure.byte), reason(failure.what()));
   } catch (const nlohmann::json::exception& failure) {  // a number beyond the range of a double

@@ -13,7 +13,8 @@
 
 namespace myotact {
 
-/// Reads a JSON file that may hold // comments. Throws Error: NoInput, or BadData naming line:column.
+/// Reads a JSON file that may hold // comments. Throws Error: NoInput, or BadData naming line:column. Values nested
+/// deeper than 64 are refused, so that what it returns may be walked and written by recursion.
 nlohmann::json read_json(const std::filesystem::path& path);
 /// The same from text; `file` is only named in errors.
 nlohmann::json parse_json(const std::string& text, const std::string& file);

@@ -132,6 +132,18 @@ Scene scene_of_recording(const nlohmann::json& header, const std::filesystem::pa
   return parse_scene(text, file, all);
 }
 
+void require_fit(const Recording& recording, const anatomy::Specimen& specimen, const std::filesystem::path& file) {
+  for (std::size_t i = 0; i < recording.steps.size(); ++i) {
+    const std::size_t muscles = recording.steps[i].excitations.size();
+    const std::size_t joints = recording.steps[i].joint_torques_Nm.size();
+    if (muscles == specimen.muscles.size() && joints == specimen.joints.size()) continue;
+    throw bad_data(file.string(), fmt::format("step {}", i),
+                   fmt::format("is for {} muscles and {} joints; the specimen has {} and {}. Name the specimen of the "
+                               "recording with --set specimen=FOLDER",
+                               muscles, joints, specimen.muscles.size(), specimen.joints.size()));
+  }
+}
+
 RecordingWriter::RecordingWriter(const std::filesystem::path& path, const std::string& header_json)
     : path_(path), file_(path, std::ios::binary | std::ios::trunc) {
   file_.write(kMagic.data(), static_cast<std::streamsize>(kMagic.size()));

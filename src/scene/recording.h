@@ -61,6 +61,9 @@ std::string recording_header(const Scene& scene, std::uint64_t seed);
 /// The scene that a recording's header describes. Throws Error BadData.
 Scene scene_of_recording(const nlohmann::json& header, const std::filesystem::path& file, const Overrides& overrides);
 
+/// Throws Error BadData unless every step tells each muscle and each joint of the specimen something.
+void require_fit(const Recording& recording, const anatomy::Specimen& specimen, const std::filesystem::path& file);
+
 /// Throws Error NoInput, or BadData when the file is no recording or its first chunk is damaged.
 Recording read_recording(const std::filesystem::path& path);
 

@@ -17,19 +17,36 @@ namespace {
 
 std::filesystem::path scenes_folder() { return data_folder() / "assets" / "scenes"; }
 
-/// --set key=value becomes a key of the scene; a value that is no JSON is taken as a text.
-void apply_overrides(nlohmann::json& scene, const Overrides& overrides) {
-  for (const auto& [key, value] : overrides) {
-    const auto parsed = nlohmann::json::parse(value, nullptr, false);
-    scene[key] = parsed.is_discarded() ? nlohmann::json(value) : parsed;
+/// The value as JSON; what is none is taken as a text.
+nlohmann::json value_of(const std::string& value) {
+  try {
+    return parse_json(value, "");
+  } catch (const Error&) {
+    return value;
   }
+}
+
+/// --set key=value becomes a key of the scene. Returns the scene as text, for recordings.
+std::string apply_overrides(nlohmann::json& scene, const Overrides& overrides) {
+  for (const auto& [key, value] : overrides) scene[key] = value_of(value);
+  try {
+    return scene.dump();
+  } catch (const nlohmann::json::exception&) {  // the file itself was checked when it was parsed
+    throw Error(ExitStatus::Usage, "--set: a key or a value is no UTF-8 text; rename what it names");
+  }
+}
+
+/// False also for a path that cannot even be examined, such as one that is too long.
+bool is_there(const std::filesystem::path& path) {
+  std::error_code failure;
+  return std::filesystem::exists(path, failure);
 }
 
 /// A specimen is named by its folder in meshes/, by a path, or by a path beside the scene file.
 std::filesystem::path find_specimen(const JsonValue& name, const std::filesystem::path& scene_file) {
   const std::filesystem::path given = name.string();
   for (const auto& candidate : {data_folder() / "meshes" / given, scene_file.parent_path() / given, given}) {
-    if (!given.empty() && std::filesystem::exists(candidate / "specimen.json")) return candidate;
+    if (!given.empty() && is_there(candidate / "specimen.json")) return candidate;
   }
   throw Error(ExitStatus::NoInput,
               fmt::format("{}: /specimen: \"{}\" is no specimen folder (specimen.json is missing); name one of meshes/ or "
@@ -147,11 +164,11 @@ void read_parts(JsonObject& root, Scene& scene) {
 Scene parse_scene(const std::string& text, const std::filesystem::path& file, const Overrides& overrides) {
   nlohmann::json json = parse_json(text, file.string());
   if (!json.is_object()) throw bad_data(file.string(), "/", "must be an object in braces");
-  apply_overrides(json, overrides);
+  const std::string source_text = apply_overrides(json, overrides);
   JsonObject root(JsonValue(json, file.string()));
   root.at("schema").integer_between(1, 1);
   Scene scene;
-  scene.source_text = json.dump();
+  scene.source_text = source_text;
   scene.name = root.at("name").string();
   scene.title = root.string_or("title", scene.name);
   scene.specimen_folder = find_specimen(root.at("specimen"), file);
@@ -177,9 +194,9 @@ std::vector<std::string> built_in_scenes() {
 
 Scene load_scene(const std::string& name_or_path, const Overrides& overrides) {
   const auto built_in = scenes_folder() / (name_or_path + ".json");
-  const bool is_name = name_or_path.find('/') == std::string::npos && std::filesystem::exists(built_in);
+  const bool is_name = name_or_path.find('/') == std::string::npos && is_there(built_in);
   const std::filesystem::path file = is_name ? built_in : std::filesystem::path(name_or_path);
-  if (!std::filesystem::exists(file)) {
+  if (!is_there(file)) {
     const auto names = built_in_scenes();
     throw Error(ExitStatus::NoInput, fmt::format("{}: no such scene file; built-in scenes: {} (nearest: \"{}\")",
                                                  name_or_path, join(names), nearest_word(name_or_path, names)));

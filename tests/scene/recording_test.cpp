@@ -6,10 +6,12 @@
 #include <filesystem>
 #include <fstream>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "core/file.h"
+#include "support/complaint.h"
 
 namespace myotact::scene {
 namespace {
@@ -68,6 +70,18 @@ TEST(Recording, CutAnywhereIsReadableUpToTheLastWholeChunk) {
   }
   std::filesystem::remove(path);
   EXPECT_EQ(most_steps, 2u);
+}
+
+TEST(Recording, MustFitTheSpecimen) {
+  Recording recording;
+  recording.steps = {sample_step(0), sample_step(1)};
+  anatomy::Specimen specimen;
+  specimen.muscles.resize(2);
+  specimen.joints.resize(1);
+  EXPECT_NO_THROW(require_fit(recording, specimen, "r"));
+  recording.steps[1].excitations.push_back(1.0);
+  EXPECT_THAT(testing::complaint(ExitStatus::BadData, [&] { require_fit(recording, specimen, "r"); }),
+              ::testing::HasSubstr("step 1: is for 3 muscles and 1 joints; the specimen has 2 and 1"));
 }
 
 TEST(Recording, RefusesAFileThatIsNone) {

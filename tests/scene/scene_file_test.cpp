@@ -59,6 +59,15 @@ TEST_F(SceneFile, FillsDefaultsAndResolvesNames) {
 
 TEST_F(SceneFile, OverridesReplaceKeys) { EXPECT_DOUBLE_EQ(parse("", {{"dt_s", "0.005"}}).settings.dt_s, 0.005); }
 
+TEST_F(SceneFile, OverridesMustBeText) {
+  try {
+    parse("", {{"title", "\xff"}});
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), ExitStatus::Usage);
+  }
+}
+
 TEST_F(SceneFile, ErrorsNamePlaceAndNearestWord) {
   EXPECT_THAT(complaint(R"(, "activations": {"flexer": 1})"), HasSubstr("nearest is \"flexor\""));
   EXPECT_THAT(complaint(R"(, "activations": {"flexor": 2})"), HasSubstr("/activations/flexor: is 2; must be between 0"));
@@ -73,6 +82,8 @@ TEST_F(SceneFile, ErrorsNamePlaceAndNearestWord) {
 
 TEST_F(SceneFile, MissingThingsAreNoInput) {
   for (const auto& make : {std::function<void()>([&] { load_scene("elbo"); }),
+                           std::function<void()>([&] { load_scene(std::string(5000, 'a')); }),
+                           std::function<void()>([&] { parse("", {{"specimen", std::string(5000, 'a')}}); }),
                            std::function<void()>([&] { parse("", {{"specimen", "nowhere"}}); })}) {
     try {
       make();
