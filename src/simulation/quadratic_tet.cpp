@@ -36,29 +36,32 @@ MYOTACT_INTO_CLONES void push_gradients(const std::array<double, 9>& matrix, con
   }
 }
 
-/// The 12 places of one component, held in registers.
-struct Strip {
-  Pack low = {}, middle = {}, high = {};
+/// out[r * kTetDofs + b] += sum_k left[k * kTetDofs + r] * right[k * RightStride + b] for the 10 nodes r and the 12
+/// places b of one pair of components. Two rows at a time are held in registers: six chains of additions keep the
+/// adders busy.
+template <int Depth, int RightStride>
+MYOTACT_INTO_CLONES void add_product(const double* left, const double* right, double* out) {
+  for (int r = 0; r < kTetNodes; r += 2) {
+    Pack* rows[2] = {reinterpret_cast<Pack*>(out + r * kTetDofs), reinterpret_cast<Pack*>(out + (r + 1) * kTetDofs)};
+    Pack sum[2][3] = {{rows[0][0], rows[0][1], rows[0][2]}, {rows[1][0], rows[1][1], rows[1][2]}};
+    for (int k = 0; k < Depth; ++k) {
+      const Pack* packs = reinterpret_cast<const Pack*>(right + k * RightStride);
+      const double first = left[k * kTetDofs + r], second = left[k * kTetDofs + r + 1];
+      for (int b = 0; b < 3; ++b) {
+        sum[0][b] += first * packs[b];
+        sum[1][b] += second * packs[b];
+      }
+    }
+    for (int b = 0; b < 3; ++b) {
+      rows[0][b] = sum[0][b];
+      rows[1][b] = sum[1][b];
+    }
+  }
+}
 
-  MYOTACT_INTO_CLONES void add(double factor, const double* row) {
-    const Pack* packs = reinterpret_cast<const Pack*>(row);
-    low += factor * packs[0];
-    middle += factor * packs[1];
-    high += factor * packs[2];
-  }
-  MYOTACT_INTO_CLONES void add_to(double* row) const {
-    Pack* packs = reinterpret_cast<Pack*>(row);
-    packs[0] += low;
-    packs[1] += middle;
-    packs[2] += high;
-  }
-  MYOTACT_INTO_CLONES void take_from(double* row) const {
-    Pack* packs = reinterpret_cast<Pack*>(row);
-    packs[0] -= low;
-    packs[1] -= middle;
-    packs[2] -= high;
-  }
-};
+MYOTACT_INTO_CLONES double* block_of(TetMatrix& stiffness, int i, int j) {
+  return &stiffness[at(i * kTetStride * kTetDofs + j * kTetStride)];
+}
 
 struct RankRows {
   std::array<TetVector, kRankRows> row;
@@ -95,19 +98,15 @@ MYOTACT_INTO_CLONES RankRows rank_rows(const ElementInputs& in, bool definite) {
   return rows;
 }
 
-MYOTACT_INTO_CLONES void fill_outer_products(const RankRows& rows, TetMatrix& stiffness) {
+MYOTACT_INTO_CLONES void add_outer_products(const RankRows& rows, TetMatrix& stiffness) {
+  std::array<TetVector, kRankRows> scaled;
+  for (std::size_t k = 0; k < kRankRows; ++k) {
+    for (std::size_t r = 0; r < kTetDofs; ++r) scaled[k][r] = rows.factor[k] * rows.row[k][r];
+  }
   for (int i = 0; i < 3; ++i) {
-    for (int a = 0; a < kTetNodes; ++a) {
-      const int r = i * kTetStride + a;
-      for (int block = i; block < 3; ++block) {
-        Strip sum;
-        for (std::size_t k = 0; k < kRankRows; ++k) {
-          sum.add(rows.factor[k] * rows.row[k][at(r)], &rows.row[k][at(block * kTetStride)]);
-        }
-        double* out = &stiffness[at(r * kTetDofs + block * kTetStride)];
-        std::fill_n(out, kTetStride, 0.0);
-        sum.add_to(out);
-      }
+    for (int j = i; j < 3; ++j) {
+      add_product<kRankRows, kTetDofs>(&scaled[0][at(i * kTetStride)], &rows.row[0][at(j * kTetStride)],
+                                       block_of(stiffness, i, j));
     }
   }
 }
@@ -132,34 +131,51 @@ MYOTACT_INTO_CLONES PointScales point_scales(const ElementInputs& in, int p, boo
   return {volume * identity, volume * along, volume * pressure};
 }
 
-/// Adds, for one node a, the terms that are a multiple of the unit matrix (same in every component block) and the
-/// skew terms of the second derivative of J: block (i, j) gets eps_ijk v_k, v = F (grad a x grad b).
-MYOTACT_INTO_CLONES void add_node_terms(const ElementInputs& in, const std::array<PointScales, kTetPoints>& scales,
-                                        int a, TetMatrix& stiffness) {
-  Strip unit, skew_x, skew_y, skew_z;
-  for (int p = 0; p < kTetPoints; ++p) {
-    const TetVector& g = in.rest.gradients_1_m[at(p)];
-    const std::array<double, 9>& F = in.points.F[at(p)];
-    const Vec3 own(g[at(a)], g[at(kTetStride + a)], g[at(2 * kTetStride + a)]);
-    const PointScales& scale = scales[at(p)];
-    const Vec3 direct = scale.identity * own + scale.along * own.dot(in.fibre) * in.fibre;
-    // Row k of F times the cross-product matrix of own: (F_k x own) . grad b, up to the scale.
-    const Vec3 x = scale.curvature * Vec3(F[0], F[1], F[2]).cross(own);
-    const Vec3 y = scale.curvature * Vec3(F[3], F[4], F[5]).cross(own);
-    const Vec3 z = scale.curvature * Vec3(F[6], F[7], F[8]).cross(own);
-    for (int A = 0; A < 3; ++A) {
-      const double* slopes = &g[at(A * kTetStride)];
-      unit.add(direct[A], slopes);
-      skew_x.add(x[A], slopes);
-      skew_y.add(y[A], slopes);
-      skew_z.add(z[A], slopes);
+/// One row a point and direction A of the rest position.
+using SlopeRows = std::array<TetVector, 3 * kTetPoints>;
+
+/// left[A] of `unit_rows` and `skew_rows` at point p for all nodes a: what dN_b/dX_A is multiplied with.
+MYOTACT_INTO_CLONES void slope_rows(const ElementInputs& in, int p, const PointScales& scale, SlopeRows& unit_rows,
+                                    SlopeRows& skew_rows) {
+  const TetVector& g = in.rest.gradients_1_m[at(p)];
+  const std::array<double, 9>& F = in.points.F[at(p)];
+  const double* fibre = in.fibre.data();
+  std::array<double, kTetStride> along;
+  for (std::size_t a = 0; a < kTetStride; ++a) {
+    along[a] = scale.along * (g[a] * fibre[0] + g[kTetStride + a] * fibre[1] + g[2 * kTetStride + a] * fibre[2]);
+  }
+  for (int A = 0; A < 3; ++A) {
+    const int B = (A + 1) % 3, C = (A + 2) % 3;
+    TetVector& unit = unit_rows[at(3 * p + A)];
+    TetVector& skew = skew_rows[at(3 * p + A)];
+    const double *gA = &g[at(A * kTetStride)], *gB = &g[at(B * kTetStride)], *gC = &g[at(C * kTetStride)];
+    for (std::size_t a = 0; a < kTetStride; ++a) unit[a] = scale.identity * gA[a] + along[a] * fibre[A];
+    // Row i of F times the cross-product matrix of grad a: (F_i x grad a) . grad b.
+    for (int i = 0; i < 3; ++i) {
+      const double factor = i == 1 ? -scale.curvature : scale.curvature;  // eps_021 = -1
+      const double FB = factor * F[at(3 * i + B)], FC = factor * F[at(3 * i + C)];
+      for (int a = 0; a < kTetStride; ++a) skew[at(i * kTetStride + a)] = FB * gC[a] - FC * gB[a];
     }
   }
-  const auto row = [&](int i, int j) { return &stiffness[at((i * kTetStride + a) * kTetDofs + j * kTetStride)]; };
-  for (int i = 0; i < 3; ++i) unit.add_to(row(i, i));
-  skew_z.add_to(row(0, 1));
-  skew_y.take_from(row(0, 2));
-  skew_x.add_to(row(1, 2));
+}
+
+/// Writes the terms that are a multiple of the unit matrix (same in every component block) and the skew terms of the
+/// second derivative of J: block (i, j) gets eps_ijk v_k, v = F (grad a x grad b).
+MYOTACT_INTO_CLONES void fill_slope_products(const ElementInputs& in, bool definite, TetMatrix& stiffness) {
+  SlopeRows unit_rows, skew_rows;
+  for (int p = 0; p < kTetPoints; ++p) slope_rows(in, p, point_scales(in, p, definite), unit_rows, skew_rows);
+  const double* slopes = in.rest.gradients_1_m[0].data();
+  stiffness.fill(0.0);
+  add_product<3 * kTetPoints, kTetStride>(unit_rows[0].data(), slopes, block_of(stiffness, 0, 0));
+  for (int i = 1; i < 3; ++i) {
+    for (int a = 0; a < kTetNodes; ++a) {
+      std::copy_n(block_of(stiffness, 0, 0) + a * kTetDofs, kTetStride, block_of(stiffness, i, i) + a * kTetDofs);
+    }
+  }
+  const auto skew = [&](int component) { return &skew_rows[0][at(component * kTetStride)]; };
+  add_product<3 * kTetPoints, kTetStride>(skew(2), slopes, block_of(stiffness, 0, 1));
+  add_product<3 * kTetPoints, kTetStride>(skew(1), slopes, block_of(stiffness, 0, 2));
+  add_product<3 * kTetPoints, kTetStride>(skew(0), slopes, block_of(stiffness, 1, 2));
 }
 
 }  // namespace
@@ -241,10 +257,8 @@ TetVector elastic_forces(const ElementInputs& in) {
 
 MYOTACT_VECTOR_CLONES
 void elastic_stiffness(const ElementInputs& inputs, bool definite, TetMatrix& stiffness_N_m) {
-  fill_outer_products(rank_rows(inputs, definite), stiffness_N_m);
-  std::array<PointScales, kTetPoints> scales;
-  for (int p = 0; p < kTetPoints; ++p) scales[at(p)] = point_scales(inputs, p, definite);
-  for (int a = 0; a < kTetNodes; ++a) add_node_terms(inputs, scales, a, stiffness_N_m);
+  fill_slope_products(inputs, definite, stiffness_N_m);
+  add_outer_products(rank_rows(inputs, definite), stiffness_N_m);
 }
 
 TetVector multiply(const TetMatrix& stiffness, const TetVector& vector) {
