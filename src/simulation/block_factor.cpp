@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <Eigen/OrderingMethods>
 
@@ -162,12 +161,16 @@ void BlockFactor::make_fronts(const std::vector<std::vector<int>>& neighbours) {
     const std::size_t size = 3 * front.nodes.size();
     values_.emplace_back(3 * at(front.own) * (size + kFrontPadding), 0.0);
     largest_front_ = std::max(largest_front_, size);
+    largest_rest_ = std::max(largest_rest_, size - 3 * at(front.own));
     if (at(front.own) == front.nodes.size()) continue;
     Front& above = fronts_[at(front_of[at(front.nodes[at(front.own)])])];
     above.children.push_back(static_cast<int>(f));
     for (std::size_t k = at(front.own); k < front.nodes.size(); ++k) {
       const auto found = std::lower_bound(above.nodes.begin(), above.nodes.end(), front.nodes[k]);
-      front.place_in_parent.push_back(static_cast<int>(found - above.nodes.begin()));
+      const int place = static_cast<int>(found - above.nodes.begin());
+      const bool goes_on = !front.runs.empty() && front.runs.back().place + front.runs.back().count == place;
+      if (!goes_on) front.runs.push_back({0, place});
+      ++front.runs.back().count;
     }
   }
   std::size_t top = 0;
@@ -208,7 +211,7 @@ std::size_t BlockFactor::remainder_places(const Front& front) {
 
 void BlockFactor::reserve(Workspace& work) const {
   const std::size_t stride = largest_front_ + kFrontPadding;
-  work.front.resize(std::max(work.front.size(), largest_front_ * stride));
+  work.rest.resize(std::max(work.rest.size(), largest_rest_ * stride));
   work.panel.resize(std::max(work.panel.size(), kFrontPanel * stride));
   work.stack.resize(std::max(work.stack.size(), deepest_stack_));
   work.top = 0;
@@ -217,52 +220,57 @@ void BlockFactor::reserve(Workspace& work) const {
 DenseFront BlockFactor::kept(std::size_t f) const {
   const int size = 3 * static_cast<int>(fronts_[f].nodes.size());
   // The values are this object's own; const callers only read them.
-  return {const_cast<double*>(values_[f].data()), size + kFrontPadding, size, 3 * fronts_[f].own};
+  return {const_cast<double*>(values_[f].data()), nullptr, size + kFrontPadding, size, 3 * fronts_[f].own};
 }
 
-DenseFront BlockFactor::assemble_front(std::size_t f, const double* values, Workspace& work) const {
-  const Front& front = fronts_[f];
-  DenseFront to = kept(f);
-  to.values = work.front.data();
-  for (int c = 0; c < to.size; ++c) std::fill(to.column(c) + c, to.column(c) + to.size, 0.0);
+/// Adds the matrix's own blocks.
+void BlockFactor::add_entries(std::size_t f, const double* values, const DenseFront& to) const {
   for (const Entry& entry : entries_[f]) {
+    const double* block = values + entry.slot.base;
     for (int j = 0; j < 3; ++j) {
+      double* column = to.column(3 * entry.column + j) + 3 * entry.row;
       for (int i = 0; i < 3; ++i) {
-        const double value = values[entry.slot.base + j * entry.slot.stride + i];
-        const int row = 3 * entry.row + (entry.transposed ? j : i),
-                  column = 3 * entry.column + (entry.transposed ? i : j);
-        to.column(column)[row] += value;
+        column[i] += entry.transposed ? block[i * entry.slot.stride + j] : block[j * entry.slot.stride + i];
       }
     }
   }
-  for (std::size_t c = front.children.size(); c-- > 0;) {
-    const Front& child = fronts_[at(front.children[c])];
-    const std::vector<int>& place = child.place_in_parent;
-    const int count = static_cast<int>(place.size());
-    work.top -= remainder_places(child);
-    const double* from = work.stack.data() + work.top;  // the next column's diagonal
-    for (int b = 0; b < count; ++b) {
-      for (int j = 0; j < 3; ++j) {
-        double* column = to.column(3 * place[at(b)] + j);
-        for (int i = j; i < 3; ++i) column[3 * place[at(b)] + i] += *from++;
-        for (int a = b + 1; a < count; ++a, from += 3) {
-          for (int i = 0; i < 3; ++i) column[3 * place[at(a)] + i] += from[i];
-        }
-      }
+}
+
+/// Adds a child's packed lower triangle, column after column.
+void BlockFactor::add_remainder(const Front& child, const double* remainder, const DenseFront& to) {
+  const auto add_rows = [&remainder](double* rows, int count) {
+    for (int i = 0; i < count; ++i) rows[i] += remainder[i];
+    remainder += count;
+  };
+  for (auto run = child.runs.begin(); run != child.runs.end(); ++run) {
+    for (int j = 0; j < 3 * run->count; ++j) {
+      double* column = to.column(3 * run->place + j);
+      add_rows(column + 3 * run->place + j, 3 * run->count - j);
+      for (auto below = run + 1; below != child.runs.end(); ++below) add_rows(column + 3 * below->place, 3 * below->count);
     }
+  }
+}
+
+/// The front before its elimination. Its own columns are where solve() finds them, the rest in the workspace.
+DenseFront BlockFactor::assemble_front(std::size_t f, const double* values, Workspace& work) {
+  DenseFront to = kept(f);
+  to.rest_values = work.rest.data();
+  for (int c = 0; c < to.size; ++c) std::fill(to.column(c) + c, to.column(c) + to.size, 0.0);
+  add_entries(f, values, to);
+  const std::vector<int>& children = fronts_[f].children;
+  for (auto child = children.rbegin(); child != children.rend(); ++child) {
+    work.top -= remainder_places(fronts_[at(*child)]);
+    add_remainder(fronts_[at(*child)], work.stack.data() + work.top, to);
   }
   return to;
 }
 
-/// Own columns to where solve() finds them, the remainder onto the stack.
-void BlockFactor::keep_front(std::size_t f, const DenseFront& dense, Workspace& work) {
-  const DenseFront to = kept(f);
-  for (int c = 0; c < dense.own; ++c) std::copy(dense.column(c) + c, dense.column(c) + dense.size, to.column(c) + c);
+void BlockFactor::push_remainder(const Front& front, const DenseFront& dense, Workspace& work) {
   double* stack = work.stack.data() + work.top;
   for (int c = dense.own; c < dense.size; ++c) {
     stack = std::copy(dense.column(c) + c, dense.column(c) + dense.size, stack);
   }
-  work.top += remainder_places(fronts_[f]);
+  work.top += remainder_places(front);
 }
 
 bool BlockFactor::factor(const BlockMatrix& matrix) {
@@ -274,37 +282,45 @@ bool BlockFactor::factor(const BlockMatrix& matrix) {
     const Pivots pivots = eliminate_front(dense, work.panel.data());
     if (pivots != Pivots::Positive) positive_ = false;
     if (pivots == Pivots::Unusable) return false;
-    keep_front(f, dense, work);
+    push_remainder(fronts_[f], dense, work);
   }
   return true;
 }
 
-Eigen::MatrixXd BlockFactor::solve(const Eigen::MatrixXd& right) const {
-  Eigen::MatrixXd x(right.rows(), right.cols());
-  for (std::size_t node = 0; node < order_.size(); ++node) {
-    x.middleRows<3>(3 * order_[node]) = right.middleRows<3>(static_cast<Eigen::Index>(3 * node));
-  }
-  Eigen::VectorXd local = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(largest_front_));
+/// x, in elimination order, becomes the solution.
+void BlockFactor::solve_four(Pack* x) const {
+  std::vector<double> storage(4 * largest_front_);
+  Pack* local = reinterpret_cast<Pack*>(storage.data());
   const auto sweep = [&](const Front& front, auto&& solve_front) {
-    for (Eigen::Index column = 0; column < x.cols(); ++column) {
-      for (std::size_t k = 0; k < front.nodes.size(); ++k) {
-        local.segment<3>(static_cast<Eigen::Index>(3 * k)) = x.col(column).segment<3>(3 * front.nodes[k]);
-      }
-      solve_front(local.data());
-      for (std::size_t k = 0; k < front.nodes.size(); ++k) {
-        x.col(column).segment<3>(3 * front.nodes[k]) = local.segment<3>(static_cast<Eigen::Index>(3 * k));
-      }
-    }
+    for (std::size_t k = 0; k < front.nodes.size(); ++k) std::copy_n(x + 3 * front.nodes[k], 3, local + 3 * k);
+    solve_front(local);
+    for (std::size_t k = 0; k < front.nodes.size(); ++k) std::copy_n(local + 3 * k, 3, x + 3 * front.nodes[k]);
   };
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
-    sweep(fronts_[f], [this, f](double* values) { solve_forward(kept(f), values); });
+    sweep(fronts_[f], [this, f](Pack* values) { solve_forward(kept(f), values); });
   }
   for (std::size_t f = fronts_.size(); f-- > 0;) {
-    sweep(fronts_[f], [this, f](double* values) { solve_backward(kept(f), values); });
+    sweep(fronts_[f], [this, f](Pack* values) { solve_backward(kept(f), values); });
   }
+}
+
+Eigen::MatrixXd BlockFactor::solve(const Eigen::MatrixXd& right) const {
   Eigen::MatrixXd result(right.rows(), right.cols());
-  for (std::size_t node = 0; node < order_.size(); ++node) {
-    result.middleRows<3>(static_cast<Eigen::Index>(3 * node)) = x.middleRows<3>(3 * order_[node]);
+  std::vector<double> four(4 * 3 * order_.size());
+  for (Eigen::Index first = 0; first < right.cols(); first += 4) {
+    const Eigen::Index count = std::min<Eigen::Index>(4, right.cols() - first);
+    std::fill(four.begin(), four.end(), 0.0);
+    const auto place = [&](Eigen::Index row, Eigen::Index column) -> double& {
+      return four[at(4 * (3 * order_[static_cast<std::size_t>(row / 3)] + static_cast<int>(row % 3)) +
+                     static_cast<int>(column))];
+    };
+    for (Eigen::Index c = 0; c < count; ++c) {
+      for (Eigen::Index row = 0; row < right.rows(); ++row) place(row, c) = right(row, first + c);
+    }
+    solve_four(reinterpret_cast<Pack*>(four.data()));
+    for (Eigen::Index c = 0; c < count; ++c) {
+      for (Eigen::Index row = 0; row < right.rows(); ++row) result(row, first + c) = place(row, c);
+    }
   }
   return result;
 }

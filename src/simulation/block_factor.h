@@ -24,16 +24,21 @@ class BlockFactor {
   /// Every pivot of the last factorisation was positive.
   bool positive() const { return positive_; }
 
-  /// matrix^-1 right, column by column. Rows as in the matrix.
+  /// matrix^-1 right, four columns at a time: one costs as much as four. Rows as in the matrix.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;
 
  private:
+  /// Neighbouring nodes that are neighbours in the parent's list too.
+  struct Run {
+    int count = 0;
+    int place = 0;  // of the first one in the parent's list
+  };
   /// A group of neighbouring columns with one dense front: its own nodes first, then the nodes below that it touches.
   struct Front {
     std::vector<int> nodes;  // in elimination order's numbering; the first `own` are eliminated here
     int own = 0;
-    std::vector<int> children;         // fronts whose remainder is added here
-    std::vector<int> place_in_parent;  // of each node after the own ones, in the parent's list
+    std::vector<int> children;  // fronts whose remainder is added here
+    std::vector<Run> runs;      // where the nodes after the own ones are in the parent's list
   };
   /// A block of the matrix and where it goes.
   struct Entry {
@@ -44,23 +49,28 @@ class BlockFactor {
 
   void make_fronts(const std::vector<std::vector<int>>& neighbours);
   void place_entries(const BlockMatrix& pattern);
-  /// What a factorisation works in: one front, its panel, and the remainders that wait for their parents. Fronts are
-  /// met children first, so the waiting remainders are a stack. One a thread, small enough to stay in its cache.
+  /// What a factorisation works in: one front's columns that are not its own, its panel, and the remainders that wait
+  /// for their parents. Fronts are met children first, so the waiting remainders are a stack. One a thread, small enough
+  /// to stay in its cache.
   struct Workspace {
-    std::vector<double> front, panel, stack;
+    std::vector<double> rest, panel, stack;
     std::size_t top = 0;
   };
   static std::size_t remainder_places(const Front& front);
   void reserve(Workspace& work) const;
-  DenseFront assemble_front(std::size_t front, const double* values, Workspace& work) const;
-  void keep_front(std::size_t front, const DenseFront& dense, Workspace& work);
+  DenseFront assemble_front(std::size_t front, const double* values, Workspace& work);
+  void add_entries(std::size_t front, const double* values, const DenseFront& to) const;
+  static void add_remainder(const Front& child, const double* remainder, const DenseFront& to);
+  static void push_remainder(const Front& front, const DenseFront& dense, Workspace& work);
   DenseFront kept(std::size_t front) const;
+  void solve_four(Pack* x) const;
 
   std::vector<int> order_;  // elimination position of each node
   std::vector<Front> fronts_;
   std::vector<std::vector<Entry>> entries_;  // one list a front
   std::vector<std::vector<double>> values_;  // own columns of each front after factor(), see dense_front.h
   std::size_t largest_front_ = 0;            // rows
+  std::size_t largest_rest_ = 0;             // columns that are not a front's own
   std::size_t deepest_stack_ = 0;            // places
   bool positive_ = false;
 };

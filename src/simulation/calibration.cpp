@@ -52,8 +52,8 @@ LineTarget line_target(const anatomy::Specimen& specimen, int index, const Skele
 double tension_slope(const Skeleton& skeleton, int joint, LimbMuscle& muscle) {
   const TissueLoad load;
   compute_system(muscle.tissue, skeleton, load, muscle.state, muscle.system);
-  if (factor_system(muscle) == Pivots::Unusable) return std::nan("");
-  const Eigen::VectorXd follow = solve(muscle, muscle.system.coupling_N_rad.col(joint));
+  Eigen::MatrixXd follow;
+  if (factor_system(muscle, muscle.system.coupling_N_rad.col(joint), follow) == Pivots::Unusable) return std::nan("");
   const double tension_N = muscle.system.tension_N;
   const Eigen::VectorXd kept = muscle.state.now.position_m;
   std::vector<double> angles(static_cast<std::size_t>(skeleton.joint_count()));

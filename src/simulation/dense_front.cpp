@@ -3,45 +3,25 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulation/vector_clones.h"
-
 namespace myotact::simulation {
+namespace {
 
-/// Eliminates columns [start, start + width) inside the panel of these columns, over all rows below. `scaled` receives
-/// L D of the rows below the panel.
-MYOTACT_VECTOR_CLONES
-static Pivots eliminate_panel(const DenseFront& front, int start, int width, double* scaled) {
-  Pivots pivots = Pivots::Positive;
-  for (int c = start; c < start + width; ++c) {
-    double* column = front.column(c);
-    const double pivot = column[c];
-    if (!std::isfinite(pivot) || pivot == 0.0) return Pivots::Unusable;
-    if (pivot < 0.0) pivots = Pivots::Mixed;
-    double* kept = scaled + static_cast<std::ptrdiff_t>(c - start) * front.stride;
-    for (int i = c + 1; i < front.size; ++i) kept[i] = column[i];
-    const double inverse = 1.0 / pivot;
-    for (int i = c + 1; i < front.size; ++i) column[i] *= inverse;
-    for (int k = c + 1; k < start + width; ++k) {
-      const double factor = kept[k];
-      double* target = front.column(k);
-      for (int i = k; i < front.size; ++i) target[i] -= column[i] * factor;
-    }
-    for (int i = front.size; i < front.size + kFrontPadding; ++i) kept[i] = 0.0;
-  }
-  return pivots;
-}
+/// Columns [start, start + width), eliminated, with `scaled`: their L D, `stride` places a column.
+struct Eliminated {
+  int start, width;
+  const double* scaled;
+};
 
-/// remainder -= scaled L^T for the columns after the panel: blocks of 8 rows and 3 columns, held in registers.
-MYOTACT_VECTOR_CLONES
-static void update_rest(const DenseFront& front, int start, int width, const double* scaled) {
-  for (int j = start + width; j < front.size; j += 3) {
+/// Columns [first, last) -= scaled L^T: blocks of 8 rows and 3 columns, held in registers.
+MYOTACT_INTO_CLONES void update_columns(const DenseFront& front, const Eliminated& by, int first, int last) {
+  for (int j = first; j < last; j += 3) {
     double* to[3] = {front.column(j), front.column(j + 1), front.column(j + 2)};
     for (int i = j; i < front.size; i += 8) {
       Pack sum[3][2] = {};
-      for (int k = 0; k < width; ++k) {
-        const double* rows = scaled + static_cast<std::ptrdiff_t>(k) * front.stride + i;
+      const double* rows = by.scaled + i;
+      const double* factors = front.column(by.start) + j;
+      for (int k = 0; k < by.width; ++k, rows += front.stride, factors += front.stride) {
         const Pack low = reinterpret_cast<const Pack*>(rows)[0], high = reinterpret_cast<const Pack*>(rows)[1];
-        const double* factors = front.column(start + k) + j;
         for (int c = 0; c < 3; ++c) {
           sum[c][0] += low * factors[c];
           sum[c][1] += high * factors[c];
@@ -55,39 +35,74 @@ static void update_rest(const DenseFront& front, int start, int width, const dou
   }
 }
 
+/// Eliminates the three columns from `start`, over all rows below; `scaled` receives their L D.
+MYOTACT_INTO_CLONES Pivots eliminate_node(const DenseFront& front, int start, double* scaled) {
+  Pivots pivots = Pivots::Positive;
+  for (int c = start; c < start + 3; ++c) {
+    double* column = front.column(c);
+    const double pivot = column[c];
+    if (!std::isfinite(pivot) || pivot == 0.0) return Pivots::Unusable;
+    if (pivot < 0.0) pivots = Pivots::Mixed;
+    double* kept = scaled + static_cast<std::ptrdiff_t>(c - start) * front.stride;
+    const double inverse = 1.0 / pivot;
+    for (int i = c + 1; i < front.size; ++i) {
+      kept[i] = column[i];
+      column[i] *= inverse;
+    }
+    std::fill_n(kept + front.size, kFrontPadding, 0.0);
+    for (int k = c + 1; k < start + 3; ++k) {
+      const double factor = kept[k];
+      double* target = front.column(k);
+      for (int i = k; i < front.size; ++i) target[i] -= column[i] * factor;
+    }
+  }
+  return pivots;
+}
+
+}  // namespace
+
+MYOTACT_VECTOR_CLONES
 Pivots eliminate_front(const DenseFront& front, double* work) {
   Pivots pivots = Pivots::Positive;
   for (int start = 0; start < front.own; start += kFrontPanel) {
-    const int width = std::min(kFrontPanel, front.own - start);
-    const Pivots here = eliminate_panel(front, start, width, work);
-    if (here == Pivots::Unusable) return here;
-    if (here == Pivots::Mixed) pivots = here;
-    update_rest(front, start, width, work);
+    const int end = std::min(start + kFrontPanel, front.own);
+    for (int c = start; c < end; c += 3) {
+      double* scaled = work + static_cast<std::ptrdiff_t>(c - start) * front.stride;
+      const Pivots here = eliminate_node(front, c, scaled);
+      if (here == Pivots::Unusable) return here;
+      if (here == Pivots::Mixed) pivots = here;
+      update_columns(front, {c, 3, scaled}, c + 3, end);
+    }
+    update_columns(front, {start, end - start, work}, end, front.size);
   }
   return pivots;
 }
 
 MYOTACT_VECTOR_CLONES
-void solve_forward(const DenseFront& front, double* x) {
-  for (int c = 0; c < front.own; ++c) {
-    const double* column = front.column(c);
-    const double factor = x[c];
-    for (int i = c + 1; i < front.size; ++i) x[i] -= column[i] * factor;
+void solve_forward(const DenseFront& front, Pack* x) {
+  for (int c = 0; c < front.own; c += 3) {
+    const double *first = front.column(c), *second = front.column(c + 1), *third = front.column(c + 2);
+    x[c + 1] -= first[c + 1] * x[c];
+    x[c + 2] = (x[c + 2] - first[c + 2] * x[c]) - second[c + 2] * x[c + 1];
+    const Pack x0 = x[c], x1 = x[c + 1], x2 = x[c + 2];
+    for (int i = c + 3; i < front.size; ++i) x[i] = ((x[i] - first[i] * x0) - second[i] * x1) - third[i] * x2;
   }
 }
 
 MYOTACT_VECTOR_CLONES
-void solve_backward(const DenseFront& front, double* x) {
-  for (int c = front.own - 1; c >= 0; --c) {
-    const double* column = front.column(c);
-    double sum = x[c] / column[c];
-    Pack packed = {};  // partial sums in a fixed order, so that every processor adds alike
-    int i = c + 1;
-    for (; i + 4 <= front.size; i += 4) {
-      packed += *reinterpret_cast<const Pack*>(column + i) * *reinterpret_cast<const Pack*>(x + i);
+void solve_backward(const DenseFront& front, Pack* x) {
+  for (int c = front.own - 3; c >= 0; c -= 3) {
+    const double *first = front.column(c), *second = front.column(c + 1), *third = front.column(c + 2);
+    Pack sum[3] = {};
+    for (int i = c + 3; i < front.size; ++i) {
+      const Pack below = x[i];
+      sum[0] += first[i] * below;
+      sum[1] += second[i] * below;
+      sum[2] += third[i] * below;
     }
-    for (; i < front.size; ++i) sum -= column[i] * x[i];
-    x[c] = sum - ((packed[0] + packed[1]) + (packed[2] + packed[3]));
+    x[c + 2] = x[c + 2] / third[c + 2] - sum[2];
+    x[c + 1] = (x[c + 1] / second[c + 1] - sum[1]) - second[c + 2] * x[c + 2];
+    x[c] = ((x[c] / first[c] - sum[0]) - first[c + 1] * x[c + 1]) - first[c + 2] * x[c + 2];
   }
 }
 

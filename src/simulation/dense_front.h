@@ -2,23 +2,30 @@
 
 #include <cstddef>
 
+#include "simulation/vector_clones.h"
+
 namespace myotact::simulation {
 
-/// A dense symmetric matrix of which the lower triangle counts, column by column. Each column is followed by at least
-/// kFrontPadding unused places, so that loops may run over its end in whole vectors.
+/// A dense symmetric matrix of which the lower triangle counts, column by column. The columns to eliminate lie apart
+/// from the others: they are kept, the others are handed on. Each column is followed by at least kFrontPadding unused
+/// places, so that loops may run over its end in whole vectors.
 struct DenseFront {
-  double* values = nullptr;
-  int stride = 0;  // places from one column to the next, >= size + kFrontPadding
-  int size = 0;    // a multiple of 3
-  int own = 0;     // leading columns to eliminate, a multiple of 3
+  double* own_values = nullptr;
+  double* rest_values = nullptr;  // of columns [own, size); nullptr for a front that is only solved with
+  int stride = 0;                 // places from one column to the next, >= size + kFrontPadding
+  int size = 0;                   // a multiple of 3
+  int own = 0;                    // leading columns to eliminate, a multiple of 3
 
-  double* column(int c) const { return values + static_cast<std::ptrdiff_t>(c) * stride; }
+  double* column(int c) const {
+    return c < own ? own_values + static_cast<std::ptrdiff_t>(c) * stride
+                   : rest_values + static_cast<std::ptrdiff_t>(c - own) * stride;
+  }
 };
 
 inline constexpr int kFrontPadding = 8;
 /// Columns that are eliminated together before the rest is updated: their part of a front of 150 rows stays in the
-/// first-level cache.
-inline constexpr int kFrontPanel = 12;
+/// first-level cache. A multiple of 3.
+inline constexpr int kFrontPanel = 24;
 
 enum class Pivots { Positive, Mixed, Unusable };
 
@@ -26,9 +33,10 @@ enum class Pivots { Positive, Mixed, Unusable };
 /// (Schur complement). `work` holds kFrontPanel columns of `stride`. Unusable when a pivot is zero or not finite.
 Pivots eliminate_front(const DenseFront& front, double* work);
 
-/// x[own] = L^-1 x[own] and x[below] -= L[below] x[own], for one right side gathered in the front's order.
-void solve_forward(const DenseFront& front, double* x);
+/// x[own] = L^-1 x[own] and x[below] -= L[below] x[own], for four right sides side by side, gathered in the front's
+/// order.
+void solve_forward(const DenseFront& front, Pack* x);
 /// x[own] = L^-T (D^-1 x[own] - L[below]^T x[below]). Between the two calls D^-1 has not been applied.
-void solve_backward(const DenseFront& front, double* x);
+void solve_backward(const DenseFront& front, Pack* x);
 
 }  // namespace myotact::simulation

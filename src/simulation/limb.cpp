@@ -3,6 +3,15 @@
 #include <cmath>
 
 namespace myotact::simulation {
+namespace {
+
+/// From the sparse matrix's solution to the whole one's, by Sherman and Morrison's formula.
+void add_mean_term(const LimbMuscle& muscle, Eigen::MatrixXd& solution) {
+  const Eigen::RowVectorXd along = muscle.mean_share_Nm * (muscle.system.mean.gradient.transpose() * solution);
+  solution -= muscle.mean_solution * along;
+}
+
+}  // namespace
 
 Limb::Limb(const anatomy::Specimen& specimen) : skeleton(specimen) {
   now.angle_rad = now.velocity_rad_s = Eigen::VectorXd::Zero(skeleton.joint_count());
@@ -80,27 +89,24 @@ void read_out(Limb& limb) {
   limb.loads.compute(limb.skeleton, {limb.gravity_m_s2, span(limb.now.velocity_rad_s), span(limb.external_torque_Nm)});
 }
 
-Pivots factor_system(LimbMuscle& muscle) {
+Pivots factor_system(LimbMuscle& muscle, const Eigen::MatrixXd& right, Eigen::MatrixXd& solution) {
   if (!muscle.factor.factor(muscle.system.matrix)) return Pivots::Unusable;
   const MeanTerm& mean = muscle.system.mean;
-  muscle.mean_share_Nm = 0.0;
-  bool positive = muscle.factor.positive();
-  if (mean.factor_Nm != 0.0) {
-    muscle.mean_solution = muscle.factor.solve(mean.gradient);
-    const double pivot = 1.0 + mean.factor_Nm * mean.gradient.dot(muscle.mean_solution);
-    if (!std::isfinite(pivot) || pivot == 0.0) return Pivots::Unusable;
-    positive = positive && pivot > 0.0;
-    muscle.mean_share_Nm = mean.factor_Nm / pivot;
-  }
-  return positive ? Pivots::Positive : Pivots::Mixed;
+  Eigen::MatrixXd sides(right.rows(), right.cols() + 1);
+  sides << mean.gradient, right;
+  const Eigen::MatrixXd solved = muscle.factor.solve(sides);
+  muscle.mean_solution = solved.col(0);
+  const double pivot = 1.0 + mean.factor_Nm * mean.gradient.dot(muscle.mean_solution);
+  if (!std::isfinite(pivot) || pivot == 0.0) return Pivots::Unusable;
+  muscle.mean_share_Nm = mean.factor_Nm / pivot;
+  solution = solved.rightCols(right.cols());
+  add_mean_term(muscle, solution);
+  return muscle.factor.positive() && pivot > 0.0 ? Pivots::Positive : Pivots::Mixed;
 }
 
 Eigen::MatrixXd solve(const LimbMuscle& muscle, const Eigen::MatrixXd& right) {
   Eigen::MatrixXd solution = muscle.factor.solve(right);
-  if (muscle.mean_share_Nm != 0.0) {
-    const Eigen::RowVectorXd along = muscle.mean_share_Nm * (muscle.system.mean.gradient.transpose() * solution);
-    solution -= muscle.mean_solution * along;
-  }
+  add_mean_term(muscle, solution);
   return solution;
 }
 

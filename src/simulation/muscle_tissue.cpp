@@ -116,7 +116,11 @@ void add_pattern(MuscleTissue& tissue) {
     for (std::size_t a = 0; a < kTetNodes; ++a) {
       for (std::size_t b = a; b < kTetNodes; ++b, ++pair) {
         const int fa = tissue.free_index[at(element.nodes[a])], fb = tissue.free_index[at(element.nodes[b])];
-        if (fa >= 0 && fb >= 0) element.slots[pair] = tissue.pattern.slot(std::max(fa, fb), std::min(fa, fb));
+        if (fa >= 0 && fb >= 0) {
+          element.slots[pair] = {tissue.pattern.slot(std::max(fa, fb), std::min(fa, fb)), fa >= fb};
+        } else {
+          element.clamped = true;
+        }
       }
     }
   }

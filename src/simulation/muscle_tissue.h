@@ -13,6 +13,12 @@
 
 namespace myotact::simulation {
 
+/// Where the block of a pair of nodes (a, b) goes.
+struct ElementSlot {
+  BlockSlot block;       // base -1 where a node is clamped
+  bool in_order = true;  // a's row, b's column; else the other way round
+};
+
 /// One element of a muscle's mesh, as it is at rest.
 struct TissueElement {
   std::array<int, kTetNodes> nodes{};
@@ -21,8 +27,9 @@ struct TissueElement {
   double section_m2 = 0.0;  // of the muscle here, along the fibres
   double peak_Pa = 0.0;     // nominal fibre stress at full activation and optimal length; 0: no fibres (sheath)
   bool sheath = false;
-  /// Slots of the pairs (a, b), a <= b, row by row, in the matrix of free nodes; base -1 where a node is clamped.
-  std::array<BlockSlot, kTetNodes*(kTetNodes + 1) / 2> slots{};
+  bool clamped = false;  // some of its nodes are
+  /// Of the pairs (a, b), a <= b, row by row, in the matrix of free nodes.
+  std::array<ElementSlot, kTetNodes*(kTetNodes + 1) / 2> slots{};
 };
 
 /// Normalised fibre length n = rest_stretch + offset + gain (stretch - 1), and the scale of the peak stress. Offset and

@@ -148,13 +148,13 @@ MYOTACT_INTO_CLONES void slope_rows(const ElementInputs& in, int p, const PointS
     const int B = (A + 1) % 3, C = (A + 2) % 3;
     TetVector& unit = unit_rows[at(3 * p + A)];
     TetVector& skew = skew_rows[at(3 * p + A)];
-    const double *gA = &g[at(A * kTetStride)], *gB = &g[at(B * kTetStride)], *gC = &g[at(C * kTetStride)];
-    for (std::size_t a = 0; a < kTetStride; ++a) unit[a] = scale.identity * gA[a] + along[a] * fibre[A];
+    const double *g_A = &g[at(A * kTetStride)], *g_B = &g[at(B * kTetStride)], *g_C = &g[at(C * kTetStride)];
+    for (std::size_t a = 0; a < kTetStride; ++a) unit[a] = scale.identity * g_A[a] + along[a] * fibre[A];
     // Row i of F times the cross-product matrix of grad a: (F_i x grad a) . grad b.
     for (int i = 0; i < 3; ++i) {
       const double factor = i == 1 ? -scale.curvature : scale.curvature;  // eps_021 = -1
-      const double FB = factor * F[at(3 * i + B)], FC = factor * F[at(3 * i + C)];
-      for (int a = 0; a < kTetStride; ++a) skew[at(i * kTetStride + a)] = FB * gC[a] - FC * gB[a];
+      const double F_B = factor * F[at(3 * i + B)], F_C = factor * F[at(3 * i + C)];
+      for (int a = 0; a < kTetStride; ++a) skew[at(i * kTetStride + a)] = F_B * g_C[a] - F_C * g_B[a];
     }
   }
 }

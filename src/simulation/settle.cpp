@@ -32,16 +32,20 @@ double rest_share(const LimbMuscle& muscle) {
   return muscle.system.residual_N.norm() / (muscle.system.force_scale_N + 1e-6);
 }
 
-/// Tangent with its inertia term; false when not even the safe one can be factored.
-bool prepare(const Skeleton& skeleton, TissueLoad load, double time_s, LimbMuscle& muscle) {
+/// Newton direction of the tangent with its inertia term; false when not even the safe one can be factored.
+bool find_direction(const Skeleton& skeleton, TissueLoad load, double time_s, LimbMuscle& muscle,
+                    Eigen::MatrixXd& direction) {
   muscle.state.last.position_m = muscle.state.now.position_m;
   load.rule = backward_euler(time_s);
   load.force_velocity = false;
   compute_system(muscle.tissue, skeleton, load, muscle.state, muscle.system);
-  if (factor_system(muscle) == Pivots::Positive) return true;
-  load.definite = true;
-  compute_system(muscle.tissue, skeleton, load, muscle.state, muscle.system);
-  return factor_system(muscle) == Pivots::Positive;
+  Pivots pivots = factor_system(muscle, -muscle.system.residual_N, direction);
+  if (pivots != Pivots::Positive) {
+    load.definite = true;
+    compute_system(muscle.tissue, skeleton, load, muscle.state, muscle.system);
+    pivots = factor_system(muscle, -muscle.system.residual_N, direction);
+  }
+  return pivots == Pivots::Positive && direction.allFinite();
 }
 
 /// Goes along `direction` as far as the energy falls: every force has a potential in a static solve, and its slope
@@ -125,9 +129,8 @@ bool settle_muscle(const Skeleton& skeleton, const Vec3& gravity_m_s2, double wa
   compute_forces(muscle.tissue, skeleton, load, muscle.state, muscle.system);
   double time_s = kFirstTime_s;
   for (int iteration = 0; iteration < kMostIterations && !(rest_share(muscle) < wanted_share); ++iteration) {
-    if (!prepare(skeleton, load, time_s, muscle)) return false;
-    const Eigen::VectorXd direction = -solve(muscle, muscle.system.residual_N);
-    if (!direction.allFinite()) return false;
+    Eigen::MatrixXd direction;
+    if (!find_direction(skeleton, load, time_s, muscle, direction)) return false;
     const double part = search_line(skeleton, load, direction, muscle);
     if (part == 0.0 && time_s <= kShortestTime_s) break;
     const double change = part == 1.0 ? kTimeGrowth : part < 0.3 ? kTimeCut : 1.0;
@@ -154,8 +157,8 @@ bool settle_limb(Limb& limb, std::span<const double> angles_rad, WorkerPool& wor
 void refresh_muscle_stiffness(const Limb& limb, LimbMuscle& muscle) {
   if (muscle.rigid) return;
   compute_system(muscle.tissue, limb.skeleton, static_load(limb.gravity_m_s2), muscle.state, muscle.system);
-  if (factor_system(muscle) == Pivots::Unusable) return;
-  const Eigen::MatrixXd solution = solve(muscle, muscle.system.coupling_N_rad);
+  Eigen::MatrixXd solution;
+  if (factor_system(muscle, muscle.system.coupling_N_rad, solution) == Pivots::Unusable) return;
   const Eigen::MatrixXd whole =
       muscle.system.joint_stiffness_Nm_rad - muscle.system.coupling_N_rad.transpose() * solution;
   if (whole.allFinite()) muscle.stiffness_Nm_rad = whole.diagonal();

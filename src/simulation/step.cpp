@@ -46,21 +46,40 @@ SmallSystem make_small_system(const Limb& limb) {
   return small;
 }
 
-/// Columns by which the small unknowns enter a muscle's equations.
-void fill_borders(const Limb& limb, const SmallSystem& small, int index, LimbMuscle& muscle) {
+/// Columns by which the small unknowns enter a muscle's equations. Returns how many of them may differ from zero: the
+/// springs' come last, and most muscles have none.
+Eigen::Index fill_borders(const Limb& limb, const SmallSystem& small, int index, LimbMuscle& muscle) {
   muscle.borders.setZero(muscle.system.residual_N.size(), small.size());
+  auto used = static_cast<Eigen::Index>(small.joints.size());
   for (std::size_t k = 0; k < small.joints.size(); ++k) {
     muscle.borders.col(static_cast<Eigen::Index>(k)) = muscle.system.coupling_N_rad.col(small.joints[k]);
   }
   for (std::size_t s = 0; s < limb.springs.size(); ++s) {
     const ToolSpring& spring = limb.springs[s];
     if (spring.muscle != index) continue;
+    used = small.spring_row(s) + 3;
     for (std::size_t k = 0; k < at(spring.point.count); ++k) {
       const int f = muscle.tissue.free_index[at(spring.point.nodes[k])];
       if (f < 0) continue;
       for (int i = 0; i < 3; ++i) muscle.borders(3 * f + i, small.spring_row(s) + i) = -spring.point.weights[k];
     }
   }
+  return used;
+}
+
+/// Tangent, factor, and the solutions for the residual and the borders.
+Pivots factor_muscle(const Limb& limb, const SmallSystem& small, const TissueLoad& load, int index,
+                     LimbMuscle& muscle) {
+  compute_system(muscle.tissue, limb.skeleton, load, muscle.state, muscle.system);
+  const Eigen::Index used = fill_borders(limb, small, index, muscle);
+  Eigen::MatrixXd sides(muscle.borders.rows(), 1 + used), solution;
+  sides << muscle.system.residual_N, muscle.borders.leftCols(used);
+  const Pivots pivots = factor_system(muscle, sides, solution);
+  if (pivots == Pivots::Unusable) return pivots;
+  muscle.free_solution = solution.col(0);
+  muscle.border_solution.setZero(muscle.borders.rows(), muscle.borders.cols());
+  muscle.border_solution.leftCols(used) = solution.rightCols(used);
+  return pivots;
 }
 
 /// Tangent, factor, border solutions of one muscle. A muscle that the first Newton step has balanced keeps its tangent
@@ -68,22 +87,13 @@ void fill_borders(const Limb& limb, const SmallSystem& small, int index, LimbMus
 void eliminate(const Limb& limb, const SmallSystem& small, TissueLoad load, int index, LimbMuscle& muscle) {
   if (muscle.balanced) {
     muscle.free_solution = solve(muscle, muscle.system.residual_N);
-    muscle.reduced_residual.noalias() = muscle.borders.transpose() * muscle.free_solution;
-    muscle.sound = muscle.free_solution.allFinite();
-    return;
-  }
-  compute_system(muscle.tissue, limb.skeleton, load, muscle.state, muscle.system);
-  muscle.made_definite = factor_system(muscle) != Pivots::Positive;
-  if (muscle.made_definite) {
+  } else {
+    muscle.made_definite = factor_muscle(limb, small, load, index, muscle) != Pivots::Positive;
     load.definite = true;
-    compute_system(muscle.tissue, limb.skeleton, load, muscle.state, muscle.system);
-    muscle.sound = factor_system(muscle) == Pivots::Positive;
+    muscle.sound = !muscle.made_definite || factor_muscle(limb, small, load, index, muscle) == Pivots::Positive;
     if (!muscle.sound) return;
+    muscle.reduced.noalias() = muscle.borders.transpose() * muscle.border_solution;
   }
-  fill_borders(limb, small, index, muscle);
-  muscle.free_solution = solve(muscle, muscle.system.residual_N);
-  muscle.border_solution = solve(muscle, muscle.borders);
-  muscle.reduced.noalias() = muscle.borders.transpose() * muscle.border_solution;
   muscle.reduced_residual.noalias() = muscle.borders.transpose() * muscle.free_solution;
   muscle.sound = muscle.free_solution.allFinite() && muscle.reduced.allFinite();
 }

@@ -40,21 +40,26 @@ TissueMaterial material_of(const TissueElement& element, double activation) {
   return material;
 }
 
-void scatter_matrix(const TissueElement& element, const MuscleTissue& tissue, const TetMatrix& stiffness,
-                    double* values) {
+/// Row-major 3x3 block of nodes a <= b.
+std::array<double, 9> block_of(const TetMatrix& stiffness, std::size_t a, std::size_t b) {
+  const auto entry = [&](std::size_t i, std::size_t row, std::size_t j, std::size_t column) {
+    return stiffness[(i * kTetStride + row) * kTetDofs + j * kTetStride + column];
+  };
+  return {entry(0, a, 0, b), entry(0, a, 1, b), entry(0, a, 2, b), entry(0, b, 1, a), entry(1, a, 1, b),
+          entry(1, a, 2, b), entry(0, b, 2, a), entry(1, b, 2, a), entry(2, a, 2, b)};
+}
+
+void scatter_matrix(const TissueElement& element, const TetMatrix& stiffness, double* values) {
   std::size_t pair = 0;
   for (std::size_t a = 0; a < kTetNodes; ++a) {
     for (std::size_t b = a; b < kTetNodes; ++b, ++pair) {
-      const BlockSlot slot = element.slots[pair];
-      if (slot.base < 0) continue;
-      const bool in_order = tissue.free_index[at(element.nodes[a])] >= tissue.free_index[at(element.nodes[b])];
-      const std::size_t row = in_order ? a : b, column = in_order ? b : a;
+      const ElementSlot& slot = element.slots[pair];
+      if (slot.block.base < 0) continue;
+      const std::array<double, 9> block = block_of(stiffness, a, b);
+      const std::size_t down = slot.in_order ? 3 : 1, across = slot.in_order ? 1 : 3;
       for (std::size_t j = 0; j < 3; ++j) {
-        double* out = values + slot.base + static_cast<int>(j) * slot.stride;
-        for (std::size_t i = 0; i < 3; ++i) {
-          const std::size_t r = i * kTetStride + row, c = j * kTetStride + column;
-          out[i] += i <= j ? stiffness[r * kTetDofs + c] : stiffness[c * kTetDofs + r];
-        }
+        double* out = values + slot.block.base + static_cast<std::ptrdiff_t>(j) * slot.block.stride;
+        for (std::size_t i = 0; i < 3; ++i) out[i] += block[i * down + j * across];
       }
     }
   }
@@ -112,13 +117,16 @@ void scatter_mean(const TissueElement& element, const MuscleTissue& tissue, cons
   }
 }
 
-/// Kinematics of all elements; the force of each fibre needs the mean length of all.
+/// Kinematics of all elements; the force of each fibre needs the mean length of all. A step starts where the last one
+/// has looked at its forces: what is known of that place stays.
 void deform_elements(const Pass& pass) {
   pass.system.points.resize(pass.tissue.elements.size());
+  const bool moved = pass.system.points_at_m != pass.state.now.position_m;
+  pass.system.points_at_m = pass.state.now.position_m;
   for (std::size_t t = 0; t < pass.tissue.elements.size(); ++t) {
     const TissueElement& element = pass.tissue.elements[t];
     TetPoints& points = pass.system.points[t];
-    deform(element.rest, element.fibre, gather(element, pass.state.now.position_m), points);
+    if (moved) deform(element.rest, element.fibre, gather(element, pass.state.now.position_m), points);
     for (std::size_t p = 0; p < kTetPoints; ++p) {
       pass.state.now.stretch[t * kTetPoints + p] = points.stretch[p];
       pass.system.smallest_J = std::min(pass.system.smallest_J, points.J[p]);
@@ -144,10 +152,10 @@ void add_elements(const Pass& pass) {
     pass.system.force_scale_N += dot(forces, forces);
     if (!pass.tangent) continue;
     elastic_stiffness(inputs, pass.load.definite, stiffness);
-    scatter_matrix(element, pass.tissue, stiffness, pass.system.matrix.values());
+    scatter_matrix(element, stiffness, pass.system.matrix.values());
     const TetVector mean_part = mean_gradient(element, pass.system.points[t]);
     scatter_mean(element, pass.tissue, mean_part, pass.system.mean.gradient);
-    scatter_joints(pass, element, stiffness, mean_part);
+    if (element.clamped) scatter_joints(pass, element, stiffness, mean_part);
   }
   if (!pass.tangent) return;
   MeanTerm& mean = pass.system.mean;
@@ -304,6 +312,7 @@ TissueSystem make_system(const MuscleTissue& tissue, const Skeleton& skeleton) {
   system.joint_residual_Nm = system.muscle_torque_Nm = Eigen::VectorXd::Zero(joints);
   system.mean = {Eigen::VectorXd::Zero(3 * tissue.free_nodes), Eigen::VectorXd::Zero(joints), 0.0};
   system.internal_N = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * tissue.body.size()));
+  system.points_at_m = Eigen::VectorXd::Constant(system.internal_N.size(), std::nan(""));  // nowhere yet
   return system;
 }
 

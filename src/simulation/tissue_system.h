@@ -64,6 +64,7 @@ struct TissueSystem {
   Eigen::MatrixXd joint_stiffness_Nm_rad;
   Eigen::VectorXd joint_residual_Nm;
   std::vector<TetPoints> points;  // one an element
+  Eigen::VectorXd points_at_m;    // node positions that `points` belong to
   // of the forces pass alone
   Eigen::VectorXd internal_N;        // at all nodes: elastic forces and strands
   Eigen::VectorXd muscle_torque_Nm;  // that the tissue exerts on the joints, positive flexes
