@@ -246,7 +246,8 @@ void BlockFactor::add_remainder(const Front& child, const double* remainder, con
     for (int j = 0; j < 3 * run->count; ++j) {
       double* column = to.column(3 * run->place + j);
       add_rows(column + 3 * run->place + j, 3 * run->count - j);
-      for (auto below = run + 1; below != child.runs.end(); ++below) add_rows(column + 3 * below->place, 3 * below->count);
+      for (auto below = run + 1; below != child.runs.end(); ++below)
+        add_rows(column + 3 * below->place, 3 * below->count);
     }
   }
 }
@@ -287,20 +288,25 @@ bool BlockFactor::factor(const BlockMatrix& matrix) {
   return true;
 }
 
-/// x, in elimination order, becomes the solution.
-void BlockFactor::solve_four(Pack* x) const {
-  std::vector<double> storage(4 * largest_front_);
-  Pack* local = reinterpret_cast<Pack*>(storage.data());
+/// Four right sides side by side, in elimination order, become the solutions.
+void BlockFactor::solve_four(double* x) const {
+  constexpr std::ptrdiff_t kNode = 4 * 3;  // numbers a node
+  std::vector<double> local(4 * largest_front_);
   const auto sweep = [&](const Front& front, auto&& solve_front) {
-    for (std::size_t k = 0; k < front.nodes.size(); ++k) std::copy_n(x + 3 * front.nodes[k], 3, local + 3 * k);
-    solve_front(local);
-    for (std::size_t k = 0; k < front.nodes.size(); ++k) std::copy_n(local + 3 * k, 3, x + 3 * front.nodes[k]);
+    double* place = local.data();
+    for (int node : front.nodes) place = std::copy_n(x + kNode * node, kNode, place);
+    solve_front(local.data());
+    const double* from = local.data();
+    for (int node : front.nodes) {
+      std::copy_n(from, kNode, x + kNode * node);
+      from += kNode;
+    }
   };
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
-    sweep(fronts_[f], [this, f](Pack* values) { solve_forward(kept(f), values); });
+    sweep(fronts_[f], [this, f](double* values) { solve_forward(kept(f), values); });
   }
   for (std::size_t f = fronts_.size(); f-- > 0;) {
-    sweep(fronts_[f], [this, f](Pack* values) { solve_backward(kept(f), values); });
+    sweep(fronts_[f], [this, f](double* values) { solve_backward(kept(f), values); });
   }
 }
 
@@ -317,7 +323,7 @@ Eigen::MatrixXd BlockFactor::solve(const Eigen::MatrixXd& right) const {
     for (Eigen::Index c = 0; c < count; ++c) {
       for (Eigen::Index row = 0; row < right.rows(); ++row) place(row, c) = right(row, first + c);
     }
-    solve_four(reinterpret_cast<Pack*>(four.data()));
+    solve_four(four.data());
     for (Eigen::Index c = 0; c < count; ++c) {
       for (Eigen::Index row = 0; row < right.rows(); ++row) result(row, first + c) = place(row, c);
     }

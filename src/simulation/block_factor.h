@@ -50,8 +50,8 @@ class BlockFactor {
   void make_fronts(const std::vector<std::vector<int>>& neighbours);
   void place_entries(const BlockMatrix& pattern);
   /// What a factorisation works in: one front's columns that are not its own, its panel, and the remainders that wait
-  /// for their parents. Fronts are met children first, so the waiting remainders are a stack. One a thread, small enough
-  /// to stay in its cache.
+  /// for their parents. Fronts are met children first, so the waiting remainders are a stack. One a thread, small
+  /// enough to stay in its cache.
   struct Workspace {
     std::vector<double> rest, panel, stack;
     std::size_t top = 0;
@@ -63,7 +63,7 @@ class BlockFactor {
   static void add_remainder(const Front& child, const double* remainder, const DenseFront& to);
   static void push_remainder(const Front& front, const DenseFront& dense, Workspace& work);
   DenseFront kept(std::size_t front) const;
-  void solve_four(Pack* x) const;
+  void solve_four(double* x) const;
 
   std::vector<int> order_;  // elimination position of each node
   std::vector<Front> fronts_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/vector_clones.h"
+
 namespace myotact::simulation {
 namespace {
 
@@ -12,25 +14,30 @@ struct Eliminated {
   const double* scaled;
 };
 
-/// Columns [first, last) -= scaled L^T: blocks of 8 rows and 3 columns, held in registers.
+/// Columns j, j + 1, j + 2 of 8 rows -= rows factors^T, held in registers. `to` and `rows` start at the first row,
+/// `factors` at row j of L.
+MYOTACT_INTO_CLONES void update_tile(const Eliminated& by, const double* rows, const double* factors, double* to,
+                                     std::ptrdiff_t stride) {
+  Pack sum[3][2] = {};
+  for (int k = 0; k < by.width; ++k, rows += stride, factors += stride) {
+    const Pack low = reinterpret_cast<const Pack*>(rows)[0], high = reinterpret_cast<const Pack*>(rows)[1];
+    for (int c = 0; c < 3; ++c) {
+      sum[c][0] += low * factors[c];
+      sum[c][1] += high * factors[c];
+    }
+  }
+  for (int c = 0; c < 3; ++c) {
+    reinterpret_cast<Pack*>(to + c * stride)[0] -= sum[c][0];
+    reinterpret_cast<Pack*>(to + c * stride)[1] -= sum[c][1];
+  }
+}
+
+/// Columns [first, last) -= scaled L^T.
 MYOTACT_INTO_CLONES void update_columns(const DenseFront& front, const Eliminated& by, int first, int last) {
   for (int j = first; j < last; j += 3) {
-    double* to[3] = {front.column(j), front.column(j + 1), front.column(j + 2)};
+    const double* factors = front.column(by.start) + j;
     for (int i = j; i < front.size; i += 8) {
-      Pack sum[3][2] = {};
-      const double* rows = by.scaled + i;
-      const double* factors = front.column(by.start) + j;
-      for (int k = 0; k < by.width; ++k, rows += front.stride, factors += front.stride) {
-        const Pack low = reinterpret_cast<const Pack*>(rows)[0], high = reinterpret_cast<const Pack*>(rows)[1];
-        for (int c = 0; c < 3; ++c) {
-          sum[c][0] += low * factors[c];
-          sum[c][1] += high * factors[c];
-        }
-      }
-      for (int c = 0; c < 3; ++c) {
-        reinterpret_cast<Pack*>(to[c] + i)[0] -= sum[c][0];
-        reinterpret_cast<Pack*>(to[c] + i)[1] -= sum[c][1];
-      }
+      update_tile(by, by.scaled + i, factors, front.column(j) + i, front.stride);
     }
   }
 }
@@ -79,7 +86,8 @@ Pivots eliminate_front(const DenseFront& front, double* work) {
 }
 
 MYOTACT_VECTOR_CLONES
-void solve_forward(const DenseFront& front, Pack* x) {
+void solve_forward(const DenseFront& front, double* values) {
+  Pack* x = reinterpret_cast<Pack*>(values);
   for (int c = 0; c < front.own; c += 3) {
     const double *first = front.column(c), *second = front.column(c + 1), *third = front.column(c + 2);
     x[c + 1] -= first[c + 1] * x[c];
@@ -90,7 +98,8 @@ void solve_forward(const DenseFront& front, Pack* x) {
 }
 
 MYOTACT_VECTOR_CLONES
-void solve_backward(const DenseFront& front, Pack* x) {
+void solve_backward(const DenseFront& front, double* values) {
+  Pack* x = reinterpret_cast<Pack*>(values);
   for (int c = front.own - 3; c >= 0; c -= 3) {
     const double *first = front.column(c), *second = front.column(c + 1), *third = front.column(c + 2);
     Pack sum[3] = {};

@@ -2,8 +2,6 @@
 
 #include <cstddef>
 
-#include "simulation/vector_clones.h"
-
 namespace myotact::simulation {
 
 /// A dense symmetric matrix of which the lower triangle counts, column by column. The columns to eliminate lie apart
@@ -33,10 +31,10 @@ enum class Pivots { Positive, Mixed, Unusable };
 /// (Schur complement). `work` holds kFrontPanel columns of `stride`. Unusable when a pivot is zero or not finite.
 Pivots eliminate_front(const DenseFront& front, double* work);
 
-/// x[own] = L^-1 x[own] and x[below] -= L[below] x[own], for four right sides side by side, gathered in the front's
-/// order.
-void solve_forward(const DenseFront& front, Pack* x);
+/// x[own] = L^-1 x[own] and x[below] -= L[below] x[own], gathered in the front's order: `values` holds 4 right sides
+/// side by side, 4 size numbers.
+void solve_forward(const DenseFront& front, double* values);
 /// x[own] = L^-T (D^-1 x[own] - L[below]^T x[below]). Between the two calls D^-1 has not been applied.
-void solve_backward(const DenseFront& front, Pack* x);
+void solve_backward(const DenseFront& front, double* values);
 
 }  // namespace myotact::simulation

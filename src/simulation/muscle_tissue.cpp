@@ -100,6 +100,20 @@ void add_clamps(const anatomy::Muscle& muscle, const std::vector<std::array<int,
   if (tissue.free_nodes == 0) throw refuse(muscle, "every node is attached to a body; nothing is left to simulate");
 }
 
+/// Slots of an element's pairs of nodes, and whether some node is clamped.
+void find_slots(const MuscleTissue& tissue, TissueElement& element) {
+  std::size_t pair = 0;
+  for (std::size_t a = 0; a < kTetNodes; ++a) {
+    const int fa = tissue.free_index[at(element.nodes[a])];
+    if (fa < 0) element.clamped = true;
+    for (std::size_t b = a; b < kTetNodes; ++b, ++pair) {
+      const int fb = tissue.free_index[at(element.nodes[b])];
+      if (fa < 0 || fb < 0) continue;
+      element.slots[pair] = {tissue.pattern.slot(std::max(fa, fb), std::min(fa, fb)), fa >= fb};
+    }
+  }
+}
+
 /// Pattern of the matrix of free nodes: nodes of one element, and the border nodes of one strand.
 void add_pattern(MuscleTissue& tissue) {
   std::vector<std::vector<int>> cliques;
@@ -111,19 +125,7 @@ void add_pattern(MuscleTissue& tissue) {
   for (const TissueElement& element : tissue.elements) add(element.nodes);
   for (const TendonStrand& strand : tissue.strands) add(strand.nodes);
   tissue.pattern = BlockMatrix(tissue.free_nodes, cliques);
-  for (TissueElement& element : tissue.elements) {
-    std::size_t pair = 0;
-    for (std::size_t a = 0; a < kTetNodes; ++a) {
-      for (std::size_t b = a; b < kTetNodes; ++b, ++pair) {
-        const int fa = tissue.free_index[at(element.nodes[a])], fb = tissue.free_index[at(element.nodes[b])];
-        if (fa >= 0 && fb >= 0) {
-          element.slots[pair] = {tissue.pattern.slot(std::max(fa, fb), std::min(fa, fb)), fa >= fb};
-        } else {
-          element.clamped = true;
-        }
-      }
-    }
-  }
+  for (TissueElement& element : tissue.elements) find_slots(tissue, element);
 }
 
 /// Shares of the bodies' motions: harmonic on the graph of the mesh, 1 where a body clamps.

@@ -80,6 +80,12 @@ double mean_place_m(const MuscleTissue& tissue, const anatomy::MuscleLine& line,
   return volume > 0.0 ? sum / volume : 0.0;
 }
 
+/// Slope of the shape function of node a along the fibre at a point [1/m].
+double slope_along_fibre(const TissueElement& element, std::size_t point, std::size_t a) {
+  const TetVector& gradients = element.rest.gradients_1_m[point];
+  return element.fibre.dot(Vec3(gradients[a], gradients[kTetStride + a], gradients[2 * kTetStride + a]));
+}
+
 /// Force at each node along the fibres when every section of the belly carries 1 N.
 std::vector<double> unit_pull(const MuscleTissue& tissue) {
   std::vector<double> pull(tissue.mesh.nodes_m.size(), 0.0);
@@ -87,11 +93,8 @@ std::vector<double> unit_pull(const MuscleTissue& tissue) {
     if (element.sheath) continue;
     for (std::size_t p = 0; p < kTetPoints; ++p) {
       for (std::size_t a = 0; a < kTetNodes; ++a) {
-        double along = 0.0;
-        for (std::size_t A = 0; A < 3; ++A) {
-          along += element.rest.gradients_1_m[p][A * kTetStride + a] * element.fibre[static_cast<Eigen::Index>(A)];
-        }
-        pull[at(element.nodes[a])] += element.rest.point_volume_m3 * along / element.section_m2;
+        pull[at(element.nodes[a])] +=
+            element.rest.point_volume_m3 * slope_along_fibre(element, p, a) / element.section_m2;
       }
     }
   }

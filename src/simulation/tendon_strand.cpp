@@ -30,6 +30,32 @@ Tension tension_at(const TendonStrand& strand, double extension_m) {
   return {slack + k * (extension_m - 0.5 * strand.toe_m), k * (1.0 + kSlackShare)};
 }
 
+/// A point of the strand on its way from end to end; body -1 for the free end.
+struct Stop {
+  int body = -1;
+  Vec3 position_m;
+};
+
+/// Adds what a segment's ends do to the stiffness by moving on arcs.
+void add_bend(const Skeleton& skeleton, const Stop& from, const Stop& to, const Vec3& force_N,
+              Eigen::MatrixXd& stiffness_Nm_rad) {
+  for (int b = 0; b < skeleton.joint_count(); ++b) {
+    for (int a = 0; a < skeleton.joint_count(); ++a) {
+      Vec3 bend = skeleton.point_second_derivative(to.body, a, b, to.position_m);
+      if (from.body >= 0) bend -= skeleton.point_second_derivative(from.body, a, b, from.position_m);
+      stiffness_Nm_rad(a, b) += force_N.dot(bend);
+    }
+  }
+}
+
+Eigen::Matrix3Xd slope_of(const Skeleton& skeleton, const Stop& stop) {
+  Eigen::Matrix3Xd slope(3, skeleton.joint_count());
+  for (int j = 0; j < skeleton.joint_count(); ++j) {
+    slope.col(j) = skeleton.point_derivative(stop.body, j, stop.position_m);
+  }
+  return slope;
+}
+
 }  // namespace
 
 double strand_length(const TendonStrand& strand, const Skeleton& skeleton, const Vec3& p_W_m) {
@@ -54,18 +80,13 @@ StrandState evaluate_strand(const TendonStrand& strand, const Skeleton& skeleton
   Vec3 by_p = Vec3::Zero();                                         // dl/dp
   Eigen::VectorXd by_angle = Eigen::VectorXd::Zero(joints);         // dl/dq
   Eigen::Matrix3Xd slope_from = Eigen::Matrix3Xd::Zero(3, joints);  // of the segment's start; p moves by itself
-  Vec3 from = p_W_m;
-  int body_from = -1;
+  Stop from{-1, p_W_m};
   for (std::size_t k = 0; k < strand.points.size(); ++k) {
-    const Vec3 to = point_at(strand, skeleton, k);
-    const int body_to = strand.points[k].body;
-    Eigen::Matrix3Xd slope_to(3, joints);
-    for (Eigen::Index j = 0; j < joints; ++j) {
-      slope_to.col(j) = skeleton.point_derivative(body_to, static_cast<int>(j), to);
-    }
-    const double length = (to - from).norm();
+    const Stop to{strand.points[k].body, point_at(strand, skeleton, k)};
+    const Eigen::Matrix3Xd slope_to = slope_of(skeleton, to);
+    const double length = (to.position_m - from.position_m).norm();
     if (length > kShortestSegment_m) {
-      const Vec3 t = (to - from) / length;
+      const Vec3 t = (to.position_m - from.position_m) / length;
       const Mat3 turning = tension.force_N / length * (Mat3::Identity() - t * t.transpose());
       const Eigen::Matrix3Xd slope = slope_to - slope_from;
       if (k == 0) {
@@ -75,17 +96,9 @@ StrandState evaluate_strand(const TendonStrand& strand, const Skeleton& skeleton
       }
       by_angle += slope.transpose() * t;
       state.stiffness_Nm_rad += slope.transpose() * turning * slope;
-      for (Eigen::Index j = 0; j < joints; ++j) {
-        for (Eigen::Index i = 0; i < joints; ++i) {
-          const int a = static_cast<int>(i), b = static_cast<int>(j);
-          Vec3 bend = skeleton.point_second_derivative(body_to, a, b, to);
-          if (body_from >= 0) bend -= skeleton.point_second_derivative(body_from, a, b, from);
-          state.stiffness_Nm_rad(i, j) += tension.force_N * t.dot(bend);
-        }
-      }
+      add_bend(skeleton, from, to, tension.force_N * t, state.stiffness_Nm_rad);
     }
     from = to;
-    body_from = body_to;
     slope_from = slope_to;
   }
   state.pull_N = tension.force_N * by_p;

@@ -21,15 +21,20 @@ std::pair<glm::vec3, glm::vec3> across(const glm::vec3& axis) {
   return {u, glm::cross(axis, u)};
 }
 
+struct Ring {
+  glm::vec3 centre;
+  float radius;
+  float slope = 0.0f;  // of the normals along the axis
+};
+
 /// A ring of vertices and, from the second ring on, the quads to the ring before.
-void add_ring(DrawMesh& mesh, const glm::vec3& centre, const glm::vec3& axis, float radius, float slope,
-              const glm::vec4& colour, bool join) {
+void add_ring(DrawMesh& mesh, const Ring& ring, const glm::vec3& axis, const glm::vec4& colour, bool join) {
   const auto [u, v] = across(axis);
   const auto start = static_cast<std::uint32_t>(mesh.vertices.size());
   for (int j = 0; j < kAround; ++j) {
     const float t = 2.0f * std::numbers::pi_v<float> * static_cast<float>(j) / kAround;
     const glm::vec3 out = std::cos(t) * u + std::sin(t) * v;
-    mesh.vertices.push_back({centre + radius * out, glm::normalize(out + slope * axis), colour});
+    mesh.vertices.push_back({ring.centre + ring.radius * out, glm::normalize(out + ring.slope * axis), colour});
   }
   if (!join) return;
   for (std::uint32_t j = 0; j < kAround; ++j) {
@@ -89,7 +94,7 @@ void add_sphere(DrawMesh& mesh, const glm::vec3& centre_m, float radius_m, const
   for (int i = 0; i <= kRings; ++i) {
     const float t = std::numbers::pi_v<float> * static_cast<float>(i) / kRings - 0.5f * std::numbers::pi_v<float>;
     const float radius = std::max(std::cos(t), 1e-3f);
-    add_ring(mesh, centre_m + radius_m * std::sin(t) * axis, axis, radius_m * radius, std::tan(t * 0.999f), colour,
+    add_ring(mesh, {centre_m + radius_m * std::sin(t) * axis, radius_m * radius, std::tan(t * 0.999f)}, axis, colour,
              i > 0);
   }
 }
@@ -98,19 +103,20 @@ void add_tube(DrawMesh& mesh, const glm::vec3& from_m, const glm::vec3& to_m, fl
   const float length = glm::length(to_m - from_m);
   if (length < 1e-7f) return;
   const glm::vec3 axis = (to_m - from_m) / length;
-  add_ring(mesh, from_m, axis, radius_m, 0.0f, colour, false);
-  add_ring(mesh, to_m, axis, radius_m, 0.0f, colour, true);
+  add_ring(mesh, {from_m, radius_m}, axis, colour, false);
+  add_ring(mesh, {to_m, radius_m}, axis, colour, true);
 }
 
-void add_arrow(DrawMesh& mesh, const glm::vec3& from_m, const glm::vec3& to_m, float radius_m, const glm::vec4& colour) {
+void add_arrow(DrawMesh& mesh, const glm::vec3& from_m, const glm::vec3& to_m, float radius_m,
+               const glm::vec4& colour) {
   const float length = glm::length(to_m - from_m);
   if (length < 1e-6f) return;
   const glm::vec3 axis = (to_m - from_m) / length;
   const float head = std::min(6.0f * radius_m, 0.6f * length);
   const glm::vec3 neck = to_m - head * axis;
   add_tube(mesh, from_m, neck, radius_m, colour);
-  add_ring(mesh, neck, axis, 2.5f * radius_m, 0.4f, colour, false);
-  add_ring(mesh, to_m, axis, 0.01f * radius_m, 0.4f, colour, true);
+  add_ring(mesh, {neck, 2.5f * radius_m, 0.4f}, axis, colour, false);
+  add_ring(mesh, {to_m, 0.01f * radius_m, 0.4f}, axis, colour, true);
 }
 
 }  // namespace myotact::view

@@ -15,12 +15,14 @@ constexpr glm::vec4 kBone{0.91f, 0.87f, 0.77f, 1.0f};
 constexpr glm::vec3 kBackground{0.955f, 0.96f, 0.965f};
 constexpr glm::vec4 kLine{0.80f, 0.18f, 0.12f, 1.0f};
 constexpr glm::vec4 kTool{0.10f, 0.10f, 0.12f, 0.55f};
-constexpr glm::vec4 kProxy{0.00f, 0.62f, 0.45f, 1.0f};   // Okabe-Ito green
-constexpr glm::vec4 kForce{0.84f, 0.37f, 0.00f, 1.0f};   // Okabe-Ito vermilion
-constexpr float kMuscleOpacity = 0.82f;                  // bones shine through
+constexpr glm::vec4 kProxy{0.00f, 0.62f, 0.45f, 1.0f};  // Okabe-Ito green
+constexpr glm::vec4 kForce{0.84f, 0.37f, 0.00f, 1.0f};  // Okabe-Ito vermilion
+constexpr float kMuscleOpacity = 0.82f;                 // bones shine through
 constexpr float kLineRadius_m = 0.9e-3f;
 
-glm::vec3 to_glm(const Vec3& v) { return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())}; }
+glm::vec3 to_glm(const Vec3& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
 
 glm::vec3 to_glm(const std::array<double, 3>& v) {
   return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
@@ -30,7 +32,8 @@ glm::mat4 to_glm(const std::array<double, 12>& pose) {
   glm::mat4 matrix(1.0f);
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 4; ++column) {
-      matrix[column][row] = static_cast<float>(pose[static_cast<std::size_t>(4 * row + column)]);
+      matrix[column][row] =
+          static_cast<float>(pose[4 * static_cast<std::size_t>(row) + static_cast<std::size_t>(column)]);
     }
   }
   return matrix;
@@ -70,8 +73,8 @@ DrawMesh grid_mesh(const ViewBox& bounds) {
   constexpr float kSquare_m = 0.05f;
   constexpr int kSquares = 6;
   DrawMesh mesh;
-  const glm::vec3 centre(0.5f * (bounds.lowest_m.x + bounds.highest_m.x), 0.5f * (bounds.lowest_m.y + bounds.highest_m.y),
-                         bounds.lowest_m.z);
+  const glm::vec3 centre(0.5f * (bounds.lowest_m.x + bounds.highest_m.x),
+                         0.5f * (bounds.lowest_m.y + bounds.highest_m.y), bounds.lowest_m.z);
   const glm::vec4 colour(0.72f, 0.74f, 0.77f, 1.0f);
   for (int i = -kSquares; i <= kSquares; ++i) {
     const float at = kSquare_m * static_cast<float>(i);
@@ -118,7 +121,8 @@ void SceneRenderer::draw(const messages::SceneFrame& frame, const Camera& camera
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glClearColor(kBackground.r, kBackground.g, kBackground.b, 1.0f);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  const glm::mat4 clip_from_world = camera.clip_from_world(static_cast<float>(width) / static_cast<float>(std::max(height, 1)));
+  const glm::mat4 clip_from_world =
+      camera.clip_from_world(static_cast<float>(width) / static_cast<float>(std::max(height, 1)));
   flat_.use();
   flat_.set("clip_from_world", clip_from_world);
   grid_.draw(GL_LINES);
