@@ -22,7 +22,7 @@ void add_common(CLI::App& command, Options& options) {
   command.add_option("--set", options.set, "override a key of the scene: key=value");
   command.add_option("--seconds", options.seconds, "simulated time to run [s]")->check(CLI::Range(0.0, 86400.0));
   command.add_option("--seed", options.seed, "seed of everything random")->capture_default_str();
-  command.add_option("--out", options.out, "folder for what the command leaves")->capture_default_str();
+  command.add_option("-o,--out", options.out, "folder for what the command leaves")->capture_default_str();
   command.add_option("--record", options.record, "write a recording to this file");
   command.add_flag("--json", options.json, "machine-readable standard output");
   command.add_option("--log-level", options.log_level, "trace, debug, info, warning, error, critical or off")

@@ -169,6 +169,7 @@ void read_compliance(Limb& limb, const SmallSystem& small) {
 /// The Newton step from the instant where it was computed: start + part * change.
 struct Way {
   Eigen::VectorXd start_rad, change_rad;  // joints; the nodes' are in the muscles
+  const Eigen::VectorXd& solution;        // of the small system
 };
 
 /// How far a muscle is from balance, tool springs included, and the slope of its energy along the way.
@@ -185,6 +186,14 @@ void weigh(const Limb& limb, int index, LimbMuscle& muscle) {
   muscle.energy_slope = unbalanced.dot(muscle.change_m);
   muscle.residual_share = unbalanced.norm() / (muscle.system.force_scale_N + 1e-6);
   muscle.sound = std::isfinite(muscle.residual_share) && muscle.system.smallest_J > kSmallestJ;
+}
+
+/// The muscle's part of the way, and how its energy falls at the start.
+void start_way(const Limb& limb, const Way& way, int index, LimbMuscle& muscle) {
+  muscle.start_m = muscle.state.now.position_m;
+  muscle.change_m = -muscle.free_solution;
+  muscle.change_m.noalias() -= muscle.border_solution * way.solution;
+  weigh(limb, index, muscle);
 }
 
 /// Moves a muscle's nodes along the way and computes its forces there.
@@ -222,24 +231,19 @@ bool go(Limb& limb, const TissueLoad& load, const Way& way, double part, WorkerP
 }
 
 /// The way that the small system's solution means; all muscles' start and change.
-Way make_way(Limb& limb, const SmallSystem& small, const Eigen::VectorXd& solution) {
-  Way way{limb.now.angle_rad, Eigen::VectorXd::Zero(limb.skeleton.joint_count())};
+Way make_way(Limb& limb, const SmallSystem& small, const Eigen::VectorXd& solution, WorkerPool& workers) {
+  Way way{limb.now.angle_rad, Eigen::VectorXd::Zero(limb.skeleton.joint_count()), solution};
   for (std::size_t a = 0; a < small.joints.size(); ++a) {
     way.change_rad[small.joints[a]] = solution[static_cast<Eigen::Index>(a)];
   }
-  for (LimbMuscle& muscle : limb.muscles) {
-    if (muscle.rigid) continue;
-    muscle.start_m = muscle.state.now.position_m;
-    muscle.change_m = -muscle.free_solution - muscle.border_solution * solution;
-  }
+  workers.run(static_cast<int>(limb.muscles.size()), [&](int m) {
+    if (!limb.muscles[at(m)].rigid) start_way(limb, way, m, limb.muscles[at(m)]);
+  });
   return way;
 }
 
 /// Goes the whole way unless the energy has turned to rise steeply by then; then back towards the lowest place on it.
 bool search_way(Limb& limb, const TissueLoad& load, const Way& way, WorkerPool& workers) {
-  for (int m = 0; m < static_cast<int>(limb.muscles.size()); ++m) {
-    if (!limb.muscles[at(m)].rigid) weigh(limb, m, limb.muscles[at(m)]);
-  }
   const double start_slope = energy_slope(limb, load.rule, way);
   double part = 1.0;
   for (int cut = 0; cut < kMostCuts; ++cut) {
@@ -275,7 +279,7 @@ Iteration newton_step(Limb& limb, const TissueLoad& load, WorkerPool& workers, i
       small.size() > 0 ? Eigen::VectorXd(small.matrix.partialPivLu().solve(small.right)) : small.right;
   if (!solution.allFinite()) return {false, 0.0, 0.0};
 
-  const Way way = make_way(limb, small, solution);
+  const Way way = make_way(limb, small, solution, workers);
   Iteration result;
   result.sound = search_way(limb, load, way, workers);
   if (way.change_rad.size() > 0) result.turn_rad = way.change_rad.cwiseAbs().maxCoeff();
