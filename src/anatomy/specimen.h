@@ -37,8 +37,8 @@ struct Joint {
   JointType type = JointType::Hinge;
   int parent = -1, child = -1;  // bodies
   Vec3 centre_m = Vec3::Zero();
-  std::vector<Vec3> axes;                               // unit; 1 hinge, 2 universal, 3 ball, 0 weld
-  std::vector<std::pair<double, double>> range_rad;     // one an axis, lowest .. highest
+  std::vector<Vec3> axes;                            // unit; 1 hinge, 2 universal, 3 ball, 0 weld
+  std::vector<std::pair<double, double>> range_rad;  // one an axis, lowest .. highest
   double stiffness_Nm_rad = 0.0;
   double damping_Nms_rad = 0.0;
   double centre_uncertainty_m = 0.0;
@@ -49,21 +49,21 @@ enum class TissueRegion : int { Belly = 0, Tendon = 1, Aponeurosis = 2 };
 
 struct Muscle {
   std::string key, name_la, name_en, material;
-  double peak_force_N = 0.0;      // F0
-  double optimal_fibre_m = 0.0;   // lo
-  double pennation_rad = 0.0;     // alpha at lo
-  double rest_stretch = 0.8;      // fibre length over lo at the file pose with an unstretched tendon
+  double peak_force_N = 0.0;     // F0
+  double optimal_fibre_m = 0.0;  // lo
+  double pennation_rad = 0.0;    // alpha at lo
+  double rest_stretch = 0.8;     // fibre length over lo at the file pose with an unstretched tendon
   double tendon_slack_m = 0.0;
   double activation_tau_s = 0.015;
   double deactivation_tau_s = 0.050;
   std::vector<std::string> estimated;  // keys whose values are estimates
   std::vector<std::string> sources;
   geometry::TetMesh tets;
-  std::vector<Vec3> fibres;            // one a tet, unit, from origin to insertion
-  std::vector<double> sections_m2;     // one a tet: cross-section of the muscle at that place along the fibres
-  std::vector<TissueRegion> regions;   // one a tet
-  std::vector<int> attachments;        // one a node: body, or -1
-  geometry::TriangleMesh skin;         // fine surface, embedded in the tets on load
+  std::vector<Vec3> fibres;           // one a tet, unit, from origin to insertion
+  std::vector<double> sections_m2;    // one a tet: cross-section of the muscle at that place along the fibres
+  std::vector<TissueRegion> regions;  // one a tet
+  std::vector<int> attachments;       // one a node: body, or -1
+  geometry::TriangleMesh skin;        // fine surface, embedded in the tets on load
 };
 
 enum class LinePointKind { Origin, Via, Insertion };
@@ -107,8 +107,8 @@ struct Specimen {
 Specimen load_specimen(const std::filesystem::path& folder);
 
 /// Writes the folder completely, or throws Error (InputOutput; BadData for a specimen with a defect) and leaves nothing
-/// half-written: the files go to a temporary folder beside it that is renamed at the end. An existing specimen folder is
-/// replaced.
+/// half-written: the files go to a temporary folder beside it that is renamed at the end. An existing specimen folder
+/// is replaced.
 void save_specimen(const Specimen& specimen, const std::filesystem::path& folder);
 
 /// What makes a specimen unusable, as one sentence with place, value and remedy; empty when all is well.

@@ -47,8 +47,10 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
     command->callback([&action, function] { action = function; });
   };
   bind(add_scene_command(program, options, "view", "the window (default)"), myotact::app::view);
-  CLI::App* run = add_scene_command(program, options, "run", "no window: a scripted hand acts, tables and a picture come out");
-  run->add_flag("--realtime", options.realtime, "run free on the wall clock, as the window does, and report the timing");
+  CLI::App* run =
+      add_scene_command(program, options, "run", "no window: a scripted hand acts, tables and a picture come out");
+  run->add_flag("--realtime", options.realtime,
+                "run free on the wall clock, as the window does, and report the timing");
   run->add_option("--every", options.every, "keep every n-th tick in samples.csv")->check(CLI::Range(1, 1000000));
   bind(run, myotact::app::run);
   CLI::App* stiffness = add_scene_command(program, options, "stiffness", "joint stiffness against co-contraction");

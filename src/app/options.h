@@ -15,7 +15,7 @@ namespace myotact::app {
 /// Options that every subcommand knows, and those of single ones. Defaults are what --help shows.
 struct Options {
   std::string scene = "elbow";
-  std::vector<std::string> set;             // key=value
+  std::vector<std::string> set;  // key=value
   std::vector<std::string> devices;
   std::optional<double> seconds;
   std::uint64_t seed = 1;
@@ -28,7 +28,7 @@ struct Options {
   int workers = 2;
   std::vector<double> angles_deg = {0.0};
   std::vector<double> levels = {0.0, 0.25, 0.5, 0.75, 1.0};
-  std::filesystem::path file;               // replay
+  std::filesystem::path file;  // replay
 };
 
 /// --set and --device as overrides of the scene. Throws Error Usage for a --set without "=".

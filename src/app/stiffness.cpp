@@ -20,8 +20,7 @@ int stiffness(const Options& options) {
   simulation::Simulation simulation(scene.specimen, scene.settings);
   std::vector<measure::StiffnessRow> rows;
   for (const double angle_deg : options.angles_deg) {
-    const auto part =
-        measure::sweep_stiffness(scene, simulation, angle_deg * std::numbers::pi / 180.0, options.levels);
+    const auto part = measure::sweep_stiffness(scene, simulation, angle_deg * std::numbers::pi / 180.0, options.levels);
     rows.insert(rows.end(), part.begin(), part.end());
   }
   write_file(options.out / "stiffness.csv", measure::stiffness_csv(rows));

@@ -20,7 +20,8 @@ nlohmann::json percentiles_us(const realtime::DurationSummary& summary) {
 
 void print(const nlohmann::json& value, const std::string& name, std::ostream& out) {
   if (value.is_object()) {
-    for (const auto& item : value.items()) print(item.value(), name.empty() ? item.key() : name + "." + item.key(), out);
+    for (const auto& item : value.items())
+      print(item.value(), name.empty() ? item.key() : name + "." + item.key(), out);
   } else if (!value.is_array()) {
     out << fmt::format("{:<32} {}\n", name, value.dump());
   }

@@ -26,7 +26,9 @@ void leave_time_to_the_simulation(std::chrono::steady_clock::duration drawing) {
   std::this_thread::sleep_for(std::max<std::chrono::steady_clock::duration>(kPicture - drawing, drawing));
 }
 
-int watched_joint(const scene::Scene& scene) { return scene.co_contraction ? scene.co_contraction->joint : 0; }
+int watched_joint(const scene::Scene& scene) {
+  return scene.co_contraction ? scene.co_contraction->joint : 0;
+}
 
 view::WindowSettings window_settings(const scene::Scene& scene, const device::Device& device, const Vec3& hand_m) {
   view::WindowSettings settings;
@@ -72,7 +74,8 @@ int view(const Options& options) {
   device::SimulatedDevice simulated("simulated", hand_m);
   if (options.seconds) make_writable_folder(options.out);
   device::Device& device = scripted ? static_cast<device::Device&>(simulated) : mouse;
-  view::Window window(scene.specimen, window_settings(scene, device, hand_m));  // first: without a display nothing is built
+  view::Window window(scene.specimen,
+                      window_settings(scene, device, hand_m));  // first: without a display nothing is built
   simulation::Simulation simulation(scene.specimen, scene.settings);
   const auto recorder = open_recorder(options, scene);
   scene::FreeSession session(scene, simulation, device, scripted ? &simulated : nullptr, recorder.get());

@@ -19,7 +19,8 @@ class Error : public std::runtime_error {
   ExitStatus status_;
 };
 
-/// Bad content of a file: "FILE: PLACE: PROBLEM". `place` is "line:column", a JSON pointer, a byte offset or an element.
+/// Bad content of a file: "FILE: PLACE: PROBLEM". `place` is "line:column", a JSON pointer, a byte offset or an
+/// element.
 inline Error bad_data(const std::string& file, const std::string& place, const std::string& problem) {
   return {ExitStatus::BadData, place.empty() ? file + ": " + problem : file + ": " + place + ": " + problem};
 }

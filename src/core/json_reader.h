@@ -55,7 +55,7 @@ class JsonObject {
  public:
   explicit JsonObject(const JsonValue& value);
 
-  JsonValue at(const std::string& key);                  // throws when missing
+  JsonValue at(const std::string& key);                   // throws when missing
   std::optional<JsonValue> find(const std::string& key);  // nothing when missing
   double number_or(const std::string& key, double fallback);
   std::string string_or(const std::string& key, const std::string& fallback);

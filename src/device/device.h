@@ -12,10 +12,10 @@ namespace myotact::device {
 struct DeviceProfile {
   double peak_force_N = 3.3;
   double max_stiffness_N_m = 1000.0;
-  double inertia_kg = 0.07;      // felt at the stylus
+  double inertia_kg = 0.07;  // felt at the stylus
   double viscous_Ns_m = 0.05;
   double coulomb_N = 0.1;
-  double resolution_m = 20e-6;   // of the encoder, at the stylus
+  double resolution_m = 20e-6;  // of the encoder, at the stylus
 };
 
 /// One force-feedback device. open() and close() belong to the thread that owns the device; read() and write() to the

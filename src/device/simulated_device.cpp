@@ -21,7 +21,11 @@ constexpr double kVelocityFilter_s = 5e-3;
 
 SimulatedDevice::SimulatedDevice(std::string name, const Vec3& start_world_m, const DeviceProfile& profile,
                                  const HandProfile& hand)
-    : name_(std::move(name)), profile_(profile), hand_(hand), position_m_(start_world_m), target_m_(start_world_m),
+    : name_(std::move(name)),
+      profile_(profile),
+      hand_(hand),
+      position_m_(start_world_m),
+      target_m_(start_world_m),
       measured_m_(start_world_m) {}
 
 void SimulatedDevice::write(const messages::DeviceCommand& command) noexcept {
@@ -67,9 +71,8 @@ void SimulatedDevice::integrate(double h_s) noexcept {
 
 messages::DeviceState SimulatedDevice::measure(std::uint64_t now_ns, double dt_s) noexcept {
   const double resolution_m = profile_.resolution_m;
-  const Vec3 rounded_m = resolution_m > 0.0
-                             ? Vec3((position_m_ / resolution_m).array().round().matrix() * resolution_m)
-                             : position_m_;
+  const Vec3 rounded_m =
+      resolution_m > 0.0 ? Vec3((position_m_ / resolution_m).array().round().matrix() * resolution_m) : position_m_;
   if (dt_s > 0.0) {
     const Vec3 difference_m_s = (rounded_m - measured_m_) / dt_s;
     measured_velocity_m_s_ += dt_s / (dt_s + kVelocityFilter_s) * (difference_m_s - measured_velocity_m_s_);

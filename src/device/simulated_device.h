@@ -14,8 +14,8 @@ namespace myotact::device {
 /// (reference: 0.05-0.3 kg, 1-10 N s/m, 50-500 N/m).
 struct HandProfile {
   double mass_kg = 0.1;
-  double damping_Ns_m = 4.0;      // between the stylus and the hand's target
-  double stiffness_N_m = 300.0;   // between the stylus and the hand's target
+  double damping_Ns_m = 4.0;     // between the stylus and the hand's target
+  double stiffness_N_m = 300.0;  // between the stylus and the hand's target
 };
 
 /// Where the hand wants the stylus.

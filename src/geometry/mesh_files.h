@@ -21,10 +21,10 @@ TriangleMesh read_stl(const std::filesystem::path& path);
 /// Named values of a tet mesh in a legacy VTK 3.0 file.
 struct TetFile {
   TetMesh mesh;
-  std::vector<Vec3> fibres;      // cell vectors "fibre"
+  std::vector<Vec3> fibres;         // cell vectors "fibre"
   std::vector<double> sections_m2;  // cell scalars "section", optional: cross-section along the fibres
-  std::vector<int> regions;      // cell scalars "region"
-  std::vector<int> attachments;  // point scalars "attachment"
+  std::vector<int> regions;         // cell scalars "region"
+  std::vector<int> attachments;     // point scalars "attachment"
 };
 
 /// Legacy VTK 3.0, ASCII, unstructured grid of cell type 10 or 24, double. Throws as above, naming the line.

@@ -13,11 +13,13 @@ enum class Fault : std::uint32_t {
   StaleModel = 1u << 4,       // no new model in time: forces fade. Make the simulation step cheaper.
   BadModel = 1u << 5,         // a model with indices or numbers out of range was ignored: a fault of its writer.
   EnergyInjected = 1u << 6,   // more energy came out than went in: damping was added. Lower the coupling stiffness.
-  ProxyRescued = 1u << 7,     // the proxy was found inside and put outside. Lower the tissue's speed or raise the radius.
-  ProxyBudget = 1u << 8,      // the proxy stopped short of its goal for this tick. Coarsen the skin.
-  MissedDeadline = 1u << 9,   // a tick came late. Free a core, or allow real-time priority.
+  ProxyRescued = 1u << 7,  // the proxy was found inside and put outside. Lower the tissue's speed or raise the radius.
+  ProxyBudget = 1u << 8,   // the proxy stopped short of its goal for this tick. Coarsen the skin.
+  MissedDeadline = 1u << 9,  // a tick came late. Free a core, or allow real-time priority.
 };
 
-constexpr std::uint32_t bit(Fault fault) { return static_cast<std::uint32_t>(fault); }
+constexpr std::uint32_t bit(Fault fault) {
+  return static_cast<std::uint32_t>(fault);
+}
 
 }  // namespace myotact::haptics

@@ -9,7 +9,7 @@ namespace myotact::haptics {
 
 namespace {
 
-constexpr std::uint64_t kFreshFor_ns = 30'000'000;   // FORMATS, force gate
+constexpr std::uint64_t kFreshFor_ns = 30'000'000;    // FORMATS, force gate
 constexpr std::uint64_t kZeroAfter_ns = 100'000'000;  // FORMATS, force gate
 /// Added damping b is stable in a loop of period T on a mass m below about m / T; this keeps well away (reference 2.6).
 constexpr double kDampingShare = 0.4;
@@ -23,11 +23,13 @@ Vec3 clamp_norm(const Vec3& force_N, double limit_N) {
 }
 
 bool is_stale(const GateInput& input, std::uint64_t after_ns) {
-  return !input.has_model || (input.now_ns > input.model_arrived_ns && input.now_ns - input.model_arrived_ns > after_ns);
+  return !input.has_model ||
+         (input.now_ns > input.model_arrived_ns && input.now_ns - input.model_arrived_ns > after_ns);
 }
 
 std::uint64_t fresh_for_ns(const GateInput& input) {
-  return std::clamp<std::uint64_t>(input.step_ns > kZeroAfter_ns ? kZeroAfter_ns : 2 * input.step_ns, kFreshFor_ns, kZeroAfter_ns);
+  return std::clamp<std::uint64_t>(input.step_ns > kZeroAfter_ns ? kZeroAfter_ns : 2 * input.step_ns, kFreshFor_ns,
+                                   kZeroAfter_ns);
 }
 
 }  // namespace
@@ -46,7 +48,8 @@ Vec3 ForceGate::shut(GateState state) noexcept {
 
 Vec3 ForceGate::admit(const GateInput& input) noexcept {
   faults_ = 0;
-  const double elapsed_s = has_last_ && input.now_ns > last_ns_ ? 1e-9 * static_cast<double>(input.now_ns - last_ns_) : 1e-3;
+  const double elapsed_s =
+      has_last_ && input.now_ns > last_ns_ ? 1e-9 * static_cast<double>(input.now_ns - last_ns_) : 1e-3;
   const double dt_s = std::clamp(elapsed_s, 1e-5, kLongestTick_s);
   last_ns_ = input.now_ns;
   if (!enabled_.load(std::memory_order_acquire)) {

@@ -9,11 +9,11 @@
 namespace myotact::haptics {
 
 struct GateSettings {
-  double ramp_s = 1.0;             // from nothing to the full force (reference: 1-2 s at enable)
-  double arm_below_N = 0.2;        // an armed gate opens only while less than this is wanted
-  double slew_N_s = 300.0;         // of rising |F|
-  double energy_store_J = 0.1;     // of what the hand put in and may get back: 3.3 N drawn 30 mm
-  double active_power_W = 0.1;     // muscles do real work on the hand; this much a second is no instability
+  double ramp_s = 1.0;          // from nothing to the full force (reference: 1-2 s at enable)
+  double arm_below_N = 0.2;     // an armed gate opens only while less than this is wanted
+  double slew_N_s = 300.0;      // of rising |F|
+  double energy_store_J = 0.1;  // of what the hand put in and may get back: 3.3 N drawn 30 mm
+  double active_power_W = 0.1;  // muscles do real work on the hand; this much a second is no instability
 };
 
 enum class GateState { Off, Armed, Ramp, On, Fade };

@@ -7,7 +7,8 @@ namespace myotact::haptics {
 namespace {
 
 constexpr double kTolerance_m = 1e-8;  // far below any encoder count; far above rounding at metres
-/// Determinant of the Gram matrix of unit normals below which they count as dependent: an angle of 1e-6 rad between two.
+/// Determinant of the Gram matrix of unit normals below which they count as dependent: an angle of 1e-6 rad between
+/// two.
 constexpr double kDependent = 1e-12;
 /// A set holds at most 3 and each change goes farther from the goal; 3 to 8 changes are usual, 40 never seen.
 constexpr int kMaxChanges = 40;
@@ -18,8 +19,11 @@ struct Held {
 };
 
 /// Reactions that put the goal on the planes of `held`. False when their normals are dependent.
-bool solve_planes(const Vec3& goal_m, std::span<const HalfSpace> all, const Held& held, std::array<double, 3>& reaction_m) {
-  const auto normal = [&](int i) -> const Vec3& { return all[static_cast<std::size_t>(held.index[static_cast<std::size_t>(i)])].normal; };
+bool solve_planes(const Vec3& goal_m, std::span<const HalfSpace> all, const Held& held,
+                  std::array<double, 3>& reaction_m) {
+  const auto normal = [&](int i) -> const Vec3& {
+    return all[static_cast<std::size_t>(held.index[static_cast<std::size_t>(i)])].normal;
+  };
   const auto lack = [&](int i) {
     return all[static_cast<std::size_t>(held.index[static_cast<std::size_t>(i)])].offset_m - normal(i).dot(goal_m);
   };
@@ -48,7 +52,8 @@ bool solve_planes(const Vec3& goal_m, std::span<const HalfSpace> all, const Held
 }
 
 /// Whether `held`, all of it pushing, puts the goal inside every half-space of `among`.
-bool try_set(const Vec3& goal_m, std::span<const HalfSpace> all, const Held& held, const Held& among, Projection& result) {
+bool try_set(const Vec3& goal_m, std::span<const HalfSpace> all, const Held& held, const Held& among,
+             Projection& result) {
   std::array<double, 3> reaction_m{};
   if (!solve_planes(goal_m, all, held, reaction_m)) return false;
   Vec3 point_m = goal_m;

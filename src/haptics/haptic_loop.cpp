@@ -14,7 +14,9 @@ constexpr std::size_t kTicksKept = 8192;  // 8 s of ticks: a recorder that write
 constexpr double kShortestTick_s = 1e-5;
 constexpr double kLongestTick_s = 0.02;
 
-bool is_finite(const std::array<double, 3>& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
+bool is_finite(const std::array<double, 3>& v) {
+  return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
+}
 
 }  // namespace
 
@@ -29,7 +31,11 @@ Vec3 coupling_force_N(const Proxy& proxy, const ProxyGoal& device, const Contact
 }
 
 HapticLoop::HapticLoop(device::Device& device, const HapticSettings& settings)
-    : device_(device), settings_(settings), ticks_(kTicksKept), proxy_(settings.contact), line_(settings.line),
+    : device_(device),
+      settings_(settings),
+      ticks_(kTicksKept),
+      proxy_(settings.contact),
+      line_(settings.line),
       gate_(device.profile(), settings.gate) {}
 
 void HapticLoop::prepare(std::uint64_t now_ns) {
@@ -66,7 +72,8 @@ void HapticLoop::tick(std::uint64_t now_ns) noexcept {
   } else {
     faults_ |= bit(Fault::NonFiniteDevice);
   }
-  const Vec3 sent_N = gate_and_write(settings_.force_scale * (contact_N + line_N), to_vec3(state.stylus_position_world_m), now_ns);
+  const Vec3 sent_N =
+      gate_and_write(settings_.force_scale * (contact_N + line_N), to_vec3(state.stylus_position_world_m), now_ns);
   faults_ |= proxy_faults();
   tell(state, sent_N, contact_N);
 }
@@ -93,7 +100,8 @@ Vec3 HapticLoop::contact_force_N(const ProxyGoal& goal, std::uint64_t now_ns, bo
   }
   proxy_.tick(surface_, *model_, goal, dt_s_);
   const Vec3 force_N = coupling_force_N(proxy_, goal, settings_.contact);
-  const double peak_N = device_.profile().peak_force_N / settings_.force_scale;  // the tissue feels no more than the hand
+  const double peak_N =
+      device_.profile().peak_force_N / settings_.force_scale;  // the tissue feels no more than the hand
   return force_N.norm() > peak_N ? Vec3(force_N * (peak_N / force_N.norm())) : force_N;
 }
 
@@ -134,11 +142,11 @@ void HapticLoop::tell(const messages::DeviceState& state, const Vec3& sent_N, co
   if (contact.active && (faults_ & bit(Fault::NonFiniteDevice)) == 0) {
     // The spring pulls the material point with the opposite of what the hand feels, as long as the tissue rests.
     tool.contact = {contact.surface,
-                     contact.triangle,
-                     contact.barycentric,
-                     to_array(contact.normal),
-                     to_array(contact.point_m - contact_N / settings_.contact.stiffness_N_m),
-                     settings_.contact.stiffness_N_m};
+                    contact.triangle,
+                    contact.barycentric,
+                    to_array(contact.normal),
+                    to_array(contact.point_m - contact_N / settings_.contact.stiffness_N_m),
+                    settings_.contact.stiffness_N_m};
   }
   tool.buttons = state.buttons;
   tool.faults = faults_;

@@ -30,11 +30,11 @@ struct HapticTick {
   messages::DeviceState device;
   std::uint64_t model_sequence = 0;  // model in use, 0: none
   messages::ToolState tool;
-  double line_tension_N = 0.0;       // of the line in hand, 0: none
+  double line_tension_N = 0.0;  // of the line in hand, 0: none
 };
 
-/// Force of the coupling spring on the hand [N], plus damping while the tool goes into the tissue. The normal part never
-/// pulls into the tissue. Zero without contact.
+/// Force of the coupling spring on the hand [N], plus damping while the tool goes into the tissue. The normal part
+/// never pulls into the tissue. Zero without contact.
 Vec3 coupling_force_N(const Proxy& proxy, const ProxyGoal& device, const ContactSettings& settings) noexcept;
 
 /// One tool, once a millisecond: reads the device and the newest model, computes, gates and writes in the same tick.
@@ -48,8 +48,8 @@ class HapticLoop {
   /// `device` outlives the loop.
   HapticLoop(device::Device& device, const HapticSettings& settings);
 
-  /// Opens the device, puts the tool where it is and arms the gate. Allocates; throws Error Unavailable. Before the first
-  /// tick, by the same clock.
+  /// Opens the device, puts the tool where it is and arms the gate. Allocates; throws Error Unavailable. Before the
+  /// first tick, by the same clock.
   void prepare(std::uint64_t now_ns);
   /// Never allocates, locks, waits, logs or throws. `now_ns` never runs backwards. One thread.
   void tick(std::uint64_t now_ns) noexcept;
@@ -58,9 +58,9 @@ class HapticLoop {
   /// Haptic thread: tells the next tick that deadlines went by.
   void note_missed(std::uint64_t ticks) noexcept { missed_ = missed_ || ticks > 0; }
 
-  realtime::LatestValue<messages::LocalModel>& models() noexcept { return models_; }  // written by the simulation
+  realtime::LatestValue<messages::LocalModel>& models() noexcept { return models_; }     // written by the simulation
   realtime::LatestValue<messages::ToolState>& tool_states() noexcept { return tools_; }  // read by the simulation
-  realtime::BoundedFifo<HapticTick>& ticks() noexcept { return ticks_; }               // read by the recorder
+  realtime::BoundedFifo<HapticTick>& ticks() noexcept { return ticks_; }                 // read by the recorder
 
   // ---- after tick(), in the thread that calls it
   const HapticTick& last_tick() const noexcept { return last_; }

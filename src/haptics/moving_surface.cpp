@@ -60,7 +60,8 @@ void MovingSurface::begin_tick(const messages::LocalModel& model, std::uint64_t 
 }
 
 std::size_t MovingSurface::slot_of(std::int32_t surface, std::int32_t triangle) noexcept {
-  const auto mixed = static_cast<std::uint32_t>(surface) * 73856093u ^ static_cast<std::uint32_t>(triangle) * 2654435761u;
+  const auto mixed =
+      static_cast<std::uint32_t>(surface) * 73856093u ^ static_cast<std::uint32_t>(triangle) * 2654435761u;
   return (mixed >> 8) % kSlots;
 }
 

@@ -30,9 +30,9 @@ Vec3 MuscleLineDrag::tick(const messages::LocalLine& line, const Tool& tool, dou
   const Vec3 along = to_proximal_m.normalized() + to_distal_m.normalized();  // Eigen keeps a zero vector zero
   const double length_m = to_proximal_m.norm() + to_distal_m.norm();
   const double lengthening_m_s = -along.dot(tool.velocity_m_s);
-  tension_N_ = std::clamp(line_.tension_N + line_.stiffness_N_m * (length_m - line_.length_m) +
-                              line_.damping_Ns_m * lengthening_m_s,
-                          0.0, settings_.max_tension_N);
+  tension_N_ = std::clamp(
+      line_.tension_N + line_.stiffness_N_m * (length_m - line_.length_m) + line_.damping_Ns_m * lengthening_m_s, 0.0,
+      settings_.max_tension_N);
   return gain_ * tension_N_ * along;
 }
 

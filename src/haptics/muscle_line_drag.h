@@ -8,7 +8,8 @@
 namespace myotact::haptics {
 
 struct LineDragSettings {
-  double max_tension_N = 2000.0;   // above any muscle of a dog's limb: a broken model stays bounded, the gate does the rest
+  double max_tension_N =
+      2000.0;  // above any muscle of a dog's limb: a broken model stays bounded, the gate does the rest
   double grab_stiffness_N_m = 300.0;  // of the spring by which the hand holds the line in the simulation
 };
 

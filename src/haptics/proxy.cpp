@@ -16,15 +16,15 @@ namespace {
 constexpr int kMaxParts = 16;
 /// Moves towards the device in one tick. A flat surface needs two, a fold of a muscle four.
 constexpr int kMaxMoves = 10;
-/// Of the radius: a surface this near bears the sphere. Above, the sphere flies on; it lands without losing its friction
-/// because a slip of 0.2 mm over the roundest surface, the sphere's own radius, lifts it by 7 um only.
+/// Of the radius: a surface this near bears the sphere. Above, the sphere flies on; it lands without losing its
+/// friction because a slip of 0.2 mm over the roundest surface, the sphere's own radius, lifts it by 7 um only.
 constexpr double kTouching = 1.02;
 /// Of the radius: with less room the sphere counts as squeezed and is content with the room there is.
 constexpr double kSqueezed = 0.99;
 /// Triangles as near as the nearest, within the accuracy of a projection, bear the sphere together.
 constexpr double kTogether_m = 3e-8;
-/// Cosine of 0.01 rad. Before a flat edge the triangle ahead is as near as the one below to 3e-8 m, and its plane tilts by
-/// 0.0045 rad, which would be an error of that much in the friction: planes so much alike count once, the nearest.
+/// Cosine of 0.01 rad. Before a flat edge the triangle ahead is as near as the one below to 3e-8 m, and its plane tilts
+/// by 0.0045 rad, which would be an error of that much in the friction: planes so much alike count once, the nearest.
 constexpr double kSameWay = 1.0 - 5e-5;
 /// Shorter moves end the search: 0.1 um on 800 N/m are 0.08 mN.
 constexpr double kConverged_m = 1e-7;
@@ -37,9 +37,12 @@ constexpr double kAnchorSlack = 0.05;
 /// Nearest points of two triangles closer than this are the same corner or the same point of an edge.
 constexpr double kSamePoint_m = 1e-9;
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
+std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
 
-/// Share of a triangle in the pseudo-normal at its nearest point: the angle it fills there (Baerentzen and Aanaes 2005).
+/// Share of a triangle in the pseudo-normal at its nearest point: the angle it fills there (Baerentzen and Aanaes
+/// 2005).
 double angle_at(const MovingSurface& surface, int local, const std::array<double, 3>& barycentric, double fraction) {
   for (int corner = 0; corner < 3; ++corner) {
     if (barycentric[at(corner)] < 1.0) continue;
@@ -115,8 +118,9 @@ double Proxy::linearise(const Vec3& p_m, double fraction, Tick& tick) noexcept {
   clearance_m_ = far_m;
   for (int i = 0; i < candidate_count_; ++i) {
     const int local = candidates_[at(i)];
-    const geometry::TrianglePoint nearest = geometry::closest_point_on_triangle(
-        p_m, surface.corner_m(local, 0, fraction), surface.corner_m(local, 1, fraction), surface.corner_m(local, 2, fraction));
+    const geometry::TrianglePoint nearest =
+        geometry::closest_point_on_triangle(p_m, surface.corner_m(local, 0, fraction),
+                                            surface.corner_m(local, 1, fraction), surface.corner_m(local, 2, fraction));
     const Vec3 away_m = p_m - nearest.position_m;
     const double distance_m = away_m.norm();
     if (!(distance_m <= far_m)) continue;  // also what a triangle without area may give: not a number
@@ -136,8 +140,8 @@ Projection Proxy::project_at(const Vec3& goal_m, double radius_m) noexcept {
   return project_to_half_spaces(goal_m, std::span(half_spaces_.data(), at(near_count_)));
 }
 
-/// Where the half-spaces let the sphere go. In a fold that closes there may be no room for the whole radius: then for as
-/// much of it as there is, at least the present clearance.
+/// Where the half-spaces let the sphere go. In a fold that closes there may be no room for the whole radius: then for
+/// as much of it as there is, at least the present clearance.
 Projection Proxy::project(const Vec3& goal_m) noexcept {
   Projection result = project_at(goal_m, settings_.radius_m);
   if (result.feasible) return result;
@@ -159,7 +163,8 @@ void Proxy::move_towards(const Vec3& target_m, Tick& tick) noexcept {
   if (length_m > tick.travel_left_m) move_m *= tick.travel_left_m / length_m;
   const Vec3 from_centre_m = p_m_ - tick.coverage_centre_m;
   const double inside_m2 = tick.coverage_m * tick.coverage_m - from_centre_m.squaredNorm();
-  if ((from_centre_m + move_m).squaredNorm() > std::max(tick.coverage_m * tick.coverage_m, from_centre_m.squaredNorm())) {
+  if ((from_centre_m + move_m).squaredNorm() >
+      std::max(tick.coverage_m * tick.coverage_m, from_centre_m.squaredNorm())) {
     // |centre + share * move| = coverage, solved for the share
     const double half_b = from_centre_m.dot(move_m);
     const double a = move_m.squaredNorm();
@@ -189,14 +194,17 @@ double Proxy::relative_motion_m(const Tick& tick, const Vec3& carried_m) const n
 void Proxy::carry(Tick& tick) noexcept {
   const MovingSurface& surface = *tick.surface;
   const bool moves = surface.largest_motion_m() > 0.0;
-  const Vec3 carried_m = moves && anchor_.local >= 0 ? surface.motion_m(anchor_.local, anchor_.barycentric) : Vec3::Zero();
+  const Vec3 carried_m =
+      moves && anchor_.local >= 0 ? surface.motion_m(anchor_.local, anchor_.barycentric) : Vec3::Zero();
   const double relative_m = moves ? relative_motion_m(tick, carried_m) : 0.0;
   double fraction = 0.0;
   for (int part = 1; fraction < 1.0; ++part) {
     double next = 1.0;
     if (relative_m * (1.0 - fraction) > 0.5 * clearance_m_) {
-      if (part == kMaxParts) ++counters_.short_steps;
-      else next = std::min(1.0, fraction + std::max(0.5 * clearance_m_ / relative_m, 1e-3));
+      if (part == kMaxParts)
+        ++counters_.short_steps;
+      else
+        next = std::min(1.0, fraction + std::max(0.5 * clearance_m_ / relative_m, 1e-3));
     }
     p_m_ += (next - fraction) * carried_m;
     fraction = next;
@@ -282,7 +290,8 @@ Projection Proxy::press(Tick& tick) noexcept {
     half.normal = half_spaces_[at(i)].normal;
     half.offset_m = half.normal.dot(near_[at(i)].point_m) + radius_m;
   }
-  Projection held = project_to_half_spaces(tick.goal.position_m, std::span(touching_spaces_.data(), at(touching_count_)));
+  Projection held =
+      project_to_half_spaces(tick.goal.position_m, std::span(touching_spaces_.data(), at(touching_count_)));
   if (!held.feasible) {  // no room at all: the sphere stays where it is
     held = {};
     held.point_m = p_m_;
@@ -292,7 +301,8 @@ Projection Proxy::press(Tick& tick) noexcept {
   return held;
 }
 
-/// Towards the device as far as no triangle's plane comes nearer than the radius, and a little more, so that it touches.
+/// Towards the device as far as no triangle's plane comes nearer than the radius, and a little more, so that it
+/// touches.
 Vec3 Proxy::free_target_m(const Tick& tick) const noexcept {
   const Vec3 way_m = tick.goal.position_m - p_m_;
   const double length_m = way_m.norm();

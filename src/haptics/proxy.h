@@ -31,15 +31,15 @@ struct ProxyContact {
 
 /// Events since the start.
 struct ProxyCounters {
-  std::uint64_t rescues = 0;       // found inside and put outside
-  std::uint64_t over_budget = 0;   // ticks that stopped short of the goal
-  std::uint64_t short_steps = 0;   // ticks whose surface moved farther than 16 safe steps cover
+  std::uint64_t rescues = 0;      // found inside and put outside
+  std::uint64_t over_budget = 0;  // ticks that stopped short of the goal
+  std::uint64_t short_steps = 0;  // ticks whose surface moved farther than 16 safe steps cover
 };
 
 /// A sphere that stands for the tool and stays outside of the moving tissue while the device goes in.
 ///
-/// A triangle is convex, so the plane through its nearest point, across the line to the sphere's centre, keeps all of it
-/// on one side: a centre that stays r beyond the plane keeps r from the triangle, and the straight way there never
+/// A triangle is convex, so the plane through its nearest point, across the line to the sphere's centre, keeps all of
+/// it on one side: a centre that stays r beyond the plane keeps r from the triangle, and the straight way there never
 /// crosses it. A tick is therefore a few projections onto such half-spaces:
 ///
 ///   for each safe part of the tick (no vertex comes nearer than half of the clearance)
@@ -55,7 +55,8 @@ class Proxy {
   explicit Proxy(const ContactSettings& settings) : settings_(settings) {}
 
   /// Advances to the end of the surface's tick, `dt_s` > 0 long.
-  void tick(const MovingSurface& surface, const messages::LocalModel& model, const ProxyGoal& goal, double dt_s) noexcept;
+  void tick(const MovingSurface& surface, const messages::LocalModel& model, const ProxyGoal& goal,
+            double dt_s) noexcept;
   /// No surface is known: the proxy is where the device is.
   void follow(const Vec3& position_m) noexcept;
 
@@ -124,8 +125,8 @@ class Proxy {
   std::array<Nearest, messages::kMaxLocalTriangles> near_{};
   std::array<HalfSpace, messages::kMaxLocalTriangles> half_spaces_{};
   int near_count_ = 0;
-  static constexpr int kMaxTouching = 32;  // triangles round one corner of a bad mesh
-  std::array<int, kMaxTouching> touching_{};   // places in near_
+  static constexpr int kMaxTouching = 32;     // triangles round one corner of a bad mesh
+  std::array<int, kMaxTouching> touching_{};  // places in near_
   std::array<HalfSpace, kMaxTouching> touching_spaces_{};
   int touching_count_ = 0;
   double clearance_m_ = 0.0;  // of the last linearisation

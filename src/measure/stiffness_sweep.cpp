@@ -51,8 +51,8 @@ double torque_at(const scene::Scene& scene, simulation::Simulation& simulation, 
   return simulation.joint(joint).net_torque_Nm;
 }
 
-StiffnessRow measure_row(const scene::Scene& scene, const scene::TorqueTable& table,
-                         simulation::Simulation& simulation, double q_rad, double common) {
+StiffnessRow measure_row(const scene::Scene& scene, const scene::TorqueTable& table, simulation::Simulation& simulation,
+                         double q_rad, double common) {
   const int joint = scene.co_contraction->joint;
   const auto angles = angles_of(scene, joint, q_rad);
   const scene::Balance levels = refine_balance(scene, table, simulation, angles, common);

@@ -11,15 +11,15 @@ inline constexpr int kMaxLocalVertices = 192;
 
 /// The muscle line nearest to the tool, or the one in hand, as a taut string between two points.
 struct LocalLine {
-  std::int32_t muscle = -1;                       // -1: none near
-  double fraction = 0.0;                          // place on the line nearest to (or in) the hand, 0 .. 1
-  std::array<double, 3> grab_point_world_m{};     // that place
+  std::int32_t muscle = -1;                        // -1: none near
+  double fraction = 0.0;                           // place on the line nearest to (or in) the hand, 0 .. 1
+  std::array<double, 3> grab_point_world_m{};      // that place
   std::array<double, 3> proximal_point_world_m{};  // the string's end towards the origin
   std::array<double, 3> distal_point_world_m{};    // the string's end towards the insertion
-  double tension_N = 0.0;                         // at `length_m`
-  double length_m = 0.0;                          // proximal -> (tool, if in hand) -> distal, when published
-  double stiffness_N_m = 0.0;                     // dT/dl, >= 0
-  double damping_Ns_m = 0.0;                      // dT/d(dl/dt), >= 0
+  double tension_N = 0.0;                          // at `length_m`
+  double length_m = 0.0;                           // proximal -> (tool, if in hand) -> distal, when published
+  double stiffness_N_m = 0.0;                      // dT/dl, >= 0
+  double damping_Ns_m = 0.0;                       // dT/d(dl/dt), >= 0
 };
 
 /// The joint of the scene reduced to one degree of freedom.
@@ -37,14 +37,14 @@ struct LocalJoint {
 struct LocalModel {
   struct Triangle {
     std::int32_t surface = -1;
-    std::int32_t triangle = -1;          // in that surface
+    std::int32_t triangle = -1;              // in that surface
     std::array<std::int32_t, 3> vertices{};  // into the vertex arrays below, counter-clockwise from outside
   };
 
   std::uint64_t sequence = 0;
   std::uint64_t published_at_ns = 0;  // the step's end; haptics plays previous -> current over dt_ns from here
   std::uint64_t dt_ns = 0;
-  std::uint64_t tool_sequence = 0;    // ToolState that the step consumed
+  std::uint64_t tool_sequence = 0;  // ToolState that the step consumed
   std::array<double, 3> coverage_centre_world_m{};
   double coverage_radius_m = 0.0;  // every triangle that comes within this of the centre is in the list
   std::int32_t vertex_count = 0;

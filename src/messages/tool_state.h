@@ -8,7 +8,7 @@ namespace myotact::messages {
 
 /// One contact of the tool, named by a material point of a surface so that it rides on the tissue.
 struct ToolContact {
-  std::int32_t surface = -1;  // index as in LocalModel::Triangle::surface
+  std::int32_t surface = -1;   // index as in LocalModel::Triangle::surface
   std::int32_t triangle = -1;  // triangle of that surface
   std::array<double, 3> barycentric{};
   std::array<double, 3> normal_world{};  // unit, out of the tissue
@@ -21,16 +21,16 @@ struct ToolContact {
 struct ToolState {
   std::uint64_t sequence = 0;
   std::uint64_t time_ns = 0;
-  std::uint64_t model_sequence = 0;  // LocalModel in use when this was written
+  std::uint64_t model_sequence = 0;                // LocalModel in use when this was written
   std::array<double, 3> tool_position_world_m{};   // device
   std::array<double, 3> proxy_position_world_m{};  // never inside a surface
   std::array<double, 3> force_world_N{};           // force on the hand, after the gate
   ToolContact contact{};
   std::uint32_t buttons = 0;
-  std::uint32_t faults = 0;          // haptics::Fault bits of the last window
-  std::int32_t grabbed_line = -1;    // muscle whose line is in hand, or -1
-  double grab_fraction = 0.0;        // place along the line, 0 origin .. 1 insertion, by rest arc length
-  double line_stiffness_N_m = 0.0;   // of the grab spring between tool and line
+  std::uint32_t faults = 0;         // haptics::Fault bits of the last window
+  std::int32_t grabbed_line = -1;   // muscle whose line is in hand, or -1
+  double grab_fraction = 0.0;       // place along the line, 0 origin .. 1 insertion, by rest arc length
+  double line_stiffness_N_m = 0.0;  // of the grab spring between tool and line
 };
 
 static_assert(std::is_trivially_copyable_v<ToolState>);

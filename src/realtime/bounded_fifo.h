@@ -7,7 +7,8 @@
 
 namespace myotact::realtime {
 
-/// Everything in order, up to a capacity: one writer, one reader, neither waits. What does not fit is dropped and counted.
+/// Everything in order, up to a capacity: one writer, one reader, neither waits. What does not fit is dropped and
+/// counted.
 template <class T>
 class BoundedFifo {
  public:

@@ -15,8 +15,8 @@ struct DurationSummary {
   std::uint64_t max_ns = 0;
 };
 
-/// Counts durations in bins of fixed relative width, 3 % of the value. One thread adds, any thread may summarise meanwhile.
-/// Allocates nothing.
+/// Counts durations in bins of fixed relative width, 3 % of the value. One thread adds, any thread may summarise
+/// meanwhile. Allocates nothing.
 class PeriodHistogram {
  public:
   void add(std::uint64_t duration_ns) noexcept;

@@ -28,7 +28,9 @@ std::uint64_t steady_now_ns() noexcept {
   return static_cast<std::uint64_t>(now.tv_sec) * kNanosecondsPerSecond + static_cast<std::uint64_t>(now.tv_nsec);
 }
 
-void PeriodicLoop::start() noexcept { deadline_ns_ = steady_now_ns() + period_ns_; }
+void PeriodicLoop::start() noexcept {
+  deadline_ns_ = steady_now_ns() + period_ns_;
+}
 
 PeriodicLoop::Wake PeriodicLoop::wait() noexcept {
   if (steady_now_ns() + kSpin_ns < deadline_ns_) sleep_until(deadline_ns_ - kSpin_ns);

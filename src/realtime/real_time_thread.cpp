@@ -14,7 +14,9 @@ namespace {
 /// Above ordinary threads and below the kernel's own interrupt threads, which Debian runs at 50.
 constexpr int kPriority = 40;
 
-void add_reason(std::string& text, const std::string& reason) { text += (text.empty() ? "" : "; ") + reason; }
+void add_reason(std::string& text, const std::string& reason) {
+  text += (text.empty() ? "" : "; ") + reason;
+}
 
 }  // namespace
 

@@ -58,10 +58,11 @@ TorqueTable measure_torques(const Scene& scene, simulation::Simulation& simulati
   TorqueTable table{kLevels, std::vector<std::vector<double>>(scene.specimen.muscles.size())};
   const auto settle = [&](const std::vector<double>& activations, double level) {
     if (simulation.settle(angles_rad, activations)) return;
-    throw Error(ExitStatus::CheckFailed,
-                fmt::format("no static equilibrium with the co-contracting muscles at activation {}; try a posture nearer "
-                            "to the specimen's own, or finer tetrahedra",
-                            level));
+    throw Error(
+        ExitStatus::CheckFailed,
+        fmt::format("no static equilibrium with the co-contracting muscles at activation {}; try a posture nearer "
+                    "to the specimen's own, or finer tetrahedra",
+                    level));
   };
   for (const double level : kLevels) {
     std::vector<double> activations = scene.activations;

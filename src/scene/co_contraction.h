@@ -9,7 +9,8 @@
 namespace myotact::scene {
 
 /// Static torque of every muscle about one joint, with the joint held at one angle and the driven muscles at rising
-/// levels. With the joint held the muscles do not act on each other, so that a balance can be found from the table alone.
+/// levels. With the joint held the muscles do not act on each other, so that a balance can be found from the table
+/// alone.
 struct TorqueTable {
   std::vector<double> levels;                  // activations, rising from 0 to 1
   std::vector<std::vector<double>> torque_Nm;  // muscles x levels, positive flexes; constant for those not driven
@@ -20,8 +21,7 @@ struct TorqueTable {
 
 /// Settles the simulation with the co-contraction's muscles at each level in turn, all others as the scene says. Leaves
 /// it settled at the scene's own activations. Throws Error CheckFailed when the tissue finds no equilibrium.
-TorqueTable measure_torques(const Scene& scene, simulation::Simulation& simulation,
-                            std::span<const double> angles_rad);
+TorqueTable measure_torques(const Scene& scene, simulation::Simulation& simulation, std::span<const double> angles_rad);
 
 struct Balance {
   double flexors = 0.0;    // activation of every driven flexor

@@ -68,8 +68,9 @@ void Conductor::settle() {
     if (co_contracting_) drive_co_contraction(0.0, excitations);
   }
   if (!simulation_->settle(start_angles(*scene_), excitations)) {
-    throw Error(ExitStatus::CheckFailed, scene_->name + ": the tissue finds no equilibrium in the starting posture; set "
-                                                        "joints nearer to 0 and activations lower");
+    throw Error(ExitStatus::CheckFailed, scene_->name +
+                                             ": the tissue finds no equilibrium in the starting posture; set "
+                                             "joints nearer to 0 and activations lower");
   }
   for (std::size_t j = 0; j < scene_->joints.size(); ++j) {
     simulation_->set_joint_locked(static_cast<int>(j), scene_->joints[j].locked);
@@ -132,7 +133,9 @@ void Conductor::prepare_step(double simulated_s, StepRecord& input) {
   input.gravity_m_s2 = gravity_m_s2_;
 }
 
-std::optional<TakePicture> Conductor::take_picture() { return std::exchange(picture_, std::nullopt); }
+std::optional<TakePicture> Conductor::take_picture() {
+  return std::exchange(picture_, std::nullopt);
+}
 
 void Conductor::ask_levels(double flexors, double extensors) {
   if (!scene_->co_contraction) return;

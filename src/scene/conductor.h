@@ -55,14 +55,14 @@ class Conductor {
   ScriptedHand hand_;
   TorqueTable torques_;
   PostureTrim trim_;
-  double script_start_s_ = 0.0;             // simulated time at which the script began
+  double script_start_s_ = 0.0;  // simulated time at which the script began
   std::size_t next_action_ = 0;
-  std::vector<Ramp> activations_;           // one a muscle
+  std::vector<Ramp> activations_;  // one a muscle
   Ramp common_, difference_;
   std::optional<Ramp> flexor_level_, extensor_level_;  // set by the sliders: no balance
   bool co_contracting_ = false;
   bool hold_posture_ = false;
-  std::vector<ScriptAction> shoves_;        // under way
+  std::vector<ScriptAction> shoves_;  // under way
   Vec3 gravity_m_s2_;
   std::optional<TakePicture> picture_;
 };

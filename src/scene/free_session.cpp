@@ -11,7 +11,9 @@ namespace myotact::scene {
 
 namespace {
 
-std::uint64_t nanoseconds(double seconds) { return static_cast<std::uint64_t>(std::llround(seconds * 1e9)); }
+std::uint64_t nanoseconds(double seconds) {
+  return static_cast<std::uint64_t>(std::llround(seconds * 1e9));
+}
 
 }  // namespace
 
@@ -69,7 +71,9 @@ FreeTiming FreeSession::stop() {
   return timing;
 }
 
-void FreeSession::request(const Requests& requests) { requests_.publish(requests); }
+void FreeSession::request(const Requests& requests) {
+  requests_.publish(requests);
+}
 
 bool FreeSession::fetch_frame(messages::SceneFrame& frame) {
   const std::scoped_lock lock(frame_mutex_);

@@ -25,14 +25,14 @@ namespace myotact::scene {
 struct Requests {
   double flexors = 0.0, extensors = 0.0;
   double common = 0.0, difference = 0.0;
-  bool levels_changed = false;    // the first two were moved since the last request
-  bool balance_changed = false;   // the second two were
+  bool levels_changed = false;   // the first two were moved since the last request
+  bool balance_changed = false;  // the second two were
   bool hold_posture = true;
   bool gravity = false;
   bool paused = false;
   bool stop_forces = false;
-  std::uint32_t steps = 0;        // single steps asked for so far
-  std::uint32_t resets = 0;       // resets asked for so far
+  std::uint32_t steps = 0;   // single steps asked for so far
+  std::uint32_t resets = 0;  // resets asked for so far
 };
 
 /// What a free run reports when it ends.

@@ -158,8 +158,9 @@ void RecordingWriter::write_chunk(std::uint32_t type, const std::string& payload
   append(bytes, checksum(type, payload));
   file_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   if (!file_) {
-    throw Error(ExitStatus::InputOutput,
-                fmt::format("{}: the recording cannot be written. Check the folder and the free space.", path_.string()));
+    throw Error(
+        ExitStatus::InputOutput,
+        fmt::format("{}: the recording cannot be written. Check the folder and the free space.", path_.string()));
   }
 }
 

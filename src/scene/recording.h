@@ -20,11 +20,11 @@ namespace myotact::scene {
 
 /// What the simulation was told before a step, and the state that followed.
 struct StepRecord {
-  std::vector<double> excitations;    // one a muscle
+  std::vector<double> excitations;       // one a muscle
   std::vector<double> joint_torques_Nm;  // one a joint
   Vec3 gravity_m_s2 = Vec3::Zero();
   messages::ToolState tool;
-  std::uint64_t state_hash = 0;       // after the step
+  std::uint64_t state_hash = 0;  // after the step
 };
 
 /// What the device said in one tick, and which model answered.
@@ -37,7 +37,7 @@ struct Recording {
   std::string header_json;  // program version, seed, settings, the scene's text
   std::vector<StepRecord> steps;
   std::vector<TickRecord> ticks;
-  bool complete = false;    // the closing chunk is there
+  bool complete = false;  // the closing chunk is there
 };
 
 class RecordingWriter {

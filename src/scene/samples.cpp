@@ -22,7 +22,8 @@ void append(std::string& csv, const std::array<double, 3>& vector) {
 SampleTable::SampleTable(const anatomy::Specimen& specimen, int every_nth_tick)
     : muscle_count_(specimen.muscles.size()), every_nth_tick_(every_nth_tick) {
   csv_ =
-      "t_s,tool_x_m,tool_y_m,tool_z_m,proxy_x_m,proxy_y_m,proxy_z_m,force_x_N,force_y_N,force_z_N,line_tension_N,contact";
+      "t_s,tool_x_m,tool_y_m,tool_z_m,proxy_x_m,proxy_y_m,proxy_z_m,force_x_N,force_y_N,force_z_N,line_tension_N,"
+      "contact";
   for (std::size_t j = 0; j < specimen.joints.size(); ++j) {
     if (specimen.joints[j].type == anatomy::JointType::Weld) continue;
     moving_joints_.push_back(static_cast<int>(j));

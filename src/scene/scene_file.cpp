@@ -14,8 +14,9 @@ namespace myotact::scene {
 
 namespace {
 
-
-std::filesystem::path scenes_folder() { return data_folder() / "assets" / "scenes"; }
+std::filesystem::path scenes_folder() {
+  return data_folder() / "assets" / "scenes";
+}
 
 /// The value as JSON; what is none is taken as a text.
 nlohmann::json value_of(const std::string& value) {
@@ -48,10 +49,11 @@ std::filesystem::path find_specimen(const JsonValue& name, const std::filesystem
   for (const auto& candidate : {data_folder() / "meshes" / given, scene_file.parent_path() / given, given}) {
     if (!given.empty() && is_there(candidate / "specimen.json")) return candidate;
   }
-  throw Error(ExitStatus::NoInput,
-              fmt::format("{}: /specimen: \"{}\" is no specimen folder (specimen.json is missing); name one of meshes/ or "
-                          "make one with myotact-prepare",
-                          scene_file.string(), given.string()));
+  throw Error(
+      ExitStatus::NoInput,
+      fmt::format("{}: /specimen: \"{}\" is no specimen folder (specimen.json is missing); name one of meshes/ or "
+                  "make one with myotact-prepare",
+                  scene_file.string(), given.string()));
 }
 
 void read_joints(const JsonValue& value, Scene& scene) {

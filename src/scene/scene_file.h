@@ -43,12 +43,12 @@ struct Scene {
   std::filesystem::path specimen_folder;
   anatomy::Specimen specimen;
   simulation::SimulationSettings settings;
-  std::vector<JointSetting> joints;   // one a joint of the specimen
-  std::vector<double> activations;    // one a muscle
+  std::vector<JointSetting> joints;  // one a joint of the specimen
+  std::vector<double> activations;   // one a muscle
   std::optional<CoContraction> co_contraction;
   std::vector<ToolSettings> tools;
-  std::vector<ScriptAction> script;   // by time
-  std::string source_text;            // the file as read, for recordings
+  std::vector<ScriptAction> script;  // by time
+  std::string source_text;           // the file as read, for recordings
 };
 
 /// What the command line overrides in a scene: keys of --set, e.g. "specimen", "dt_s", "gravity_m_s2".

@@ -17,8 +17,8 @@ int require_part(const JsonValue& name, const std::vector<Part>& parts, const ch
   for (const Part& part : parts) keys.push_back(part.key);
   const auto found = std::find(keys.begin(), keys.end(), key);
   if (found == keys.end()) {
-    throw name.error(fmt::format("the specimen has no {} \"{}\"; the nearest is \"{}\"", kind, key,
-                                 nearest_word(key, keys)));
+    throw name.error(
+        fmt::format("the specimen has no {} \"{}\"; the nearest is \"{}\"", kind, key, nearest_word(key, keys)));
   }
   return static_cast<int>(found - keys.begin());
 }
@@ -87,8 +87,8 @@ Deed read_deed(const std::string& what, JsonObject& action, const anatomy::Speci
 }
 
 ScriptAction read_action(const JsonValue& value, const anatomy::Specimen& specimen) {
-  static const std::vector<std::string> kDeeds = {"move",        "touch",        "slide", "grab_line", "release", "activate",
-                                                  "co_contract", "hold_posture", "shove", "picture"};
+  static const std::vector<std::string> kDeeds = {"move",     "touch",       "slide",        "grab_line", "release",
+                                                  "activate", "co_contract", "hold_posture", "shove",     "picture"};
   constexpr double kLongestRun_s = 86400.0;
   JsonObject object(value);
   ScriptAction action;

@@ -17,9 +17,9 @@ struct MoveHand {  // to a point of the world
 };
 struct TouchMuscle {  // approach the skin from outside at a place along the muscle line and press
   int muscle = -1;
-  double at = 0.5;                     // along the line, 0 origin .. 1 insertion
-  Vec3 from = Vec3::UnitY();           // direction out of the muscle from which the hand comes
-  double depth_m = 4e-3;               // of the device below the resting skin
+  double at = 0.5;            // along the line, 0 origin .. 1 insertion
+  Vec3 from = Vec3::UnitY();  // direction out of the muscle from which the hand comes
+  double depth_m = 4e-3;      // of the device below the resting skin
 };
 struct SlideOnMuscle {  // move along the muscle just touched, pressing
   double to = 0.5;
@@ -51,8 +51,8 @@ struct TakePicture {
   std::string view = "lateral";
 };
 
-using Deed = std::variant<MoveHand, TouchMuscle, SlideOnMuscle, GrabLine, ReleaseHand, Activate, CoContract, HoldPosture,
-                          Shove, TakePicture>;
+using Deed = std::variant<MoveHand, TouchMuscle, SlideOnMuscle, GrabLine, ReleaseHand, Activate, CoContract,
+                          HoldPosture, Shove, TakePicture>;
 
 struct ScriptAction {
   double start_s = 0.0;

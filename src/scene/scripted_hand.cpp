@@ -13,10 +13,10 @@ namespace myotact::scene {
 
 namespace {
 
-constexpr double kStandOff_m = 0.03;   // the hand comes to this distance from the skin before it presses
+constexpr double kStandOff_m = 0.03;  // the hand comes to this distance from the skin before it presses
 constexpr double kLiftOff_m = 0.04;
-constexpr double kGrabGap_m = 0.005;   // the stylus takes a line from just outside the skin
-constexpr int kSlideWaypoints = 16;    // about 5 mm apart on a 90 mm belly
+constexpr double kGrabGap_m = 0.005;  // the stylus takes a line from just outside the skin
+constexpr int kSlideWaypoints = 16;   // about 5 mm apart on a 90 mm belly
 
 /// Distance along the ray origin + t direction to the triangle, if it is hit (Moeller and Trumbore 1997).
 std::optional<double> ray_hit(const Vec3& origin, const Vec3& direction, const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -34,7 +34,9 @@ std::optional<double> ray_hit(const Vec3& origin, const Vec3& direction, const V
   return t;
 }
 
-double minimum_jerk(double s) { return s * s * s * (10.0 + s * (6.0 * s - 15.0)); }
+double minimum_jerk(double s) {
+  return s * s * s * (10.0 + s * (6.0 * s - 15.0));
+}
 
 }  // namespace
 
@@ -102,8 +104,7 @@ void ScriptedHand::lay_out(const ScriptAction& action, const SlideOnMuscle& deed
   touched_at_ = deed.to;
 }
 
-void ScriptedHand::lay_out(const ScriptAction& action, const GrabLine& deed,
-                           const simulation::Simulation& simulation) {
+void ScriptedHand::lay_out(const ScriptAction& action, const GrabLine& deed, const simulation::Simulation& simulation) {
   touched_muscle_ = deed.muscle;
   touched_at_ = deed.at;
   from_ = deed.from;
@@ -122,8 +123,7 @@ void ScriptedHand::lay_out(const ScriptAction& action, const ReleaseHand&) {
   path_.push_back({action.end_s(), path_.front().position_world_m + kLiftOff_m * from_, 0});
 }
 
-Vec3 ScriptedHand::skin_point(const simulation::Simulation& simulation, int muscle, double at,
-                              const Vec3& from) const {
+Vec3 ScriptedHand::skin_point(const simulation::Simulation& simulation, int muscle, double at, const Vec3& from) const {
   const Vec3 origin = point_at_fraction(simulation.line_world_m(muscle), at);
   const std::span<const Vec3> skin = simulation.skin_world_m(muscle);
   double outermost = 0.0;

@@ -31,7 +31,7 @@ class ScriptedHand {
   struct Waypoint {
     double time_s;
     Vec3 position_world_m;
-    std::uint32_t buttons;   // from this waypoint on
+    std::uint32_t buttons;        // from this waypoint on
     bool arrives_moving = false;  // constant speed up to here
   };
 

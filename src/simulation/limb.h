@@ -91,8 +91,8 @@ void move_free_nodes(LimbMuscle& muscle, const Eigen::VectorXd& change_m);
 /// Copies the outcome of the last forces pass to the muscles' readouts, and the bones' loads to `limb.loads`.
 void read_out(Limb& limb);
 
-/// Factors the system, its mean term included, and solves it for `right`. Unusable: neither the solution nor solve() may
-/// be used.
+/// Factors the system, its mean term included, and solves it for `right`. Unusable: neither the solution nor solve()
+/// may be used.
 Pivots factor_system(LimbMuscle& muscle, const Eigen::MatrixXd& right, Eigen::MatrixXd& solution);
 /// (matrix + mean term)^-1 right with the last factors.
 Eigen::MatrixXd solve(const LimbMuscle& muscle, const Eigen::MatrixXd& right);

@@ -19,7 +19,7 @@ enum class TissueModel { Fem, Rigid };
 struct SimulationSettings {
   double dt_s = 0.01;
   Vec3 gravity_m_s2 = Vec3::Zero();
-  int workers = 2;  // threads of a step, the caller's included; the result does not depend on it
+  int workers = 2;                  // threads of a step, the caller's included; the result does not depend on it
   std::vector<TissueModel> tissue;  // one a muscle; empty: all Fem
 };
 
@@ -61,18 +61,18 @@ class Simulation {
   double time_s() const;
   double activation(int muscle) const;
   double excitation(int muscle) const;
-  double muscle_force_N(int muscle) const;   // tension that the muscle hands to its tendon
+  double muscle_force_N(int muscle) const;  // tension that the muscle hands to its tendon
   /// Torque of one muscle about a joint, positive flexes [N m]; of the last step or settle.
   double muscle_torque_Nm(int muscle, int joint) const;
-  JointReadout joint(int joint) const;       // of the last step or settle; stiffness as of the last refresh
+  JointReadout joint(int joint) const;  // of the last step or settle; stiffness as of the last refresh
   /// Refreshes the stiffness of a joint for all muscles at once (costs a factorisation a muscle).
   void refresh_stiffness(int joint);
-  Pose body_pose(int body) const;            // X_WL: maps rest position to now
+  Pose body_pose(int body) const;  // X_WL: maps rest position to now
   std::span<const Vec3> skin_world_m(int muscle) const;
   std::vector<Vec3> line_world_m(int muscle) const;
   double smallest_volume_ratio(int muscle) const;  // smallest J over the integration points
   std::uint64_t state_hash() const;
-  int failed_steps() const;                  // that had to be repeated in shorter parts, since construction
+  int failed_steps() const;  // that had to be repeated in shorter parts, since construction
 
   /// The surface near the tool, its compliance at the contact, the line nearest to (or in) the hand, the joint.
   void write_local_model(const messages::ToolState& tool, messages::LocalModel& model) const;

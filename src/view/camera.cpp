@@ -20,11 +20,17 @@ glm::vec3 Camera::forward_world() const {
                     std::sin(elevation_rad));
 }
 
-glm::vec3 Camera::eye_world_m() const { return target_world_m - distance_m * forward_world(); }
+glm::vec3 Camera::eye_world_m() const {
+  return target_world_m - distance_m * forward_world();
+}
 
-glm::vec3 Camera::right_world() const { return glm::normalize(glm::cross(forward_world(), kUp)); }
+glm::vec3 Camera::right_world() const {
+  return glm::normalize(glm::cross(forward_world(), kUp));
+}
 
-glm::vec3 Camera::up_world() const { return glm::cross(right_world(), forward_world()); }
+glm::vec3 Camera::up_world() const {
+  return glm::cross(right_world(), forward_world());
+}
 
 glm::mat4 Camera::clip_from_world(float aspect) const {
   const glm::mat4 projection = glm::perspective(kFieldOfView_rad, aspect, 0.05f * distance_m, 20.0f * distance_m);
@@ -41,7 +47,9 @@ void Camera::pan(float right, float up) {
   target_world_m -= height_m * (right * right_world() + up * up_world());
 }
 
-void Camera::zoom(float factor) { distance_m = std::clamp(distance_m * factor, 0.02f, 20.0f); }
+void Camera::zoom(float factor) {
+  distance_m = std::clamp(distance_m * factor, 0.02f, 20.0f);
+}
 
 namespace {
 

@@ -24,10 +24,14 @@ struct Range {
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
-    if (c == '&') out += "&amp;";
-    else if (c == '<') out += "&lt;";
-    else if (c == '>') out += "&gt;";
-    else out += c;
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else
+      out += c;
   }
   return out;
 }
@@ -69,20 +73,23 @@ std::string frame_svg(const Chart& chart, const Axes& axes) {
     svg += fmt::format(R"(<line x1="{}" y1="{:.1f}" x2="{}" y2="{:.1f}" stroke="#dddddd"/>)", kLeft, axes.py(y),
                        kWidth - kRight, axes.py(y));
     svg += fmt::format(R"(<text x="{}" y="{:.1f}" text-anchor="end">{}</text>)", kLeft - 8, axes.py(y) + 4,
-                       tick_text(y, y_step)) + "\n";
+                       tick_text(y, y_step)) +
+           "\n";
   }
   for (const double x : axes.x_ticks) {
     svg += fmt::format(R"(<line x1="{:.1f}" y1="{}" x2="{:.1f}" y2="{}" stroke="#dddddd"/>)", axes.px(x), kTop,
                        axes.px(x), kHeight - kBottom);
     svg += fmt::format(R"(<text x="{:.1f}" y="{}" text-anchor="middle">{}</text>)", axes.px(x), kHeight - kBottom + 18,
-                       tick_text(x, x_step)) + "\n";
+                       tick_text(x, x_step)) +
+           "\n";
   }
   svg += fmt::format(R"(<text x="{}" y="28" font-size="16" font-weight="bold">{}</text>)", kLeft, escaped(chart.title));
   svg += fmt::format(R"(<text x="{}" y="{}" text-anchor="middle">{}</text>)", 0.5 * (kLeft + kWidth - kRight),
                      kHeight - 18, escaped(chart.x_label));
   const double middle = 0.5 * (kTop + kHeight - kBottom);
-  svg += fmt::format(R"svg(<text x="22" y="{0}" text-anchor="middle" transform="rotate(-90 22 {0})">{1}</text>)svg", middle,
-                     escaped(chart.y_label)) + "\n";
+  svg += fmt::format(R"svg(<text x="22" y="{0}" text-anchor="middle" transform="rotate(-90 22 {0})">{1}</text>)svg",
+                     middle, escaped(chart.y_label)) +
+         "\n";
   return svg;
 }
 
@@ -126,9 +133,11 @@ std::string line_chart_svg(const Chart& chart) {
   const Range x = range_of(chart, &ChartSeries::x);
   const Range y = range_of(chart, &ChartSeries::y);
   const Axes axes{round_ticks(x.lowest, x.highest, 6), round_ticks(y.lowest, y.highest, 6)};
-  std::string svg = fmt::format(
-      R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="{1}" viewBox="0 0 {0} {1}" font-family="sans-serif" font-size="12" fill="#222222"><rect width="100%" height="100%" fill="white"/>)",
-      kWidth, kHeight) + "\n";
+  std::string svg =
+      fmt::format(
+          R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="{1}" viewBox="0 0 {0} {1}" font-family="sans-serif" font-size="12" fill="#222222"><rect width="100%" height="100%" fill="white"/>)",
+          kWidth, kHeight) +
+      "\n";
   svg += frame_svg(chart, axes);
   for (std::size_t i = 0; i < chart.series.size(); ++i) {
     svg += series_svg(chart.series[i], axes, kColours[i % kColours.size()], kTop + 16 + 18 * static_cast<double>(i));

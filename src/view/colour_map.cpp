@@ -23,7 +23,8 @@ glm::vec3 cividis(double level) {
   glm::vec3 colour;
   for (int k = 0; k < 3; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    colour[k] = ((1.0f - s) * static_cast<float>(kStops[below][i]) + s * static_cast<float>(kStops[below + 1][i])) / 255.0f;
+    colour[k] =
+        ((1.0f - s) * static_cast<float>(kStops[below][i]) + s * static_cast<float>(kStops[below + 1][i])) / 255.0f;
   }
   return colour;
 }

@@ -44,9 +44,13 @@ GlProgram::GlProgram(const std::string& name) {
   if (linked != GL_TRUE) throw Error(ExitStatus::Internal, "shaders/" + name + ": does not link");
 }
 
-GlProgram::~GlProgram() { glDeleteProgram(program_); }
+GlProgram::~GlProgram() {
+  glDeleteProgram(program_);
+}
 
-void GlProgram::use() const { glUseProgram(program_); }
+void GlProgram::use() const {
+  glUseProgram(program_);
+}
 
 void GlProgram::set(const char* uniform, const glm::mat4& value) const {
   glUniformMatrix4fv(glGetUniformLocation(program_, uniform), 1, GL_FALSE, &value[0][0]);

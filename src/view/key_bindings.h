@@ -7,7 +7,20 @@ namespace myotact::view {
 
 /// What a key does. One table makes the handler and the help, so that they cannot disagree.
 enum class KeyAction {
-  Help, PauseOrPlay, Step, Reset, Lateral, Medial, Cranial, Caudal, Dorsal, Palmar, FrameAll, GrabLine, StopForces, Screenshot
+  Help,
+  PauseOrPlay,
+  Step,
+  Reset,
+  Lateral,
+  Medial,
+  Cranial,
+  Caudal,
+  Dorsal,
+  Palmar,
+  FrameAll,
+  GrabLine,
+  StopForces,
+  Screenshot
 };
 
 struct KeyBinding {

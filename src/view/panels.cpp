@@ -107,7 +107,8 @@ void draw_help() {
     ImGui::Text("%-10s %s", std::string(binding.name).c_str(), std::string(binding.what).c_str());
   }
   ImGui::Separator();
-  ImGui::TextUnformatted("left drag     orbit\nright drag    pan\nwheel         zoom\nCtrl + mouse  the hand; wheel: depth");
+  ImGui::TextUnformatted(
+      "left drag     orbit\nright drag    pan\nwheel         zoom\nCtrl + mouse  the hand; wheel: depth");
   ImGui::End();
 }
 
@@ -126,13 +127,14 @@ void update_plots(const messages::SceneFrame& frame, PanelState& state) {
 }  // namespace
 
 void draw_panels(const anatomy::Specimen& specimen, const messages::SceneFrame& frame, PanelState& state,
-                  ViewControls& controls) {
+                 ViewControls& controls) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   update_plots(frame, state);
   ImGui::SetNextWindowPos(ImVec2(display.x - kPanelWidth, 0));
   ImGui::SetNextWindowSize(ImVec2(kPanelWidth, display.y));
-  ImGui::Begin("Myotact", nullptr,
-               ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar);
+  ImGui::Begin(
+      "Myotact", nullptr,
+      ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar);
   draw_play(controls);
   ImGui::Separator();
   draw_sliders(controls);

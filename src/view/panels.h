@@ -15,12 +15,12 @@ struct PanelState {
   Plot stiffness{"joint stiffness [N m/rad]", 1.0};
   Plot force{"tool force [N]", 1.0};
   double device_peak_N = 3.3;
-  int joint = 0;      // shown in the plots
+  int joint = 0;  // shown in the plots
   bool help = false;
 };
 
 /// Panel at the right: play, sliders, muscles, plots, rates. Draws with ImGui; call between its NewFrame and Render.
 void draw_panels(const anatomy::Specimen& specimen, const messages::SceneFrame& frame, PanelState& state,
-                  ViewControls& controls);
+                 ViewControls& controls);
 
 }  // namespace myotact::view

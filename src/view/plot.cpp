@@ -20,12 +20,14 @@ constexpr ImU32 kText = IM_COL32(205, 208, 214, 255);
 void Plot::add(double time_s, double value) {
   if (!samples_.empty() && time_s <= samples_.back().time_s) return;
   samples_.push_back({time_s, value});
-  const auto old = std::find_if(samples_.begin(), samples_.end(),
-                                [&](const Sample& s) { return s.time_s > time_s - kWindow_s; });
+  const auto old =
+      std::find_if(samples_.begin(), samples_.end(), [&](const Sample& s) { return s.time_s > time_s - kWindow_s; });
   samples_.erase(samples_.begin(), old);
 }
 
-void Plot::clear() { samples_.clear(); }
+void Plot::clear() {
+  samples_.clear();
+}
 
 void Plot::draw(float height) const {
   double lowest = 0.0, highest = 0.0;

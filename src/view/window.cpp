@@ -86,13 +86,20 @@ class ImGuiSession {
 
 const char* view_of(KeyAction action) {
   switch (action) {
-    case KeyAction::Lateral: return "lateral";
-    case KeyAction::Medial: return "medial";
-    case KeyAction::Cranial: return "cranial";
-    case KeyAction::Caudal: return "caudal";
-    case KeyAction::Dorsal: return "dorsal";
-    case KeyAction::Palmar: return "palmar";
-    default: return nullptr;
+    case KeyAction::Lateral:
+      return "lateral";
+    case KeyAction::Medial:
+      return "medial";
+    case KeyAction::Cranial:
+      return "cranial";
+    case KeyAction::Caudal:
+      return "caudal";
+    case KeyAction::Dorsal:
+      return "dorsal";
+    case KeyAction::Palmar:
+      return "palmar";
+    default:
+      return nullptr;
   }
 }
 
@@ -116,15 +123,32 @@ struct Window::Impl {
 
   void act(KeyAction action) {
     switch (action) {
-      case KeyAction::Help: panels.help = !panels.help; return;
-      case KeyAction::PauseOrPlay: controls.paused = !controls.paused; return;
-      case KeyAction::Step: ++controls.steps; return;
-      case KeyAction::Reset: ++controls.resets; return;
-      case KeyAction::FrameAll: look("lateral"); return;
-      case KeyAction::StopForces: controls.forces_off = !controls.forces_off; return;
-      case KeyAction::Screenshot: screenshot = "myotact.png"; return;
-      case KeyAction::GrabLine: return;  // held: read in move_hand()
-      default: look(view_of(action)); return;
+      case KeyAction::Help:
+        panels.help = !panels.help;
+        return;
+      case KeyAction::PauseOrPlay:
+        controls.paused = !controls.paused;
+        return;
+      case KeyAction::Step:
+        ++controls.steps;
+        return;
+      case KeyAction::Reset:
+        ++controls.resets;
+        return;
+      case KeyAction::FrameAll:
+        look("lateral");
+        return;
+      case KeyAction::StopForces:
+        controls.forces_off = !controls.forces_off;
+        return;
+      case KeyAction::Screenshot:
+        screenshot = "myotact.png";
+        return;
+      case KeyAction::GrabLine:
+        return;  // held: read in move_hand()
+      default:
+        look(view_of(action));
+        return;
     }
   }
 
@@ -153,7 +177,8 @@ struct Window::Impl {
       move_hand(io.MouseDelta, io.MouseWheel);
       return;
     }
-    if (ImGui::IsMouseDragging(ImGuiMouseButton_Left, 0.0f)) camera.orbit(-0.008f * io.MouseDelta.x, 0.008f * io.MouseDelta.y);
+    if (ImGui::IsMouseDragging(ImGuiMouseButton_Left, 0.0f))
+      camera.orbit(-0.008f * io.MouseDelta.x, 0.008f * io.MouseDelta.y);
     if (ImGui::IsMouseDragging(ImGuiMouseButton_Right, 0.0f)) {
       camera.pan(io.MouseDelta.x / io.DisplaySize.y, -io.MouseDelta.y / io.DisplaySize.y);
     }
@@ -185,9 +210,13 @@ Window::Window(const anatomy::Specimen& specimen, const WindowSettings& settings
 
 Window::~Window() = default;
 
-bool Window::should_close() const { return glfwWindowShouldClose(impl_->window.get()) == GLFW_TRUE; }
+bool Window::should_close() const {
+  return glfwWindowShouldClose(impl_->window.get()) == GLFW_TRUE;
+}
 
-void Window::save_next_picture(const std::filesystem::path& path) { impl_->screenshot = path; }
+void Window::save_next_picture(const std::filesystem::path& path) {
+  impl_->screenshot = path;
+}
 
 const ViewControls& Window::draw(const messages::SceneFrame& frame) {
   glfwPollEvents();

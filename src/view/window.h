@@ -15,9 +15,9 @@ struct WindowSettings {
   std::string title = "Myotact";
   int width = 1280, height = 800;
   double device_peak_N = 3.3;
-  int joint = 0;                                // shown in the plots
-  ViewControls start;                           // what the sliders show at first
-  std::array<double, 3> hand_start_world_m{};   // where the mouse takes the hand up
+  int joint = 0;                               // shown in the plots
+  ViewControls start;                          // what the sliders show at first
+  std::array<double, 3> hand_start_world_m{};  // where the mouse takes the hand up
 };
 
 /// The window: scene, panels, mouse and keys. Everything on the thread that made it.

@@ -54,14 +54,15 @@ TEST_F(BadInput, WrongTypesNameTheirPointer) {
 TEST_F(BadInput, UnknownMuscleNamesTheNearest) {
   const Outcome outcome = run_program(
       "run " +
-      scene(R"({"schema": 1, "name": "x", "specimen": "canine_forelimb", "activations": {"biceps_brachi": 1}})") + out());
+      scene(R"({"schema": 1, "name": "x", "specimen": "canine_forelimb", "activations": {"biceps_brachi": 1}})") +
+      out());
   EXPECT_EQ(outcome.status, 65);
   EXPECT_THAT(outcome.output, HasSubstr("nearest is \"biceps_brachii\""));
 }
 
 TEST_F(BadInput, EmptySpecimenFolderIsNoInput) {
-  const Outcome outcome =
-      run_program("run " + scene(R"({"schema": 1, "name": "x", "specimen": ")" + folder_.path().string() + R"("})") + out());
+  const Outcome outcome = run_program(
+      "run " + scene(R"({"schema": 1, "name": "x", "specimen": ")" + folder_.path().string() + R"("})") + out());
   EXPECT_EQ(outcome.status, 66);
   EXPECT_THAT(outcome.output, HasSubstr("specimen.json is missing"));
 }

@@ -6,8 +6,8 @@
 namespace myotact::testing {
 
 struct Outcome {
-  int status = -1;      // exit status, or 128 + signal
-  std::string output;   // standard output and standard error together
+  int status = -1;     // exit status, or 128 + signal
+  std::string output;  // standard output and standard error together
 };
 
 /// Runs the program with a shell, so that arguments may hold redirections and variables may stand before them.

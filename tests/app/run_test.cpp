@@ -20,7 +20,9 @@ std::string content(const std::filesystem::path& path) {
   return text.str();
 }
 
-std::string at(const TemporaryFolder& folder, const std::string& name) { return (folder.path() / name).string(); }
+std::string at(const TemporaryFolder& folder, const std::string& name) {
+  return (folder.path() / name).string();
+}
 
 TEST(Run, SameBytesTwiceAndWithOneAndTwoWorkers) {
   TemporaryFolder folder;

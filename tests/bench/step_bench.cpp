@@ -54,13 +54,10 @@ void time_parts(const anatomy::Specimen& specimen) {
   });
   print("Eigen SimplicialLDLT, numeric factorisation", reference_ms, reference_ms);
   print("factor", for_all([](LimbMuscle& m) { m.factor.factor(m.system.matrix); }), reference_ms);
-  print("forces", for_all([&](LimbMuscle& m) {
-          compute_forces(m.tissue, limb.skeleton, load, m.state, m.system);
-        }),
+  print("forces", for_all([&](LimbMuscle& m) { compute_forces(m.tissue, limb.skeleton, load, m.state, m.system); }),
         reference_ms);
-  print("forces and tangent", for_all([&](LimbMuscle& m) {
-          compute_system(m.tissue, limb.skeleton, load, m.state, m.system);
-        }),
+  print("forces and tangent",
+        for_all([&](LimbMuscle& m) { compute_system(m.tissue, limb.skeleton, load, m.state, m.system); }),
         reference_ms);
   for (const int columns : {1, 4}) {
     std::vector<Eigen::MatrixXd> right;

@@ -29,7 +29,8 @@ SurfacePlayer::Shape swelling_shape(const TestMesh& ball, const Swelling& swelli
     std::vector<Vec3> vertices_m = ball.vertices_m;
     for (Vec3& v : vertices_m) {
       const Vec3 way = v.normalized();
-      const double bump_m = 1.5e-3 * std::sin(9.0 * way.x() + 2.0 * wave) * std::sin(7.0 * way.y()) * std::cos(8.0 * way.z());
+      const double bump_m =
+          1.5e-3 * std::sin(9.0 * way.x() + 2.0 * wave) * std::sin(7.0 * way.y()) * std::cos(8.0 * way.z());
       v += (swelling.amplitude_m * wave + bump_m) * way;
     }
     return vertices_m;
@@ -91,7 +92,8 @@ TEST(ProxyApproach, NeverFallsThroughASwellingSurface) {
   RecordProperty("tick_p99_ns", std::to_string(tick.p99_ns));
   std::printf("ticks %lu rescues %lu short of goal %lu; tick p50 %.1f p99 %.1f p99.9 %.1f  max %.1f us\n", tally.ticks,
               tally.rescues, tally.over_budget, 1e-3 * static_cast<double>(tick.p50_ns),
-              1e-3 * static_cast<double>(tick.p99_ns), 1e-3 * static_cast<double>(tick.p999_ns), 1e-3 * static_cast<double>(tick.max_ns));
+              1e-3 * static_cast<double>(tick.p99_ns), 1e-3 * static_cast<double>(tick.p999_ns),
+              1e-3 * static_cast<double>(tick.max_ns));
 }
 
 }  // namespace

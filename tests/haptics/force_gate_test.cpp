@@ -121,9 +121,15 @@ TEST(ForceGate, AStaleModelFadesFromThirtyMillisecondsToZeroAtAHundred) {
   double last_N = 1.0;
   for (int age_ms = 1; age_ms <= 120; ++age_ms) {
     const double sent_N = rig.tick(Vec3(1, 0, 0)).norm();
-    if (age_ms <= 30) { EXPECT_NEAR(sent_N, 1.0, 1e-12); }
-    if (age_ms == 65) { EXPECT_NEAR(sent_N, 0.5, 0.02); }
-    if (age_ms >= 100) { EXPECT_EQ(sent_N, 0.0); }
+    if (age_ms <= 30) {
+      EXPECT_NEAR(sent_N, 1.0, 1e-12);
+    }
+    if (age_ms == 65) {
+      EXPECT_NEAR(sent_N, 0.5, 0.02);
+    }
+    if (age_ms >= 100) {
+      EXPECT_EQ(sent_N, 0.0);
+    }
     EXPECT_LE(sent_N, last_N + 1e-12);
     last_N = sent_N;
   }
@@ -171,7 +177,9 @@ TEST(ForceGate, ASpringThatGivesBackWhatItTookIsLeftAlone) {
     const double depth_m = std::max(0.0, x_m);
     const Vec3 wanted_N(-800.0 * depth_m, 0, 0);
     const Vec3 sent_N = rig.tick(wanted_N, Vec3(x_m, 0, 0));
-    if (i > 10) { ASSERT_NEAR(sent_N.x(), wanted_N.x(), 1e-9) << i; }
+    if (i > 10) {
+      ASSERT_NEAR(sent_N.x(), wanted_N.x(), 1e-9) << i;
+    }
   }
 }
 
@@ -191,7 +199,9 @@ TEST(ForceGate, WhateverComesTheForceIsFiniteAndWithinThePeak) {
     const Vec3 sent_N = rig.tick(wanted_N, position_m);
     ASSERT_TRUE(sent_N.allFinite());
     ASSERT_LE(sent_N.norm(), kPeak_N + 1e-12);
-    if ((rig.gate.faults() & bit(Fault::EnergyInjected)) == 0) { ASSERT_LE(sent_N.norm(), last_N + kSlewPerTick_N + 1e-9); }
+    if ((rig.gate.faults() & bit(Fault::EnergyInjected)) == 0) {
+      ASSERT_LE(sent_N.norm(), last_N + kSlewPerTick_N + 1e-9);
+    }
     last_N = sent_N.norm();
   }
 }

@@ -9,11 +9,11 @@
 
 #include "device/replay_device.h"
 #include "device/simulated_device.h"
+#include "effort.h"
 #include "haptics/faults.h"
 #include "haptics/haptic_thread.h"
 #include "realtime/periodic_loop.h"
 #include "support/allocation_guard.h"
-#include "effort.h"
 #include "surfaces.h"
 
 namespace myotact::haptics {
@@ -40,7 +40,8 @@ class Scene {
   void publish() {
     for (std::size_t i = 0; i < plane_.vertices_m.size(); ++i) previous_m_[i] = current_m_[i];
     const double height_m = swing_m_ * std::sin(3e-9 * static_cast<double>(now_ns_));
-    for (std::size_t i = 0; i < plane_.vertices_m.size(); ++i) current_m_[i] = plane_.vertices_m[i] + Vec3(0, 0, height_m);
+    for (std::size_t i = 0; i < plane_.vertices_m.size(); ++i)
+      current_m_[i] = plane_.vertices_m[i] + Vec3(0, 0, height_m);
     messages::LocalModel& model = loop.models().back();
     write_patch(plane_, previous_m_, current_m_, to_vec3(loop.tool_state().proxy_position_world_m), model);
     model.sequence = ++sequence_;
@@ -83,7 +84,8 @@ TEST(HapticLoop, ATickNeverAllocates) {
   int grabs = 0;
   for (int tick = 0; tick < 1000 * kEffort; ++tick) {
     const bool grab = tick % 1000 > 700;
-    scene.device.set_hand_target({{5e-3 * std::sin(0.003 * tick), 0, grab ? 0.02 : -0.005}, {}, grab ? messages::kGrabButton : 0});
+    scene.device.set_hand_target(
+        {{5e-3 * std::sin(0.003 * tick), 0, grab ? 0.02 : -0.005}, {}, grab ? messages::kGrabButton : 0});
     const support::AllocationGuard guard;
     scene.tick();
     allocations += guard.allocations();

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "haptics/haptic_loop.h"
 #include "effort.h"
+#include "haptics/haptic_loop.h"
 #include "surface_player.h"
 
 namespace myotact::haptics {
@@ -21,14 +21,19 @@ ContactSettings settings_with(double friction) {
 /// A plane that moves as a whole by `offset(t)`.
 SurfacePlayer plane_player(const ContactSettings& settings, std::function<Vec3(double)> offset) {
   const TestMesh plane = make_plane(0.06, 12);
-  return SurfacePlayer(plane, [plane, offset](double t) {
-    std::vector<Vec3> vertices_m = plane.vertices_m;
-    for (Vec3& v : vertices_m) v += offset(t);
-    return vertices_m;
-  }, settings);
+  return SurfacePlayer(
+      plane,
+      [plane, offset](double t) {
+        std::vector<Vec3> vertices_m = plane.vertices_m;
+        for (Vec3& v : vertices_m) v += offset(t);
+        return vertices_m;
+      },
+      settings);
 }
 
-Vec3 at_rest(double) { return Vec3::Zero(); }
+Vec3 at_rest(double) {
+  return Vec3::Zero();
+}
 
 TEST(Proxy, FollowsTheDeviceThroughFreeSpace) {
   SurfacePlayer player = plane_player(settings_with(0.3), at_rest);
@@ -78,7 +83,8 @@ TEST(Proxy, SlidingRecoversTheFrictionCoefficient) {
       double worst = 0.0;
       const int ticks = static_cast<int>(std::min(120.0 * kEffort, 0.04 / speed_m_s * 1e3));
       for (int tick = 0; tick < ticks; ++tick) {
-        const ProxyGoal goal{Vec3(start_m + speed_m_s * 1e-3 * tick, 1.3e-3, settings.radius_m - depth_m), Vec3(speed_m_s, 0, 0)};
+        const ProxyGoal goal{Vec3(start_m + speed_m_s * 1e-3 * tick, 1.3e-3, settings.radius_m - depth_m),
+                             Vec3(speed_m_s, 0, 0)};
         player.tick(goal);
         if (speed_m_s * 1e-3 * tick < 1.2 * mu * depth_m) continue;  // the string of the coupling is still being drawn
         const Vec3 force_N = coupling_force_N(player.proxy, goal, settings);
@@ -105,7 +111,9 @@ TEST(Proxy, SticksUntilTheForceLeavesTheCone) {
 
 TEST(Proxy, SticksToMovingTissueWithoutDrift) {
   const ContactSettings settings = settings_with(0.6);
-  const auto swing = [](double t) { return Vec3(4e-3 * std::sin(2 * std::numbers::pi * 2.0 * t), 0, 1e-3 * std::sin(9.0 * t)); };
+  const auto swing = [](double t) {
+    return Vec3(4e-3 * std::sin(2 * std::numbers::pi * 2.0 * t), 0, 1e-3 * std::sin(9.0 * t));
+  };
   SurfacePlayer player = plane_player(settings, swing);
   player.tick({Vec3(0, 0, 0.01), Vec3::Zero()});
   Vec3 first_m = Vec3::Zero();
@@ -113,7 +121,8 @@ TEST(Proxy, SticksToMovingTissueWithoutDrift) {
     // The hand rides on the tissue, 3 mm deep, and trembles by 0.2 mm at 9 Hz.
     const Vec3 tremor_m(0.2e-3 * std::sin(2 * std::numbers::pi * 9.0 * player.time_s()), 0, 0);
     player.tick({swing(player.time_s() + 1e-3) + tremor_m, Vec3::Zero()});
-    const Vec3 relative_m = player.proxy.position_m() - (player.surface_now_m()[84] - make_plane(0.06, 12).vertices_m[84]);
+    const Vec3 relative_m =
+        player.proxy.position_m() - (player.surface_now_m()[84] - make_plane(0.06, 12).vertices_m[84]);
     if (tick == 30) first_m = relative_m;
     if (tick < 30) continue;
     ASSERT_LT((relative_m - first_m).norm(), 20e-6) << "tick " << tick;
@@ -153,12 +162,15 @@ TEST(Proxy, AThinSheetStopsAFastPlunge) {
   for (const double speed_m_s : {0.1, 0.5, 2.0}) {
     ContactSettings settings = settings_with(0.2);
     settings.radius_m = 1e-3;
-    SurfacePlayer player(sheet, [&](double) { return sheet.vertices_m; }, settings);
+    SurfacePlayer player(
+        sheet, [&](double) { return sheet.vertices_m; }, settings);
     for (int tick = 0; tick < 250; ++tick) {
       const double height_m = std::max(0.01 - 1e-3 * speed_m_s * tick, -0.012);
       player.tick({Vec3(1e-3, 1.7e-3, height_m), Vec3(0, 0, -speed_m_s)});
       ASSERT_GE(player.proxy.position_m().z(), std::min(height_m, 0.5 * thickness_m + settings.radius_m) - 1e-6);
-      if (height_m < 0.0) { ASSERT_GT(player.proxy.position_m().z(), 0.5 * thickness_m + 0.999 * settings.radius_m); }
+      if (height_m < 0.0) {
+        ASSERT_GT(player.proxy.position_m().z(), 0.5 * thickness_m + 0.999 * settings.radius_m);
+      }
     }
     EXPECT_EQ(player.proxy.counters().rescues, 0u);
   }
@@ -169,7 +181,8 @@ TEST(Proxy, RestsInAGrooveOnBothSides) {
   const TestMesh groove = make_groove(half_angle_rad, 0.08, 16);
   ContactSettings settings = settings_with(0.0);
   settings.radius_m = 1e-3;
-  SurfacePlayer player(groove, [&](double) { return groove.vertices_m; }, settings);
+  SurfacePlayer player(
+      groove, [&](double) { return groove.vertices_m; }, settings);
   for (int tick = 0; tick < 200; ++tick) player.tick({Vec3(0, 0, 0.03 - 2e-4 * tick), Vec3::Zero()});
   EXPECT_NEAR(player.proxy.position_m().z(), settings.radius_m / std::sin(half_angle_rad), 2e-5);
   EXPECT_NEAR(player.proxy.position_m().x(), 0.0, 1e-6);

@@ -31,7 +31,8 @@ class SurfacePlayer {
 
   /// The surface that the proxy met in the last tick.
   std::vector<Vec3> surface_now_m() const {
-    const double s = std::min(1.0, static_cast<double>(now_ns_ - model_.published_at_ns) / static_cast<double>(step_ns_));
+    const double s =
+        std::min(1.0, static_cast<double>(now_ns_ - model_.published_at_ns) / static_cast<double>(step_ns_));
     std::vector<Vec3> now_m(current_m_.size());
     for (std::size_t i = 0; i < now_m.size(); ++i) now_m[i] = (1.0 - s) * previous_m_[i] + s * current_m_[i];
     return now_m;

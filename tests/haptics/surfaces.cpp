@@ -41,7 +41,8 @@ TestMesh make_groove(double half_angle_rad, double depth_m, int cells) {
   TestMesh mesh;
   const double half_width_m = depth_m * std::tan(half_angle_rad);
   add_grid(mesh, Vec3(0, -0.5 * depth_m, 0), Vec3(half_width_m, 0, depth_m), Vec3(0, depth_m, 0), cells);
-  add_grid(mesh, Vec3(-half_width_m, -0.5 * depth_m, depth_m), Vec3(half_width_m, 0, -depth_m), Vec3(0, depth_m, 0), cells);
+  add_grid(mesh, Vec3(-half_width_m, -0.5 * depth_m, depth_m), Vec3(half_width_m, 0, -depth_m), Vec3(0, depth_m, 0),
+           cells);
   return mesh;
 }
 
@@ -61,17 +62,18 @@ TestMesh make_box(const Vec3& size_m, int cells) {
 TestMesh make_sphere(double radius_m, int levels) {
   const double g = std::numbers::phi;
   TestMesh mesh;
-  mesh.vertices_m = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-                     {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
-  mesh.triangles = {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                    {11, 10, 2}, {10, 7, 6}, {7, 1, 8}, {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8},
-                    {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
+  mesh.vertices_m = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                     {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
+  mesh.triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                    {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                    {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
   for (int level = 0; level < levels; ++level) {
     std::map<std::pair<int, int>, int> middles;
     std::vector<std::array<int, 3>> finer;
     const auto middle = [&](int a, int b) {
       const auto [at, is_new] = middles.try_emplace(std::minmax(a, b), static_cast<int>(mesh.vertices_m.size()));
-      const Vec3 halfway = 0.5 * (mesh.vertices_m[static_cast<std::size_t>(a)] + mesh.vertices_m[static_cast<std::size_t>(b)]);
+      const Vec3 halfway =
+          0.5 * (mesh.vertices_m[static_cast<std::size_t>(a)] + mesh.vertices_m[static_cast<std::size_t>(b)]);
       if (is_new) mesh.vertices_m.push_back(halfway);
       return at->second;
     };
@@ -90,18 +92,24 @@ void write_patch(const TestMesh& mesh, const std::vector<Vec3>& previous_m, cons
   std::vector<double> distances_m;
   for (const auto& triangle : mesh.triangles) {
     const auto distance_m = [&](const std::vector<Vec3>& x) {
-      const auto corner = [&](int i) -> const Vec3& { return x[static_cast<std::size_t>(triangle[static_cast<std::size_t>(i)])]; };
-      return (geometry::closest_point_on_triangle(centre_m, corner(0), corner(1), corner(2)).position_m - centre_m).norm();
+      const auto corner = [&](int i) -> const Vec3& {
+        return x[static_cast<std::size_t>(triangle[static_cast<std::size_t>(i)])];
+      };
+      return (geometry::closest_point_on_triangle(centre_m, corner(0), corner(1), corner(2)).position_m - centre_m)
+          .norm();
     };
     double motion_m = 0.0;
     for (const int v : triangle) {
-      motion_m = std::max(motion_m, (current_m[static_cast<std::size_t>(v)] - previous_m[static_cast<std::size_t>(v)]).norm());
+      motion_m =
+          std::max(motion_m, (current_m[static_cast<std::size_t>(v)] - previous_m[static_cast<std::size_t>(v)]).norm());
     }
     distances_m.push_back(std::min(distance_m(previous_m), distance_m(current_m)) - motion_m);
   }
   std::vector<int> order(mesh.triangles.size());
   std::iota(order.begin(), order.end(), 0);
-  const auto nearer = [&](int a, int b) { return distances_m[static_cast<std::size_t>(a)] < distances_m[static_cast<std::size_t>(b)]; };
+  const auto nearer = [&](int a, int b) {
+    return distances_m[static_cast<std::size_t>(a)] < distances_m[static_cast<std::size_t>(b)];
+  };
   const std::size_t kept = std::min<std::size_t>(order.size(), messages::kMaxLocalTriangles + 1);
   std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(kept), order.end(), nearer);
   std::vector<int> local(mesh.vertices_m.size(), -1);
@@ -111,7 +119,8 @@ void write_patch(const TestMesh& mesh, const std::vector<Vec3>& previous_m, cons
   model.coverage_radius_m = 0.25;
   for (const int t : order) {
     const auto& triangle = mesh.triangles[static_cast<std::size_t>(t)];
-    const auto fresh = std::count_if(triangle.begin(), triangle.end(), [&](int v) { return local[static_cast<std::size_t>(v)] < 0; });
+    const auto fresh =
+        std::count_if(triangle.begin(), triangle.end(), [&](int v) { return local[static_cast<std::size_t>(v)] < 0; });
     const bool fits = model.triangle_count < messages::kMaxLocalTriangles &&
                       model.vertex_count + static_cast<int>(fresh) <= messages::kMaxLocalVertices;
     if (!fits) {

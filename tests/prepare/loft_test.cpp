@@ -15,11 +15,17 @@ namespace {
 const std::filesystem::path kAssets = std::filesystem::path(MYOTACT_SOURCE_DIR) / "assets" / "canine";
 
 /// Volumes of the measured meshes [cm^3]. Ellipses and eight harmonics lose grooves and slips: 10 % are allowed.
-const std::map<std::string, double> kMeasured_cm3 = {
-    {"biceps_brachii", 29.6},        {"brachialis", 8.7},           {"triceps_brachii_long", 97.8},
-    {"triceps_brachii_lateral", 81.3}, {"triceps_brachii_medial", 31.6}, {"triceps_brachii_accessory", 17.3},
-    {"anconeus", 2.2},               {"scapula", 81.3},             {"humerus", 57.4},
-    {"radius", 30.1},                {"ulna", 27.0}};
+const std::map<std::string, double> kMeasured_cm3 = {{"biceps_brachii", 29.6},
+                                                     {"brachialis", 8.7},
+                                                     {"triceps_brachii_long", 97.8},
+                                                     {"triceps_brachii_lateral", 81.3},
+                                                     {"triceps_brachii_medial", 31.6},
+                                                     {"triceps_brachii_accessory", 17.3},
+                                                     {"anconeus", 2.2},
+                                                     {"scapula", 81.3},
+                                                     {"humerus", 57.4},
+                                                     {"radius", 30.1},
+                                                     {"ulna", 27.0}};
 
 void expect_sound(const std::vector<NamedSurface>& surfaces, int& measured) {
   for (const NamedSurface& surface : surfaces) {

@@ -25,7 +25,10 @@ TEST(BoundedFifo, ThreadsPassEveryValueInOrder) {
   BoundedFifo<int> fifo(16);
   std::thread writer([&] {
     for (int value = 1; value <= kValues;) {
-      if (fifo.push(value)) ++value; else std::this_thread::yield();
+      if (fifo.push(value))
+        ++value;
+      else
+        std::this_thread::yield();
     }
   });
   int wrong = 0;

@@ -6,7 +6,9 @@ namespace myotact::scene {
 namespace {
 
 /// Flexor 0 of at most 2 N m, extensor 1 of at most -5 N m, each with 0.1 N m of passive pull, torque linear in level.
-TorqueTable two_muscles() { return {{0.0, 0.5, 1.0}, {{0.1, 1.05, 2.0}, {-0.1, -2.55, -5.0}}}; }
+TorqueTable two_muscles() {
+  return {{0.0, 0.5, 1.0}, {{0.1, 1.05, 2.0}, {-0.1, -2.55, -5.0}}};
+}
 
 CoContraction set_of(double common, double difference = 0.0) {
   CoContraction set;

@@ -1,12 +1,11 @@
 #include "scene/scene_file.h"
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <functional>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "core/error.h"
 #include "core/file.h"
@@ -57,7 +56,9 @@ TEST_F(SceneFile, FillsDefaultsAndResolvesNames) {
   EXPECT_DOUBLE_EQ(scene.activations[static_cast<std::size_t>(anatomy::find_muscle(scene.specimen, "extensor"))], 0.25);
 }
 
-TEST_F(SceneFile, OverridesReplaceKeys) { EXPECT_DOUBLE_EQ(parse("", {{"dt_s", "0.005"}}).settings.dt_s, 0.005); }
+TEST_F(SceneFile, OverridesReplaceKeys) {
+  EXPECT_DOUBLE_EQ(parse("", {{"dt_s", "0.005"}}).settings.dt_s, 0.005);
+}
 
 TEST_F(SceneFile, OverridesMustBeText) {
   try {
@@ -70,7 +71,8 @@ TEST_F(SceneFile, OverridesMustBeText) {
 
 TEST_F(SceneFile, ErrorsNamePlaceAndNearestWord) {
   EXPECT_THAT(complaint(R"(, "activations": {"flexer": 1})"), HasSubstr("nearest is \"flexor\""));
-  EXPECT_THAT(complaint(R"(, "activations": {"flexor": 2})"), HasSubstr("/activations/flexor: is 2; must be between 0"));
+  EXPECT_THAT(complaint(R"(, "activations": {"flexor": 2})"),
+              HasSubstr("/activations/flexor: is 2; must be between 0"));
   EXPECT_THAT(complaint(R"(, "activation": {})"), HasSubstr("nearest known one is \"activations\""));
   EXPECT_THAT(complaint(R"(, "dt_s": "fast")"), HasSubstr("/dt_s"));
   EXPECT_THAT(complaint(R"(, "script": [{"t_s": 0, "do": "tuch"}])"), HasSubstr("nearest: \"touch\""));
@@ -81,10 +83,14 @@ TEST_F(SceneFile, ErrorsNamePlaceAndNearestWord) {
 }
 
 TEST_F(SceneFile, MissingThingsAreNoInput) {
-  for (const auto& make : {std::function<void()>([&] { load_scene("elbo"); }),
-                           std::function<void()>([&] { load_scene(std::string(5000, 'a')); }),
-                           std::function<void()>([&] { parse("", {{"specimen", std::string(5000, 'a')}}); }),
-                           std::function<void()>([&] { parse("", {{"specimen", "nowhere"}}); })}) {
+  for (const auto& make :
+       {std::function<void()>([&] { load_scene("elbo"); }),
+        std::function<void()>([&] { load_scene(std::string(5000, 'a')); }), std::function<void()>([&] {
+          parse("", {{"specimen", std::string(5000, 'a')}});
+        }),
+        std::function<void()>([&] {
+          parse("", {{"specimen", "nowhere"}});
+        })}) {
     try {
       make();
       FAIL() << "no error";

@@ -20,7 +20,8 @@ messages::SceneFrame frame_of(const anatomy::Specimen& specimen, double activati
   for (const auto& muscle : specimen.muscles) {
     frame.skins_world_m.emplace_back();
     for (const Vec3& p : muscle.skin.positions_m) {
-      frame.skins_world_m.back().push_back({static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())});
+      frame.skins_world_m.back().push_back(
+          {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())});
     }
     frame.activations.push_back(activation);
     frame.tensions_N.push_back(0.0);
@@ -38,7 +39,8 @@ class Offscreen : public ::testing::Test {
     }
   }
   Image picture(double activation, const char* view) {
-    return renderer_->render(frame_of(specimen_, activation), *standard_view(view, true, bounds_of(specimen_), 4.0f / 3.0f));
+    return renderer_->render(frame_of(specimen_, activation),
+                             *standard_view(view, true, bounds_of(specimen_), 4.0f / 3.0f));
   }
   static std::size_t different_pixels(const Image& a, const Image& b) {
     std::size_t count = 0;
@@ -55,7 +57,8 @@ class Offscreen : public ::testing::Test {
 TEST_F(Offscreen, PictureIsNotBlank) {
   const Image image = picture(0.0, "lateral");
   std::set<std::array<std::uint8_t, 3>> colours;
-  for (std::size_t i = 0; i < image.rgb.size(); i += 3) colours.insert({image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]});
+  for (std::size_t i = 0; i < image.rgb.size(); i += 3)
+    colours.insert({image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]});
   EXPECT_GT(colours.size(), 50u);
 }
 

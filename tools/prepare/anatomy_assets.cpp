@@ -17,8 +17,8 @@ int index_of(const JsonValue& name, const std::vector<Part>& parts, const char* 
   for (std::size_t i = 0; i < keys.size(); ++i) {
     if (keys[i] == key) return static_cast<int>(i);
   }
-  throw name.error(fmt::format("names the {} \"{}\" that is not there; the nearest is \"{}\"", kind, key,
-                               nearest_word(key, keys)));
+  throw name.error(
+      fmt::format("names the {} \"{}\" that is not there; the nearest is \"{}\"", kind, key, nearest_word(key, keys)));
 }
 
 anatomy::Body read_body(const JsonValue& value) {
@@ -46,8 +46,8 @@ anatomy::Joint read_joint(const JsonValue& value, const AnatomyData& data) {
   JsonObject fields(value);
   anatomy::Joint joint;
   joint.key = fields.at("key").string();
-  joint.type = fields.at("type").one_of({"hinge", "weld"}) == "hinge" ? anatomy::JointType::Hinge
-                                                                     : anatomy::JointType::Weld;
+  joint.type =
+      fields.at("type").one_of({"hinge", "weld"}) == "hinge" ? anatomy::JointType::Hinge : anatomy::JointType::Weld;
   joint.parent = index_of(fields.at("parent"), data.bodies, "body");
   joint.child = index_of(fields.at("child"), data.bodies, "body");
   joint.centre_m = fields.at("centre_m").vec3();

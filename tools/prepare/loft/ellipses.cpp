@@ -22,8 +22,8 @@ Vec3 centre_at(const std::vector<Ellipse>& ellipses, std::size_t i, double s) {
   };
   const auto k = static_cast<std::ptrdiff_t>(i);
   const Vec3 a = point(k - 1), b = point(k), c = point(k + 1), d = point(k + 2);
-  return 0.5 * (2.0 * b + s * (c - a) + s * s * (2.0 * a - 5.0 * b + 4.0 * c - d) +
-                s * s * s * (3.0 * b - 3.0 * c + d - a));
+  return 0.5 *
+         (2.0 * b + s * (c - a) + s * s * (2.0 * a - 5.0 * b + 4.0 * c - d) + s * s * s * (3.0 * b - 3.0 * c + d - a));
 }
 
 /// The ellipses again, closer together: centres on a spline, shapes between neighbours.
