@@ -38,7 +38,8 @@ PeriodicLoop::Wake PeriodicLoop::wait() noexcept {
   do {
     wake.now_ns = steady_now_ns();
   } while (wake.now_ns < deadline_ns_);
-  wake.missed = (wake.now_ns - deadline_ns_) / period_ns_;
+  const std::uint64_t behind = (wake.now_ns - deadline_ns_) / period_ns_;
+  wake.missed = behind > catch_up_ ? behind - catch_up_ : 0;
   deadline_ns_ += (wake.missed + 1) * period_ns_;
   return wake;
 }

@@ -159,7 +159,7 @@ void BlockFactor::make_fronts(const std::vector<std::vector<int>>& neighbours) {
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
     Front& front = fronts_[f];
     const std::size_t size = 3 * front.nodes.size();
-    values_.emplace_back(3 * at(front.own) * (size + kFrontPadding), 0.0);
+    values_.emplace_back(3 * at(front.own) * (size + kFrontPadding), 0.0F);
     largest_front_ = std::max(largest_front_, size);
     largest_rest_ = std::max(largest_rest_, size - 3 * at(front.own));
     if (at(front.own) == front.nodes.size()) continue;
@@ -220,7 +220,7 @@ void BlockFactor::reserve(Workspace& work) const {
 DenseFront BlockFactor::kept(std::size_t f) const {
   const int size = 3 * static_cast<int>(fronts_[f].nodes.size());
   // The values are this object's own; const callers only read them.
-  return {const_cast<double*>(values_[f].data()), nullptr, size + kFrontPadding, size, 3 * fronts_[f].own};
+  return {const_cast<float*>(values_[f].data()), nullptr, size + kFrontPadding, size, 3 * fronts_[f].own};
 }
 
 /// Adds the matrix's own blocks.
@@ -228,23 +228,24 @@ void BlockFactor::add_entries(std::size_t f, const double* values, const DenseFr
   for (const Entry& entry : entries_[f]) {
     const double* block = values + entry.slot.base;
     for (int j = 0; j < 3; ++j) {
-      double* column = to.column(3 * entry.column + j) + 3 * entry.row;
+      float* column = to.column(3 * entry.column + j) + 3 * entry.row;
       for (int i = 0; i < 3; ++i) {
-        column[i] += entry.transposed ? block[i * entry.slot.stride + j] : block[j * entry.slot.stride + i];
+        column[i] +=
+            static_cast<float>(entry.transposed ? block[i * entry.slot.stride + j] : block[j * entry.slot.stride + i]);
       }
     }
   }
 }
 
 /// Adds a child's packed lower triangle, column after column.
-void BlockFactor::add_remainder(const Front& child, const double* remainder, const DenseFront& to) {
-  const auto add_rows = [&remainder](double* rows, int count) {
+void BlockFactor::add_remainder(const Front& child, const float* remainder, const DenseFront& to) {
+  const auto add_rows = [&remainder](float* rows, int count) {
     for (int i = 0; i < count; ++i) rows[i] += remainder[i];
     remainder += count;
   };
   for (auto run = child.runs.begin(); run != child.runs.end(); ++run) {
     for (int j = 0; j < 3 * run->count; ++j) {
-      double* column = to.column(3 * run->place + j);
+      float* column = to.column(3 * run->place + j);
       add_rows(column + 3 * run->place + j, 3 * run->count - j);
       for (auto below = run + 1; below != child.runs.end(); ++below)
         add_rows(column + 3 * below->place, 3 * below->count);
@@ -256,7 +257,7 @@ void BlockFactor::add_remainder(const Front& child, const double* remainder, con
 DenseFront BlockFactor::assemble_front(std::size_t f, const double* values, Workspace& work) {
   DenseFront to = kept(f);
   to.rest_values = work.rest.data();
-  for (int c = 0; c < to.size; ++c) std::fill(to.column(c) + c, to.column(c) + to.size, 0.0);
+  for (int c = 0; c < to.size; ++c) std::fill(to.column(c) + c, to.column(c) + to.size, 0.0F);
   add_entries(f, values, to);
   const std::vector<int>& children = fronts_[f].children;
   for (auto child = children.rbegin(); child != children.rend(); ++child) {
@@ -267,7 +268,7 @@ DenseFront BlockFactor::assemble_front(std::size_t f, const double* values, Work
 }
 
 void BlockFactor::push_remainder(const Front& front, const DenseFront& dense, Workspace& work) {
-  double* stack = work.stack.data() + work.top;
+  float* stack = work.stack.data() + work.top;
   for (int c = dense.own; c < dense.size; ++c) {
     stack = std::copy(dense.column(c) + c, dense.column(c) + dense.size, stack);
   }

@@ -11,55 +11,55 @@ namespace {
 /// Columns [start, start + width), eliminated, with `scaled`: their L D, `stride` places a column.
 struct Eliminated {
   int start, width;
-  const double* scaled;
+  const float* scaled;
 };
 
-/// Columns j, j + 1, j + 2 of 8 rows -= rows factors^T, held in registers. `to` and `rows` start at the first row,
+/// `Columns` columns from j of 8 rows -= rows factors^T, held in registers. `to` and `rows` start at the first row,
 /// `factors` at row j of L.
-MYOTACT_INTO_CLONES void update_tile(const Eliminated& by, const double* rows, const double* factors, double* to,
+template <int Columns>
+MYOTACT_INTO_CLONES void update_tile(const Eliminated& by, const float* rows, const float* factors, float* to,
                                      std::ptrdiff_t stride) {
-  Pack sum[3][2] = {};
+  FloatPack sum[Columns] = {};
   for (int k = 0; k < by.width; ++k, rows += stride, factors += stride) {
-    const Pack low = reinterpret_cast<const Pack*>(rows)[0], high = reinterpret_cast<const Pack*>(rows)[1];
-    for (int c = 0; c < 3; ++c) {
-      sum[c][0] += low * factors[c];
-      sum[c][1] += high * factors[c];
-    }
+    const FloatPack row = *reinterpret_cast<const FloatPack*>(rows);
+    for (int c = 0; c < Columns; ++c) sum[c] += row * factors[c];
   }
-  for (int c = 0; c < 3; ++c) {
-    reinterpret_cast<Pack*>(to + c * stride)[0] -= sum[c][0];
-    reinterpret_cast<Pack*>(to + c * stride)[1] -= sum[c][1];
+  for (int c = 0; c < Columns; ++c) *reinterpret_cast<FloatPack*>(to + c * stride) -= sum[c];
+}
+
+template <int Columns>
+MYOTACT_INTO_CLONES void update_strip(const DenseFront& front, const Eliminated& by, int j) {
+  const float* factors = front.column(by.start) + j;
+  for (int i = j; i < front.size; i += 8) {
+    update_tile<Columns>(by, by.scaled + i, factors, front.column(j) + i, front.stride);
   }
 }
 
 /// Columns [first, last) -= scaled L^T.
 MYOTACT_INTO_CLONES void update_columns(const DenseFront& front, const Eliminated& by, int first, int last) {
-  for (int j = first; j < last; j += 3) {
-    const double* factors = front.column(by.start) + j;
-    for (int i = j; i < front.size; i += 8) {
-      update_tile(by, by.scaled + i, factors, front.column(j) + i, front.stride);
-    }
-  }
+  int j = first;
+  for (; j + 6 <= last; j += 6) update_strip<6>(front, by, j);
+  if (j < last) update_strip<3>(front, by, j);
 }
 
 /// Eliminates the three columns from `start`, over all rows below; `scaled` receives their L D.
-MYOTACT_INTO_CLONES Pivots eliminate_node(const DenseFront& front, int start, double* scaled) {
+MYOTACT_INTO_CLONES Pivots eliminate_node(const DenseFront& front, int start, float* scaled) {
   Pivots pivots = Pivots::Positive;
   for (int c = start; c < start + 3; ++c) {
-    double* column = front.column(c);
-    const double pivot = column[c];
-    if (!std::isfinite(pivot) || pivot == 0.0) return Pivots::Unusable;
-    if (pivot < 0.0) pivots = Pivots::Mixed;
-    double* kept = scaled + static_cast<std::ptrdiff_t>(c - start) * front.stride;
-    const double inverse = 1.0 / pivot;
+    float* column = front.column(c);
+    const float pivot = column[c];
+    if (!std::isfinite(pivot) || pivot == 0.0F) return Pivots::Unusable;
+    if (pivot < 0.0F) pivots = Pivots::Mixed;
+    float* kept = scaled + static_cast<std::ptrdiff_t>(c - start) * front.stride;
+    const float inverse = 1.0F / pivot;
     for (int i = c + 1; i < front.size; ++i) {
       kept[i] = column[i];
       column[i] *= inverse;
     }
-    std::fill_n(kept + front.size, kFrontPadding, 0.0);
+    std::fill_n(kept + front.size, kFrontPadding, 0.0F);
     for (int k = c + 1; k < start + 3; ++k) {
-      const double factor = kept[k];
-      double* target = front.column(k);
+      const float factor = kept[k];
+      float* target = front.column(k);
       for (int i = k; i < front.size; ++i) target[i] -= column[i] * factor;
     }
   }
@@ -69,18 +69,19 @@ MYOTACT_INTO_CLONES Pivots eliminate_node(const DenseFront& front, int start, do
 }  // namespace
 
 MYOTACT_VECTOR_CLONES
-Pivots eliminate_front(const DenseFront& front, double* work) {
+Pivots eliminate_front(const DenseFront& front, float* work) {
   Pivots pivots = Pivots::Positive;
   for (int start = 0; start < front.own; start += kFrontPanel) {
     const int end = std::min(start + kFrontPanel, front.own);
     for (int c = start; c < end; c += 3) {
-      double* scaled = work + static_cast<std::ptrdiff_t>(c - start) * front.stride;
+      float* scaled = work + static_cast<std::ptrdiff_t>(c - start) * front.stride;
       const Pivots here = eliminate_node(front, c, scaled);
       if (here == Pivots::Unusable) return here;
       if (here == Pivots::Mixed) pivots = here;
       update_columns(front, {c, 3, scaled}, c + 3, end);
     }
-    update_columns(front, {start, end - start, work}, end, front.size);
+    update_columns(front, {start, end - start, work}, end, front.own);
+    update_columns(front, {start, end - start, work}, front.own, front.size);
   }
   return pivots;
 }
@@ -89,7 +90,7 @@ MYOTACT_VECTOR_CLONES
 void solve_forward(const DenseFront& front, double* values) {
   Pack* x = reinterpret_cast<Pack*>(values);
   for (int c = 0; c < front.own; c += 3) {
-    const double *first = front.column(c), *second = front.column(c + 1), *third = front.column(c + 2);
+    const float *first = front.column(c), *second = front.column(c + 1), *third = front.column(c + 2);
     x[c + 1] -= first[c + 1] * x[c];
     x[c + 2] = (x[c + 2] - first[c + 2] * x[c]) - second[c + 2] * x[c + 1];
     const Pack x0 = x[c], x1 = x[c + 1], x2 = x[c + 2];
@@ -101,7 +102,7 @@ MYOTACT_VECTOR_CLONES
 void solve_backward(const DenseFront& front, double* values) {
   Pack* x = reinterpret_cast<Pack*>(values);
   for (int c = front.own - 3; c >= 0; c -= 3) {
-    const double *first = front.column(c), *second = front.column(c + 1), *third = front.column(c + 2);
+    const float *first = front.column(c), *second = front.column(c + 1), *third = front.column(c + 2);
     Pack sum[3] = {};
     for (int i = c + 3; i < front.size; ++i) {
       const Pack below = x[i];

@@ -8,13 +8,13 @@ namespace myotact::simulation {
 /// from the others: they are kept, the others are handed on. Each column is followed by at least kFrontPadding unused
 /// places, so that loops may run over its end in whole vectors.
 struct DenseFront {
-  double* own_values = nullptr;
-  double* rest_values = nullptr;  // of columns [own, size); nullptr for a front that is only solved with
-  int stride = 0;                 // places from one column to the next, >= size + kFrontPadding
-  int size = 0;                   // a multiple of 3
-  int own = 0;                    // leading columns to eliminate, a multiple of 3
+  float* own_values = nullptr;
+  float* rest_values = nullptr;  // of columns [own, size); nullptr for a front that is only solved with
+  int stride = 0;                // places from one column to the next, >= size + kFrontPadding
+  int size = 0;                  // a multiple of 3
+  int own = 0;                   // leading columns to eliminate, a multiple of 3
 
-  double* column(int c) const {
+  float* column(int c) const {
     return c < own ? own_values + static_cast<std::ptrdiff_t>(c) * stride
                    : rest_values + static_cast<std::ptrdiff_t>(c - own) * stride;
   }
@@ -29,7 +29,7 @@ enum class Pivots { Positive, Mixed, Unusable };
 
 /// Eliminates the own columns without pivoting: they become L (unit diagonal, D stored there), the rest the remainder
 /// (Schur complement). `work` holds kFrontPanel columns of `stride`. Unusable when a pivot is zero or not finite.
-Pivots eliminate_front(const DenseFront& front, double* work);
+Pivots eliminate_front(const DenseFront& front, float* work);
 
 /// x[own] = L^-1 x[own] and x[below] -= L[below] x[own], gathered in the front's order: `values` holds 4 right sides
 /// side by side, 4 size numbers.

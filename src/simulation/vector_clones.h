@@ -24,5 +24,7 @@ namespace myotact::simulation {
 /// Four doubles side by side, anywhere in memory; the compiler maps them to what the processor has. Only reached
 /// through pointers: passed by value they would need a calling convention that older processors lack.
 typedef double Pack __attribute__((vector_size(32), aligned(8), may_alias));
+/// Eight floats, the same way.
+typedef float FloatPack __attribute__((vector_size(32), aligned(4), may_alias));
 
 }  // namespace myotact::simulation
