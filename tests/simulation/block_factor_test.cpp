@@ -22,16 +22,24 @@ std::vector<std::vector<int>> ladder(int nodes) {
   return cliques;
 }
 
+/// Pairs of a clique, row > column; -1 is no node.
+std::vector<std::pair<int, int>> pairs(const std::vector<int>& clique) {
+  std::vector<std::pair<int, int>> result;
+  for (int row : clique) {
+    for (int column : clique) {
+      if (column >= 0 && row > column) result.emplace_back(row, column);
+    }
+  }
+  return result;
+}
+
 BlockMatrix random_matrix(int nodes, double diagonal) {
   BlockMatrix matrix(nodes, ladder(nodes));
   std::mt19937 random(3);
   std::uniform_real_distribution<double> value(-1.0, 1.0);
   for (const auto& clique : ladder(nodes)) {
-    for (int row : clique) {
-      for (int column : clique) {
-        if (column < 0 || row <= column) continue;
-        matrix.add(row, column, Mat3::NullaryExpr([&] { return value(random); }));
-      }
+    for (const auto& [row, column] : pairs(clique)) {
+      matrix.add(row, column, Mat3::NullaryExpr([&] { return value(random); }));
     }
   }
   for (int node = 0; node < nodes; ++node) matrix.add_diagonal(node, diagonal);
