@@ -2,7 +2,6 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <thread>
 
 #include <fmt/format.h>
@@ -18,6 +17,7 @@
 #include "core/file.h"
 #include "device/simulated_device.h"
 #include "measure/stiffness_sweep.h"
+#include "scene/extremes.h"
 #include "scene/free_session.h"
 #include "scene/lockstep_session.h"
 #include "scene/recording.h"
@@ -33,9 +33,7 @@ constexpr double kDegrees = 180.0 / 3.14159265358979323846;
 struct RunSummary {
   double simulated_s = 0.0, wall_s = 0.0;
   std::uint64_t steps = 0;
-  double largest_force_N = 0.0, largest_tension_N = 0.0, contact_s = 0.0;
-  double largest_drift_deg = 0.0;  // of the co-contraction joint from its starting angle
-  std::uint64_t faults = 0;
+  scene::Extremes extremes;
 };
 
 class Stopwatch {
@@ -46,25 +44,6 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Joint that the summary watches: the co-contraction's, or none.
-std::optional<double> watched_angle(const scene::Scene& scene, const simulation::Simulation& simulation) {
-  if (!scene.co_contraction) return std::nullopt;
-  return simulation.joint(scene.co_contraction->joint).angle_rad;
-}
-
-void watch(const scene::Scene& scene, const simulation::Simulation& simulation, const messages::ToolState& tool,
-           RunSummary& summary) {
-  summary.largest_force_N = std::max(summary.largest_force_N, to_vec3(tool.force_world_N).norm());
-  if (tool.contact.surface >= 0) summary.contact_s += scene.settings.dt_s;
-  if (tool.grabbed_line >= 0) {
-    summary.largest_tension_N = std::max(summary.largest_tension_N, simulation.muscle_force_N(tool.grabbed_line));
-  }
-  if (const auto angle = watched_angle(scene, simulation)) {
-    const double start = scene.joints[static_cast<std::size_t>(scene.co_contraction->joint)].angle_rad;
-    summary.largest_drift_deg = std::max(summary.largest_drift_deg, std::abs(*angle - start) * kDegrees);
-  }
-}
-
 RunSummary run_lockstep(const Options& options, const scene::Scene& scene, simulation::Simulation& simulation) {
   const auto recorder = open_recorder(options, scene);
   scene::SampleTable samples(scene.specimen, options.every);
@@ -72,19 +51,18 @@ RunSummary run_lockstep(const Options& options, const scene::Scene& scene, simul
   const double end_s = options.seconds.value_or(session.conductor().script_end_s());
   const auto steps = static_cast<std::uint64_t>(std::llround(end_s / scene.settings.dt_s));
   RunSummary summary;
-  Stopwatch watch_time;
+  Stopwatch stopwatch;
   bool pictured = false;
   for (; summary.steps < steps && interruption() == 0; ++summary.steps) {
     session.step();
-    watch(scene, simulation, session.tool(), summary);
     if (const auto wanted = session.conductor().take_picture()) {
       write_picture(scene, simulation, session.tool(), wanted->view, options.out / "scene.png");
       pictured = true;
     }
   }
-  summary.wall_s = watch_time.seconds();
+  summary.wall_s = stopwatch.seconds();
   summary.simulated_s = simulation.time_s();
-  summary.faults = session.faults();
+  summary.extremes = session.extremes();
   if (!pictured) write_picture(scene, simulation, session.tool(), "lateral", options.out / "scene.png");
   if (recorder) recorder->close();
   write_file(options.out / "samples.csv", samples.csv());
@@ -109,6 +87,7 @@ nlohmann::json run_free(const Options& options, const scene::Scene& scene, simul
   summary.simulated_s = timing.simulated_s;
   summary.wall_s = timing.wall_s;
   summary.steps = timing.steps;
+  summary.extremes = timing.extremes;
   messages::ToolState tool;
   if (!frame.tools.empty()) {
     tool.tool_position_world_m = frame.tools[0].tool_world_m;
@@ -127,11 +106,11 @@ nlohmann::json summary_json(const scene::Scene& scene, const RunSummary& summary
           {"wall_s", summary.wall_s},
           {"steps", summary.steps},
           {"steps_per_s", summary.wall_s > 0.0 ? static_cast<double>(summary.steps) / summary.wall_s : 0.0},
-          {"largest_force_N", summary.largest_force_N},
-          {"largest_line_tension_N", summary.largest_tension_N},
-          {"contact_s", summary.contact_s},
-          {"largest_drift_deg", summary.largest_drift_deg},
-          {"fault_bits", summary.faults}};
+          {"largest_force_N", summary.extremes.force_N},
+          {"largest_line_tension_N", summary.extremes.line_tension_N},
+          {"contact_s", summary.extremes.contact_s},
+          {"largest_drift_deg", summary.extremes.drift_rad * kDegrees},
+          {"fault_bits", summary.extremes.faults}};
 }
 
 /// Sweep and chart at the scene's own angle, on a fresh simulation: the run's end does not matter to it.

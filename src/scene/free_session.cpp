@@ -72,6 +72,7 @@ FreeTiming FreeSession::stop() {
   timing.tick_period = haptic_thread_.periods().summary();
   timing.step = steps_.summary();
   timing.refused = haptic_thread_.refused();
+  timing.extremes = extremes_;
   return timing;
 }
 
@@ -135,12 +136,14 @@ void FreeSession::step() {
   apply(input_, *simulation_);
   simulation_->step({&input_.tool, 1});
   ++step_count_;
-  record(input_);
+  extremes_.add_step(*scene_, *simulation_);
+  take_ticks(input_);
 }
 
-void FreeSession::record(const StepRecord& input) {
+void FreeSession::take_ticks(const StepRecord& input) {
   std::vector<TickRecord> ticks;
   for (haptics::HapticTick tick; loop_.ticks().pop(tick);) {
+    extremes_.add_tick(tick);
     if (recorder_ != nullptr) ticks.push_back({tick.device, tick.model_sequence});
   }
   if (recorder_ == nullptr) return;

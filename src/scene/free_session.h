@@ -15,6 +15,7 @@
 #include "realtime/latest_value.h"
 #include "realtime/period_histogram.h"
 #include "scene/conductor.h"
+#include "scene/extremes.h"
 #include "scene/recording.h"
 #include "scene/scene_file.h"
 #include "simulation/simulation.h"
@@ -43,6 +44,7 @@ struct FreeTiming {
   std::uint64_t ticks = 0, missed_ticks = 0;
   realtime::DurationSummary tick, tick_period, step;
   std::string refused;  // what the system did not permit
+  Extremes extremes;
 };
 
 /// Runs a scene on the wall clock: the haptic thread at 1 kHz, the simulation thread at its own step, the caller draws.
@@ -72,7 +74,8 @@ class FreeSession {
   void step();
   void publish_model();
   void publish_frame();
-  void record(const StepRecord& input);
+  /// Ticks since the last step: for the summary, and with `input` for the recording.
+  void take_ticks(const StepRecord& input);
 
   const Scene* scene_;
   simulation::Simulation* simulation_;
@@ -93,6 +96,7 @@ class FreeSession {
   realtime::PeriodHistogram steps_;
   std::uint64_t step_count_ = 0;
   std::uint64_t started_ns_ = 0;
+  Extremes extremes_;
   StepRecord input_;
 };
 

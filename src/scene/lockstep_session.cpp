@@ -53,7 +53,7 @@ void LockstepSession::run_ticks() {
     loop_.tick(clock_ns_);
     const haptics::HapticTick& tick = loop_.last_tick();
     samples_->add(time_s, tick.tool, tick.line_tension_N, *simulation_);
-    faults_ |= tick.tool.faults;
+    extremes_.add_tick(tick);
     if (recorder_ != nullptr) ticks_.push_back({tick.device, tick.model_sequence});
     clock_ns_ += kTick_ns;
   }
@@ -67,6 +67,7 @@ void LockstepSession::step() {
   input_.tool = loop_.tool_state();
   apply(input_, *simulation_);
   simulation_->step({&input_.tool, 1});
+  extremes_.add_step(*scene_, *simulation_);
   publish_model();
   if (recorder_ == nullptr) return;
   input_.state_hash = simulation_->state_hash();

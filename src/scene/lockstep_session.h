@@ -6,6 +6,7 @@
 #include "device/simulated_device.h"
 #include "haptics/haptic_loop.h"
 #include "scene/conductor.h"
+#include "scene/extremes.h"
 #include "scene/recording.h"
 #include "scene/samples.h"
 #include "scene/scene_file.h"
@@ -29,7 +30,7 @@ class LockstepSession {
 
   Conductor& conductor() { return conductor_; }
   const messages::ToolState& tool() const { return loop_.tool_state(); }
-  std::uint64_t faults() const { return faults_; }  // all fault bits so far
+  const Extremes& extremes() const { return extremes_; }  // so far
 
  private:
   void run_ticks();
@@ -44,7 +45,7 @@ class LockstepSession {
   haptics::HapticLoop loop_;
   std::uint64_t clock_ns_ = 0;
   std::uint64_t model_sequence_ = 0;
-  std::uint64_t faults_ = 0;
+  Extremes extremes_;
   StepRecord input_;
   std::vector<TickRecord> ticks_;
 };

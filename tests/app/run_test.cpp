@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "app/program.h"
 
@@ -60,6 +61,19 @@ TEST(Run, TouchIsFeltInTheTable) {
   }
   EXPECT_EQ(rows, 1200);
   EXPECT_GT(touching, 100);
+}
+
+TEST(Run, SummaryTellsTheTouchOnEitherClock) {
+  for (const char* clock : {"", " --realtime"}) {
+    TemporaryFolder folder;
+    const std::string run = "run elbow --levels 0 --seconds 1.2" + std::string(clock);
+    ASSERT_EQ(run_program(run + " --out " + at(folder, "out")).status, 0);
+    const auto summary = nlohmann::json::parse(content(folder.path() / "out" / "summary.json"));
+    EXPECT_GT(summary.at("largest_force_N"), 0.2) << run;
+    EXPECT_GT(summary.at("contact_s"), 0.1) << run;
+    EXPECT_LT(summary.at("contact_s"), 1.2) << run;
+    EXPECT_GT(summary.at("largest_drift_deg"), 0.01) << run;
+  }
 }
 
 TEST(Run, InterruptedRunStillLeavesItsTables) {

@@ -6,7 +6,6 @@
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
-#include <CGAL/alpha_wrap_3.h>
 
 namespace myotact::prepare {
 
@@ -65,13 +64,6 @@ geometry::TriangleMesh remesh_evenly(const geometry::TriangleMesh& mesh, double 
       surface.faces(), edge_m, surface,
       CGAL::parameters::number_of_iterations(kPasses).number_of_relaxation_steps(kRelaxations));
   return from_cgal(surface);
-}
-
-geometry::TriangleMesh wrap(const geometry::TriangleMesh& mesh, double alpha_m, double offset_m) {
-  const CgalMesh surface = to_cgal(mesh);
-  CgalMesh wrapped;
-  CGAL::alpha_wrap_3(surface, alpha_m, offset_m, wrapped);
-  return from_cgal(wrapped);
 }
 
 }  // namespace myotact::prepare

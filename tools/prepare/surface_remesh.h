@@ -15,7 +15,4 @@ std::vector<std::pair<int, int>> crossing_triangles(const geometry::TriangleMesh
 /// result shrinks where the surface is curved, and may cross itself where it is thinner than an edge: check it.
 geometry::TriangleMesh remesh_evenly(const geometry::TriangleMesh& mesh, double edge_m);
 
-/// A closed surface without crossings around `mesh`, at `offset_m` from it, that bridges gaps narrower than `alpha_m`.
-geometry::TriangleMesh wrap(const geometry::TriangleMesh& mesh, double alpha_m, double offset_m);
-
 }  // namespace myotact::prepare

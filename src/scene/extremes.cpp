@@ -1,0 +1,28 @@
+#include "scene/extremes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace myotact::scene {
+
+namespace {
+
+constexpr double kTick_s = 1e-3;
+
+}  // namespace
+
+void Extremes::add_tick(const haptics::HapticTick& tick) {
+  force_N = std::max(force_N, to_vec3(tick.tool.force_world_N).norm());
+  line_tension_N = std::max(line_tension_N, tick.line_tension_N);
+  if (tick.tool.contact.surface >= 0) contact_s += kTick_s;
+  faults |= tick.tool.faults;
+}
+
+void Extremes::add_step(const Scene& scene, const simulation::Simulation& simulation) {
+  if (!scene.co_contraction) return;
+  const int joint = scene.co_contraction->joint;
+  const double start_rad = scene.joints[static_cast<std::size_t>(joint)].angle_rad;
+  drift_rad = std::max(drift_rad, std::abs(simulation.joint(joint).angle_rad - start_rad));
+}
+
+}  // namespace myotact::scene

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+
+#include "haptics/haptic_loop.h"
+#include "scene/scene_file.h"
+#include "simulation/simulation.h"
+
+namespace myotact::scene {
+
+/// What a run reached, for its summary.
+struct Extremes {
+  double force_N = 0.0;         // on the hand
+  double line_tension_N = 0.0;  // of the line in hand
+  double contact_s = 0.0;       // time in which a surface was touched
+  double drift_rad = 0.0;       // of the co-contraction joint from its starting angle
+  std::uint64_t faults = 0;     // haptics::Fault bits
+
+  void add_tick(const haptics::HapticTick& tick);
+  void add_step(const Scene& scene, const simulation::Simulation& simulation);
+};
+
+}  // namespace myotact::scene
