@@ -332,4 +332,11 @@ Eigen::MatrixXd BlockFactor::solve(const Eigen::MatrixXd& right) const {
   return result;
 }
 
+Eigen::MatrixXd BlockFactor::solve_refined(const BlockMatrix& matrix, const Eigen::MatrixXd& right) const {
+  Eigen::MatrixXd solution = solve(right);
+  const Eigen::MatrixXd residual = right - matrix.lower().selfadjointView<Eigen::Lower>() * solution;
+  solution += solve(residual);
+  return solution;
+}
+
 }  // namespace myotact::simulation

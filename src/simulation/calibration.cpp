@@ -53,7 +53,8 @@ double tension_slope(const Skeleton& skeleton, int joint, LimbMuscle& muscle) {
   const TissueLoad load;
   compute_system(muscle.tissue, skeleton, load, muscle.state, muscle.system);
   Eigen::MatrixXd follow;
-  if (factor_system(muscle, muscle.system.coupling_N_rad.col(joint), follow) == Pivots::Unusable) return std::nan("");
+  const Pivots pivots = factor_system(muscle, muscle.system.coupling_N_rad.col(joint), follow, Accuracy::Refined);
+  if (pivots == Pivots::Unusable) return std::nan("");
   const double tension_N = muscle.system.tension_N;
   const Eigen::VectorXd kept = muscle.state.now.position_m;
   std::vector<double> angles(static_cast<std::size_t>(skeleton.joint_count()));

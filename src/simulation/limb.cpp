@@ -89,12 +89,14 @@ void read_out(Limb& limb) {
   limb.loads.compute(limb.skeleton, {limb.gravity_m_s2, span(limb.now.velocity_rad_s), span(limb.external_torque_Nm)});
 }
 
-Pivots factor_system(LimbMuscle& muscle, const Eigen::MatrixXd& right, Eigen::MatrixXd& solution) {
+Pivots factor_system(LimbMuscle& muscle, const Eigen::MatrixXd& right, Eigen::MatrixXd& solution, Accuracy accuracy) {
   if (!muscle.factor.factor(muscle.system.matrix)) return Pivots::Unusable;
   const MeanTerm& mean = muscle.system.mean;
   Eigen::MatrixXd sides(right.rows(), right.cols() + 1);
   sides << mean.gradient, right;
-  const Eigen::MatrixXd solved = muscle.factor.solve(sides);
+  const Eigen::MatrixXd solved = accuracy == Accuracy::Refined
+                                     ? muscle.factor.solve_refined(muscle.system.matrix, sides)
+                                     : muscle.factor.solve(sides);
   muscle.mean_solution = solved.col(0);
   const double pivot = 1.0 + mean.factor_Nm * mean.gradient.dot(muscle.mean_solution);
   if (!std::isfinite(pivot) || pivot == 0.0) return Pivots::Unusable;

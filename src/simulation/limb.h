@@ -93,7 +93,10 @@ void read_out(Limb& limb);
 
 /// Factors the system, its mean term included, and solves it for `right`. Unusable: neither the solution nor solve()
 /// may be used.
-Pivots factor_system(LimbMuscle& muscle, const Eigen::MatrixXd& right, Eigen::MatrixXd& solution);
+/// Single: a Newton step, whose residual tells what is left. Refined: a solution that is read out itself.
+enum class Accuracy { Single, Refined };
+Pivots factor_system(LimbMuscle& muscle, const Eigen::MatrixXd& right, Eigen::MatrixXd& solution,
+                     Accuracy accuracy = Accuracy::Single);
 /// (matrix + mean term)^-1 right with the last factors.
 Eigen::MatrixXd solve(const LimbMuscle& muscle, const Eigen::MatrixXd& right);
 

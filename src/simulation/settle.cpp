@@ -159,7 +159,8 @@ void refresh_muscle_stiffness(const Limb& limb, LimbMuscle& muscle) {
   if (muscle.rigid) return;
   compute_system(muscle.tissue, limb.skeleton, static_load(limb.gravity_m_s2), muscle.state, muscle.system);
   Eigen::MatrixXd solution;
-  if (factor_system(muscle, muscle.system.coupling_N_rad, solution) == Pivots::Unusable) return;
+  const Pivots pivots = factor_system(muscle, muscle.system.coupling_N_rad, solution, Accuracy::Refined);
+  if (pivots == Pivots::Unusable) return;
   const Eigen::MatrixXd whole =
       muscle.system.joint_stiffness_Nm_rad - muscle.system.coupling_N_rad.transpose() * solution;
   if (whole.allFinite()) muscle.stiffness_Nm_rad = whole.diagonal();
