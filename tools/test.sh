@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Every test in release, then under the address and undefined-behaviour sanitizers. --quick: only the unit and physics
-# tests, in release.
+# Every test in release by g++, then by clang under the address and undefined-behaviour sanitizers. --quick: only the
+# unit and physics tests, in release.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
