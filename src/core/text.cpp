@@ -24,7 +24,8 @@ std::optional<double> parse_number(std::string_view text) {
 
 namespace {
 
-/// Levenshtein distance by two rows of the dynamic programme.
+/// Levenshtein distance of `a` to `b`, by two rows of the dynamic programme, or to a beginning of `b`: leaving out the
+/// rest counts as one edit, since names are often shortened.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -37,7 +38,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
       row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, substituted});
     }
   }
-  return row.back();
+  return std::min(row.back(), *std::min_element(row.begin(), row.end()) + 1);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ std::string to_text(double value);
 /// The whole of `text` as a number, or nothing; a leading "+" is allowed. Independent of the locale.
 std::optional<double> parse_number(std::string_view text);
 
-/// The candidate with the smallest edit distance to `word`, for "did you mean"; empty when there are no candidates.
+/// The candidate nearest to `word`, slips and shortening counted, for "did you mean"; empty when there are none.
 /// Of a longer word only the first 64 bytes are compared, so that no input makes this slow.
 std::string nearest_word(std::string_view word, std::span<const std::string> candidates);
 

@@ -50,6 +50,7 @@ TEST(Text, NearestWordForgivesTypingErrors) {
   const std::vector<std::string> keys = {"biceps_brachii", "brachialis", "anconeus"};
   EXPECT_EQ(nearest_word("bicep_brachi", keys), "biceps_brachii");
   EXPECT_EQ(nearest_word("brachalis", keys), "brachialis");
+  EXPECT_EQ(nearest_word("bicep", keys), "biceps_brachii");
   EXPECT_EQ(nearest_word("x", {}), "");
   EXPECT_EQ(nearest_word(std::string(10'000'000, 'a'), keys).empty(), false);
 }
