@@ -74,8 +74,8 @@ int view(const Options& options) {
   device::SimulatedDevice simulated("simulated", hand_m);
   if (options.seconds) make_writable_folder(options.out);
   device::Device& device = scripted ? static_cast<device::Device&>(simulated) : mouse;
-  view::Window window(scene.specimen,
-                      window_settings(scene, device, hand_m));  // first: without a display nothing is built
+  // First: without a display nothing is built.
+  view::Window window(scene.specimen, window_settings(scene, device, hand_m));
   simulation::Simulation simulation(scene.specimen, scene.settings);
   const auto recorder = open_recorder(options, scene);
   scene::FreeSession session(scene, simulation, device, scripted ? &simulated : nullptr, recorder.get());

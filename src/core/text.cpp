@@ -24,9 +24,9 @@ std::optional<double> parse_number(std::string_view text) {
 
 namespace {
 
-/// Levenshtein distance of `a` to `b`, by two rows of the dynamic programme, or to a beginning of `b`: leaving out the
-/// rest counts as one edit, since names are often shortened.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
+/// Slips between two words: Levenshtein distance of `a` to `b`, by two rows of the dynamic programme, or to a beginning
+/// of `b`: leaving out the rest counts as one edit, since names are often shortened.
+std::size_t slips(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -46,9 +46,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 std::string nearest_word(std::string_view word, std::span<const std::string> candidates) {
   constexpr std::size_t kLongestCompared = 64;
   word = word.substr(0, kLongestCompared);
-  const auto nearest = std::min_element(candidates.begin(), candidates.end(), [&](const auto& a, const auto& b) {
-    return edit_distance(word, a) < edit_distance(word, b);
-  });
+  const auto nearest = std::min_element(candidates.begin(), candidates.end(),
+                                        [&](const auto& a, const auto& b) { return slips(word, a) < slips(word, b); });
   return nearest == candidates.end() ? std::string() : *nearest;
 }
 

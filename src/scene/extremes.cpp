@@ -3,18 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "haptics/haptic_thread.h"
+
 namespace myotact::scene {
-
-namespace {
-
-constexpr double kTick_s = 1e-3;
-
-}  // namespace
 
 void Extremes::add_tick(const haptics::HapticTick& tick) {
   force_N = std::max(force_N, to_vec3(tick.tool.force_world_N).norm());
   line_tension_N = std::max(line_tension_N, tick.line_tension_N);
-  if (tick.tool.contact.surface >= 0) contact_s += kTick_s;
+  if (tick.tool.contact.surface >= 0) contact_s += 1e-9 * static_cast<double>(haptics::kTickPeriod_ns);
   faults |= tick.tool.faults;
 }
 

@@ -2,13 +2,9 @@
 
 #include <cmath>
 
+#include "haptics/haptic_thread.h"
+
 namespace myotact::scene {
-
-namespace {
-
-constexpr std::uint64_t kTick_ns = 1'000'000;
-
-}  // namespace
 
 haptics::HapticSettings haptic_settings(const ToolSettings& tool) {
   haptics::HapticSettings settings;
@@ -29,7 +25,7 @@ LockstepSession::LockstepSession(const Scene& scene, simulation::Simulation& sim
       conductor_(scene, simulation),
       device_(scene.tools.front().device, conductor_.hand(0.0).position_world_m),
       loop_(device_, haptic_settings(scene.tools.front())) {
-  clock_ns_ = kTick_ns;  // time 0 means "never" to a device
+  clock_ns_ = haptics::kTickPeriod_ns;  // time 0 means "never" to a device
   loop_.prepare(clock_ns_);
   publish_model();
 }
@@ -45,9 +41,11 @@ void LockstepSession::publish_model() {
 }
 
 void LockstepSession::run_ticks() {
-  const auto ticks = static_cast<int>(std::llround(scene_->settings.dt_s * 1e9 / static_cast<double>(kTick_ns)));
+  const auto ticks =
+      static_cast<int>(std::llround(scene_->settings.dt_s * 1e9 / static_cast<double>(haptics::kTickPeriod_ns)));
   for (int i = 0; i < ticks; ++i) {
-    const double time_s = static_cast<double>(clock_ns_ - kTick_ns) / 1e9;  // by division: the nearest to whole ms
+    const double time_s =
+        static_cast<double>(clock_ns_ - haptics::kTickPeriod_ns) / 1e9;  // by division: the nearest to whole ms
     const HandTarget hand = conductor_.hand(time_s);
     device_.set_hand_target({to_array(hand.position_world_m), {}, hand.buttons});
     loop_.tick(clock_ns_);
@@ -55,7 +53,7 @@ void LockstepSession::run_ticks() {
     samples_->add(time_s, tick.tool, tick.line_tension_N, *simulation_);
     extremes_.add_tick(tick);
     if (recorder_ != nullptr) ticks_.push_back({tick.device, tick.model_sequence});
-    clock_ns_ += kTick_ns;
+    clock_ns_ += haptics::kTickPeriod_ns;
   }
   for (haptics::HapticTick tick; loop_.ticks().pop(tick);) {  // nobody else empties the queue here
   }

@@ -91,10 +91,10 @@ void move_free_nodes(LimbMuscle& muscle, const Eigen::VectorXd& change_m);
 /// Copies the outcome of the last forces pass to the muscles' readouts, and the bones' loads to `limb.loads`.
 void read_out(Limb& limb);
 
+/// Single: for a Newton step, whose residual tells what is left. Refined: for a solution that is read out itself.
+enum class Accuracy { Single, Refined };
 /// Factors the system, its mean term included, and solves it for `right`. Unusable: neither the solution nor solve()
 /// may be used.
-/// Single: a Newton step, whose residual tells what is left. Refined: a solution that is read out itself.
-enum class Accuracy { Single, Refined };
 Pivots factor_system(LimbMuscle& muscle, const Eigen::MatrixXd& right, Eigen::MatrixXd& solution,
                      Accuracy accuracy = Accuracy::Single);
 /// (matrix + mean term)^-1 right with the last factors.
