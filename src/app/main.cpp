@@ -65,6 +65,12 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
   replay->add_option("file", options.file, "recording")->required();
   add_common(*replay, options);
   bind(replay, myotact::app::replay);
+  CLI::App* validate =
+      program.add_subcommand("validate", "every analytic and published case, expected against obtained");
+  validate->add_option("--filter", options.filter, "only the case of this name, or all that have it in their names");
+  validate->add_option("--report", options.report, "write a page with the table and plots to this file");
+  add_common(*validate, options);
+  bind(validate, myotact::app::validate);
   CLI::App* devices = program.add_subcommand("devices", "which devices there are");
   add_common(*devices, options);
   bind(devices, myotact::app::devices);
