@@ -8,7 +8,7 @@ namespace myotact::simulation {
 namespace {
 
 double point_weight_Nm(const TissueElement& element) {
-  return element.rest.point_volume_m3 * element.peak_Pa;
+  return element.point_volume_m3() * element.peak_Pa;
 }
 
 /// Force-velocity factor at a point and its slope against the stretch: the curve's tangent at the last step's speed,
@@ -49,44 +49,28 @@ double mean_fibre_length(const MuscleTissue& tissue, const std::vector<double>& 
   return weight > 0.0 ? sum / weight : tissue.fibre_map.rest_stretch;
 }
 
-FibreStress fibre_stress(const FibreInputs& in, std::size_t t, const TetPoints& points) {
-  FibreStress fibre;
+void write_fibre_stress(const FibreInputs& in, std::size_t t, std::size_t lane, MuscleBatch& batch) {
   const TissueElement& element = in.tissue.elements[t];
-  if (element.peak_Pa == 0.0) return fibre;
+  if (element.peak_Pa == 0.0) return;
   const FibreMap& map = in.tissue.fibre_map;
   const double a = in.state.activation, peak = map.scale * element.peak_Pa;
   const double shared = active_force_length(in.mean_length);
   const double damped = active_force_length(in.last_mean_length);
   for (std::size_t p = 0; p < kTetPoints; ++p) {
-    const double n = map.length(points.stretch[p]);
-    const SpeedFactor speed = speed_factor(in, t * kTetPoints + p, points.stretch[p]);
+    const double stretch = in.state.now.stretch[t * kTetPoints + p];
+    const double n = map.length(stretch);
+    const SpeedFactor speed = speed_factor(in, t * kTetPoints + p, stretch);
     const double active = shared + kEvenness * (n - in.mean_length) + damped * (speed.value - 1.0);
-    fibre.stress_Pa[p] = peak * (a * active + passive_force_length(n));
-    fibre.slope_Pa[p] = peak * ((a * kEvenness + passive_force_length_slope(n)) * map.gain + a * damped * speed.slope);
+    batch.stress_Pa[p].lane[lane] = peak * (a * active + passive_force_length(n));
+    batch.slope_Pa[p].lane[lane] =
+        peak * ((a * kEvenness + passive_force_length_slope(n)) * map.gain + a * damped * speed.slope);
   }
-  return fibre;
 }
 
 double mean_tangent_Nm(const FibreInputs& in) {
   const FibreMap& map = in.tissue.fibre_map;
   const double slope = active_force_length_slope(in.mean_length) - kEvenness;
   return in.state.activation * map.scale * fibre_weight_Nm(in.tissue) / map.gain * slope;
-}
-
-TetVector mean_gradient(const TissueElement& element, const TetPoints& points) {
-  TetVector gradient{};
-  for (std::size_t p = 0; p < kTetPoints; ++p) {
-    const TetVector& g = element.rest.gradients_1_m[p];
-    for (std::size_t a = 0; a < kTetNodes; ++a) {
-      const double along =
-          element.fibre.x() * g[a] + element.fibre.y() * g[kTetStride + a] + element.fibre.z() * g[2 * kTetStride + a];
-      for (std::size_t i = 0; i < 3; ++i) {
-        gradient[i * kTetStride + a] +=
-            point_weight_Nm(element) * along * points.fibre[p][static_cast<Eigen::Index>(i)];
-      }
-    }
-  }
-  return gradient;
 }
 
 }  // namespace myotact::simulation

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "simulation/element/muscle_batch.h"
 #include "simulation/tissue_system.h"
 
 namespace myotact::simulation {
@@ -22,7 +23,6 @@ double mean_fibre_length(const MuscleTissue& tissue, const std::vector<double>& 
 /// Sum of volume times peak stress [N m].
 double fibre_weight_Nm(const MuscleTissue& tissue);
 
-/// Nominal stress and its slope against the point's own stretch at the four points of an element.
 struct FibreInputs {
   const MuscleTissue& tissue;
   const TissueState& state;
@@ -30,12 +30,10 @@ struct FibreInputs {
   double mean_length = 0.0;       // now
   double last_mean_length = 0.0;  // at the last instant; scales the damping
 };
-FibreStress fibre_stress(const FibreInputs& inputs, std::size_t element, const TetPoints& points);
+/// Nominal stress and its slope against the point's own stretch, at the four points of an element's lane.
+void write_fibre_stress(const FibreInputs& inputs, std::size_t element, std::size_t lane, MuscleBatch& batch);
 
 /// How the mean length enters the tangent: factor * (gradient of the mean)(gradient of the mean)^T [N m].
 double mean_tangent_Nm(const FibreInputs& inputs);
-
-/// Part of the gradient of the mean length against an element's nodes, times fibre_weight_Nm / gain [N].
-TetVector mean_gradient(const TissueElement& element, const TetPoints& points);
 
 }  // namespace myotact::simulation

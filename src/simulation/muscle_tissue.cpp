@@ -63,8 +63,7 @@ void add_elements(const anatomy::Muscle& muscle, const BellyShape& shape, Muscle
       corners[c] = tissue.mesh.nodes_m[at(element.nodes[c])];
     }
     for (std::size_t e = 0; e < 6; ++e) element.nodes[4 + e] = tissue.mesh.midsides[t][e];
-    element.rest = make_tet_rest(corners);
-    element.fibre = muscle.fibres[t].normalized();
+    element.shape = make_tet_shape(corners, muscle.fibres[t].normalized());
     element.section_m2 = shape.sections_m2[t];
     element.sheath = !is_belly(muscle.regions[t]);
     if (!element.sheath) element.peak_Pa = muscle.peak_force_N * std::cos(muscle.pennation_rad) / element.section_m2;
@@ -78,7 +77,7 @@ void add_masses(MuscleTissue& tissue) {
   tissue.mass_kg.assign(tissue.mesh.nodes_m.size(), 0.0);
   for (const TissueElement& element : tissue.elements) {
     const TissueMaterial& material = element.sheath ? kTendonSheath : kMuscleMatrix;
-    const double mass = material.density_kg_m3 * kTetPoints * element.rest.point_volume_m3;
+    const double mass = material.density_kg_m3 * element.shape.volume_m3;
     for (std::size_t a = 0; a < kTetNodes; ++a)
       tissue.mass_kg[at(element.nodes[a])] += mass * (a < 4 ? 1.0 / 36.0 : 4.0 / 27.0);
   }
@@ -100,17 +99,26 @@ void add_clamps(const anatomy::Muscle& muscle, const std::vector<std::array<int,
   if (tissue.free_nodes == 0) throw refuse(muscle, "every node is attached to a body; nothing is left to simulate");
 }
 
-/// Slots of an element's pairs of nodes, and whether some node is clamped.
-void find_slots(const MuscleTissue& tissue, TissueElement& element) {
-  std::size_t pair = 0;
-  for (std::size_t a = 0; a < kTetNodes; ++a) {
-    const int fa = tissue.free_index[at(element.nodes[a])];
-    if (fa < 0) element.clamped = true;
-    for (std::size_t b = a; b < kTetNodes; ++b, ++pair) {
-      const int fb = tissue.free_index[at(element.nodes[b])];
-      if (fa < 0 || fb < 0) continue;
-      element.slots[pair] = {tissue.pattern.slot(std::max(fa, fb), std::min(fa, fb)), fa >= fb};
+/// Elements of one material, eight at a time.
+void add_batches(bool sheath, MuscleTissue& tissue) {
+  const auto free_node = [&](int node) { return tissue.free_index[at(node)]; };
+  bool open = false;  // the last batch takes more
+  for (std::size_t t = 0; t < tissue.elements.size(); ++t) {
+    const TissueElement& element = tissue.elements[t];
+    if (element.sheath != sheath) continue;
+    if (!open) tissue.batches.emplace_back().sheath = sheath;
+    TissueBatch& batch = tissue.batches.back();
+    const std::size_t lane = at(batch.tets.count++);
+    set_lane(batch.tets, lane, static_cast<int>(t), element.shape, element.nodes);
+    batch.peak_Pa.lane[lane] = element.peak_Pa;
+    std::size_t pair = 0;
+    for (std::size_t a = 0; a < kTetNodes; ++a) {
+      for (std::size_t b = a; b < kTetNodes; ++b, ++pair) {
+        batch.tets.slots[lane][pair] =
+            pair_slot(tissue.pattern, free_node(element.nodes[a]), free_node(element.nodes[b]));
+      }
     }
+    open = batch.tets.count < kBatch;
   }
 }
 
@@ -125,7 +133,12 @@ void add_pattern(MuscleTissue& tissue) {
   for (const TissueElement& element : tissue.elements) add(element.nodes);
   for (const TendonStrand& strand : tissue.strands) add(strand.nodes);
   tissue.pattern = BlockMatrix(tissue.free_nodes, cliques);
-  for (TissueElement& element : tissue.elements) find_slots(tissue, element);
+  for (TissueElement& element : tissue.elements) {
+    element.clamped = std::any_of(element.nodes.begin(), element.nodes.end(),
+                                  [&](int node) { return tissue.free_index[at(node)] < 0; });
+  }
+  add_batches(false, tissue);
+  add_batches(true, tissue);
 }
 
 /// Shares of the bodies' motions: harmonic on the graph of the mesh, 1 where a body clamps.

@@ -8,28 +8,32 @@
 #include "anatomy/specimen.h"
 #include "geometry/tet_mesh.h"
 #include "simulation/block_matrix.h"
-#include "simulation/quadratic_tet.h"
+#include "simulation/element/tet_elements.h"
 #include "simulation/tendon_strand.h"
+#include "simulation/tissue_material.h"
 
 namespace myotact::simulation {
 
-/// Where the block of a pair of nodes (a, b) goes.
-struct ElementSlot {
-  BlockSlot block;       // base -1 where a node is clamped
-  bool in_order = true;  // a's row, b's column; else the other way round
-};
+inline constexpr std::size_t kTetNodes = QuadraticTet::kNodes;
+inline constexpr std::size_t kTetPoints = QuadraticTet::kPoints;
 
-/// One element of a muscle's mesh, as it is at rest.
+/// One tet of a muscle's mesh, as it is at rest.
 struct TissueElement {
   std::array<int, kTetNodes> nodes{};
-  TetRest rest;
-  Vec3 fibre = Vec3::UnitX();
+  TetShape<double> shape;
   double section_m2 = 0.0;  // of the muscle here, along the fibres
   double peak_Pa = 0.0;     // nominal fibre stress at full activation and optimal length; 0: no fibres (sheath)
   bool sheath = false;
   bool clamped = false;  // some of its nodes are
-  /// Of the pairs (a, b), a <= b, row by row, in the matrix of free nodes.
-  std::array<ElementSlot, kTetNodes*(kTetNodes + 1) / 2> slots{};
+
+  double point_volume_m3() const { return 0.25 * shape.volume_m3; }
+};
+
+/// Eight tets of one material.
+struct TissueBatch {
+  TetBatch<QuadraticTet> tets;  // slots in the matrix of free nodes
+  Eight peak_Pa;
+  bool sheath = false;
 };
 
 /// Normalised fibre length n = rest_stretch + offset + gain (stretch - 1), and the scale of the peak stress. Offset and
@@ -52,6 +56,7 @@ struct MuscleTissue {
   int free_nodes = 0;
   std::vector<double> mass_kg;  // n, lumped
   std::vector<TissueElement> elements;
+  std::vector<TissueBatch> batches;  // of all elements: belly, then sheath
   FibreMap fibre_map;
   std::vector<TendonStrand> strands;
   std::vector<int> bodies;  // that clamp nodes

@@ -73,7 +73,7 @@ double mean_place_m(const MuscleTissue& tissue, const anatomy::MuscleLine& line,
   double sum = 0.0, volume = 0.0;
   for (std::size_t t = 0; t < tissue.elements.size(); ++t) {
     if (!pick(t)) continue;
-    const double v = tissue.elements[t].rest.point_volume_m3;
+    const double v = tissue.elements[t].point_volume_m3();
     sum += v * place_on_line_m(line, middle_of(tissue.elements[t], tissue));
     volume += v;
   }
@@ -82,8 +82,13 @@ double mean_place_m(const MuscleTissue& tissue, const anatomy::MuscleLine& line,
 
 /// Slope of the shape function of node a along the fibre at a point [1/m].
 double slope_along_fibre(const TissueElement& element, std::size_t point, std::size_t a) {
-  const TetVector& gradients = element.rest.gradients_1_m[point];
-  return element.fibre.dot(Vec3(gradients[a], gradients[kTetStride + a], gradients[2 * kTetStride + a]));
+  double sum = 0.0;
+  for (std::size_t m = 0; m < 4; ++m) {
+    const Vector3<double>& g = element.shape.gradient_1_m[m];
+    const Vector3<double>& fibre = element.shape.fibre;
+    sum += shape_slope<QuadraticTet>(a, m, point) * (g[0] * fibre[0] + g[1] * fibre[1] + g[2] * fibre[2]);
+  }
+  return sum;
 }
 
 /// Force at each node along the fibres when every section of the belly carries 1 N.
@@ -93,8 +98,7 @@ std::vector<double> unit_pull(const MuscleTissue& tissue) {
     if (element.sheath) continue;
     for (std::size_t p = 0; p < kTetPoints; ++p) {
       for (std::size_t a = 0; a < kTetNodes; ++a) {
-        pull[at(element.nodes[a])] +=
-            element.rest.point_volume_m3 * slope_along_fibre(element, p, a) / element.section_m2;
+        pull[at(element.nodes[a])] += element.point_volume_m3() * slope_along_fibre(element, p, a) / element.section_m2;
       }
     }
   }

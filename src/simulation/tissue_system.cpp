@@ -5,7 +5,9 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "simulation/element/muscle_batch.h"
 #include "simulation/fibre_field.h"
+#include "simulation/material/fibre_family.h"
 
 namespace myotact::simulation {
 namespace {
@@ -24,113 +26,133 @@ struct Pass {
   bool tangent;
 };
 
-TetVector gather(const TissueElement& element, const Eigen::VectorXd& values) {
-  TetVector gathered{};
-  for (std::size_t a = 0; a < kTetNodes; ++a) {
-    const double* value = values.data() + 3 * element.nodes[a];
-    for (std::size_t i = 0; i < 3; ++i) gathered[i * kTetStride + a] = value[i];
-  }
-  return gathered;
-}
+using Nodes = TetNodeVectors<Eight, QuadraticTet>;
+using Blocks = TetBlocks<Eight, QuadraticTet>;
 
-TissueMaterial material_of(const TissueElement& element, double activation) {
-  if (element.sheath) return kTendonSheath;
-  TissueMaterial material = kMuscleMatrix;
-  material.fluctuation_Pa += kActiveFluctuation * activation * element.peak_Pa;
-  return material;
-}
-
-/// Row-major 3x3 block of nodes a <= b.
-std::array<double, 9> block_of(const TetMatrix& stiffness, std::size_t a, std::size_t b) {
-  const auto entry = [&](std::size_t i, std::size_t row, std::size_t j, std::size_t column) {
-    return stiffness[(i * kTetStride + row) * kTetDofs + j * kTetStride + column];
-  };
-  return {entry(0, a, 0, b), entry(0, a, 1, b), entry(0, a, 2, b), entry(0, b, 1, a), entry(1, a, 1, b),
-          entry(1, a, 2, b), entry(0, b, 2, a), entry(1, b, 2, a), entry(2, a, 2, b)};
-}
-
-void scatter_matrix(const TissueElement& element, const TetMatrix& stiffness, double* values) {
-  std::size_t pair = 0;
-  for (std::size_t a = 0; a < kTetNodes; ++a) {
-    for (std::size_t b = a; b < kTetNodes; ++b, ++pair) {
-      const ElementSlot& slot = element.slots[pair];
-      if (slot.block.base < 0) continue;
-      const std::array<double, 9> block = block_of(stiffness, a, b);
-      const std::size_t down = slot.in_order ? 3 : 1, across = slot.in_order ? 1 : 3;
-      for (std::size_t j = 0; j < 3; ++j) {
-        double* out = values + slot.block.base + static_cast<std::ptrdiff_t>(j) * slot.block.stride;
-        for (std::size_t i = 0; i < 3; ++i) out[i] += block[i * down + j * across];
-      }
-    }
-  }
-}
-
-/// Motion of the element's clamped nodes when a joint turns; false when it moves none of them.
-bool joint_motion(const Pass& pass, const TissueElement& element, int joint, TetVector& motion) {
-  motion.fill(0.0);
+/// Motion of an element's clamped nodes when a joint turns; false when it moves none of them.
+using ElementVectors = std::array<Vec3, kTetNodes>;
+bool joint_motion(const Pass& pass, const TissueElement& element, int joint, ElementVectors& motion) {
+  motion.fill(Vec3::Zero());
   bool any = false;
   for (std::size_t a = 0; a < kTetNodes; ++a) {
     const int body = pass.tissue.body[at(element.nodes[a])];
     if (body < 0 || !pass.skeleton.is_distal(body, joint)) continue;
     any = true;
-    const Vec3 slope =
-        pass.skeleton.point_derivative(body, joint, node_vector(pass.state.now.position_m, element.nodes[a]));
-    for (std::size_t i = 0; i < 3; ++i) motion[i * kTetStride + a] = slope[static_cast<Eigen::Index>(i)];
+    motion[a] = pass.skeleton.point_derivative(body, joint, node_vector(pass.state.now.position_m, element.nodes[a]));
   }
   return any;
 }
 
-double dot(const TetVector& a, const TetVector& b) {
+double dot(const ElementVectors& a, const ElementVectors& b) {
   double sum = 0.0;
-  for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
+  for (std::size_t k = 0; k < kTetNodes; ++k) sum += a[k].dot(b[k]);
   return sum;
 }
 
-/// Columns and rows of the joints that move clamped nodes of the element.
-void scatter_joints(const Pass& pass, const TissueElement& element, const TetMatrix& stiffness,
-                    const TetVector& mean_part) {
-  for (int j = 0; j < pass.skeleton.joint_count(); ++j) {
-    TetVector motion;
-    if (!joint_motion(pass, element, j, motion)) continue;
-    pass.system.mean.joint_gradient[j] += dot(mean_part, motion);
-    const TetVector force = multiply(stiffness, motion);
-    for (std::size_t a = 0; a < kTetNodes; ++a) {
-      const int f = pass.tissue.free_index[at(element.nodes[a])];
-      if (f < 0) continue;
-      for (std::size_t i = 0; i < 3; ++i) {
-        pass.system.coupling_N_rad(3 * f + static_cast<int>(i), j) += force[i * kTetStride + a];
-      }
-    }
-    for (int k = 0; k < pass.skeleton.joint_count(); ++k) {
-      TetVector other;
-      if (joint_motion(pass, element, k, other)) pass.system.joint_stiffness_Nm_rad(k, j) += dot(other, force);
-    }
+ElementVectors vectors_of(const Nodes& nodes, std::size_t lane) {
+  ElementVectors out;
+  for (std::size_t a = 0; a < kTetNodes; ++a) {
+    for (std::size_t i = 0; i < 3; ++i) out[a][static_cast<Eigen::Index>(i)] = nodes[a][i].lane[lane];
   }
+  return out;
 }
 
-void scatter_mean(const TissueElement& element, const MuscleTissue& tissue, const TetVector& part,
-                  Eigen::VectorXd& gradient) {
+ElementVectors multiply(const Blocks& blocks, std::size_t lane, const ElementVectors& vector) {
+  ElementVectors product;
+  product.fill(Vec3::Zero());
+  std::size_t pair = 0;
   for (std::size_t a = 0; a < kTetNodes; ++a) {
-    const int f = tissue.free_index[at(element.nodes[a])];
-    if (f < 0) continue;
-    for (std::size_t i = 0; i < 3; ++i) gradient[3 * f + static_cast<int>(i)] += part[i * kTetStride + a];
+    for (std::size_t b = a; b < kTetNodes; ++b, ++pair) {
+      Mat3 block;
+      for (std::size_t e = 0; e < 9; ++e)
+        block(static_cast<int>(e) / 3, static_cast<int>(e) % 3) = blocks[pair][e].lane[lane];
+      product[a] += block * vector[b];
+      if (a != b) product[b] += block.transpose() * vector[a];
+    }
+  }
+  return product;
+}
+
+/// Columns and rows of the joints that move clamped nodes of the element.
+void scatter_joints(const Pass& pass, const TissueElement& element, const Blocks& blocks, std::size_t lane,
+                    const ElementVectors& mean_part) {
+  for (int j = 0; j < pass.skeleton.joint_count(); ++j) {
+    ElementVectors motion;
+    if (!joint_motion(pass, element, j, motion)) continue;
+    pass.system.mean.joint_gradient[j] += dot(mean_part, motion);
+    const ElementVectors force = multiply(blocks, lane, motion);
+    for (std::size_t a = 0; a < kTetNodes; ++a) {
+      const int f = pass.tissue.free_index[at(element.nodes[a])];
+      if (f >= 0) pass.system.coupling_N_rad.col(j).segment<3>(3 * f) += force[a];
+    }
+    for (int k = 0; k < pass.skeleton.joint_count(); ++k) {
+      ElementVectors other;
+      if (joint_motion(pass, element, k, other)) pass.system.joint_stiffness_Nm_rad(k, j) += dot(other, force);
+    }
   }
 }
 
 /// Kinematics of all elements; the force of each fibre needs the mean length of all. A step starts where the last one
 /// has looked at its forces: what is known of that place stays.
 void deform_elements(const Pass& pass) {
-  pass.system.points.resize(pass.tissue.elements.size());
-  const bool moved = pass.system.points_at_m != pass.state.now.position_m;
-  pass.system.points_at_m = pass.state.now.position_m;
-  for (std::size_t t = 0; t < pass.tissue.elements.size(); ++t) {
-    const TissueElement& element = pass.tissue.elements[t];
-    TetPoints& points = pass.system.points[t];
-    if (moved) deform(element.rest, element.fibre, gather(element, pass.state.now.position_m), points);
-    for (std::size_t p = 0; p < kTetPoints; ++p) {
-      pass.state.now.stretch[t * kTetPoints + p] = points.stretch[p];
-      pass.system.smallest_J = std::min(pass.system.smallest_J, points.J[p]);
+  TissueSystem& system = pass.system;
+  if (system.points_at_m != pass.state.now.position_m) {
+    system.points_at_m = pass.state.now.position_m;
+    for (std::size_t b = 0; b < pass.tissue.batches.size(); ++b) {
+      const TetBatch<QuadraticTet>& tets = pass.tissue.batches[b].tets;
+      Nodes position;
+      gather(tets, pass.state.now.position_m, position);
+      deform_batch<QuadraticTet>(tets.shapes, position, system.points[b]);
     }
+  }
+  for (std::size_t b = 0; b < pass.tissue.batches.size(); ++b) {
+    const TetBatch<QuadraticTet>& tets = pass.tissue.batches[b].tets;
+    for (std::size_t lane = 0; lane < at(tets.count); ++lane) {
+      for (std::size_t p = 0; p < kTetPoints; ++p) {
+        const Point<Eight>& point = system.points[b][p];
+        pass.state.now.stretch[at(tets.tet[lane]) * kTetPoints + p] =
+            std::max(std::sqrt(point.I4.lane[lane]), kShortestStretch);
+        system.smallest_J = std::min(system.smallest_J, point.J.lane[lane]);
+      }
+    }
+  }
+}
+
+Eight fluctuation_of(const TissueBatch& batch, double activation) {
+  const TissueMaterial& material = batch.sheath ? kTendonSheath : kMuscleMatrix;
+  Eight fluctuation;
+  for (std::size_t lane = 0; lane < kBatch; ++lane) {
+    fluctuation.lane[lane] = material.fluctuation_Pa + kActiveFluctuation * activation * batch.peak_Pa.lane[lane];
+  }
+  return fluctuation;
+}
+
+void add_forces(const Pass& pass, const TissueBatch& batch, const MuscleBatch& muscle) {
+  Nodes forces;
+  muscle_forces(muscle, forces);
+  scatter(batch.tets, forces, pass.system.internal_N);
+  for (std::size_t lane = 0; lane < at(batch.tets.count); ++lane) {
+    for (const Vector3<Eight>& node : forces) {
+      for (const Eight& component : node) pass.system.force_scale_N += component.lane[lane] * component.lane[lane];
+    }
+  }
+}
+
+void add_stiffness(const Pass& pass, const TissueBatch& batch, const MuscleBatch& muscle) {
+  Blocks blocks;
+  muscle_stiffness(muscle, pass.load.definite, blocks);
+  scatter(batch.tets, blocks, pass.system.matrix.values());
+  Nodes mean_parts;
+  fibre_stretch_slopes(muscle.shapes, muscle.points, mean_parts);
+  for (std::size_t lane = 0; lane < at(batch.tets.count); ++lane) {
+    const TissueElement& element = pass.tissue.elements[at(batch.tets.tet[lane])];
+    ElementVectors mean_part = vectors_of(mean_parts, lane);
+    for (std::size_t a = 0; a < kTetNodes; ++a) {
+      mean_part[a] *= element.peak_Pa;
+      const int f = pass.tissue.free_index[at(element.nodes[a])];
+      if (f >= 0) pass.system.mean.gradient.segment<3>(3 * f) += mean_part[a];
+    }
+    if (element.clamped) scatter_joints(pass, element, blocks, lane, mean_part);
   }
 }
 
@@ -138,24 +160,16 @@ void add_elements(const Pass& pass) {
   deform_elements(pass);
   const FibreInputs fibres{pass.tissue, pass.state, pass.load, mean_fibre_length(pass.tissue, pass.state.now.stretch),
                            mean_fibre_length(pass.tissue, pass.state.last.stretch)};
-  TetMatrix stiffness;
-  for (std::size_t t = 0; t < pass.tissue.elements.size(); ++t) {
-    const TissueElement& element = pass.tissue.elements[t];
-    const FibreStress fibre = fibre_stress(fibres, t, pass.system.points[t]);
-    const TissueMaterial material = material_of(element, pass.state.activation);
-    const ElementInputs inputs{element.rest, material, pass.system.points[t], element.fibre, fibre};
-    const TetVector forces = elastic_forces(inputs);
-    for (std::size_t a = 0; a < kTetNodes; ++a) {
-      double* out = pass.system.internal_N.data() + 3 * element.nodes[a];
-      for (std::size_t i = 0; i < 3; ++i) out[i] += forces[i * kTetStride + a];
+  for (std::size_t b = 0; b < pass.tissue.batches.size(); ++b) {
+    const TissueBatch& batch = pass.tissue.batches[b];
+    MuscleBatch muscle{batch.tets.shapes, pass.system.points[b],
+                       batch.sheath ? kTendonSheath.matrix : kMuscleMatrix.matrix,
+                       fluctuation_of(batch, pass.state.activation)};
+    for (std::size_t lane = 0; lane < at(batch.tets.count); ++lane) {
+      write_fibre_stress(fibres, at(batch.tets.tet[lane]), lane, muscle);
     }
-    pass.system.force_scale_N += dot(forces, forces);
-    if (!pass.tangent) continue;
-    elastic_stiffness(inputs, pass.load.definite, stiffness);
-    scatter_matrix(element, stiffness, pass.system.matrix.values());
-    const TetVector mean_part = mean_gradient(element, pass.system.points[t]);
-    scatter_mean(element, pass.tissue, mean_part, pass.system.mean.gradient);
-    if (element.clamped) scatter_joints(pass, element, stiffness, mean_part);
+    add_forces(pass, batch, muscle);
+    if (pass.tangent) add_stiffness(pass, batch, muscle);
   }
   if (!pass.tangent) return;
   MeanTerm& mean = pass.system.mean;
@@ -312,6 +326,7 @@ TissueSystem make_system(const MuscleTissue& tissue, const Skeleton& skeleton) {
   system.joint_residual_Nm = system.muscle_torque_Nm = Eigen::VectorXd::Zero(joints);
   system.mean = {Eigen::VectorXd::Zero(3 * tissue.free_nodes), Eigen::VectorXd::Zero(joints), 0.0};
   system.internal_N = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * tissue.body.size()));
+  system.points.resize(tissue.batches.size());
   system.points_at_m = Eigen::VectorXd::Constant(system.internal_N.size(), std::nan(""));  // nowhere yet
   return system;
 }

@@ -63,8 +63,8 @@ struct TissueSystem {
   Eigen::MatrixXd coupling_N_rad;
   Eigen::MatrixXd joint_stiffness_Nm_rad;
   Eigen::VectorXd joint_residual_Nm;
-  std::vector<TetPoints> points;  // one an element
-  Eigen::VectorXd points_at_m;    // node positions that `points` belong to
+  std::vector<PointBatch<QuadraticTet>> points;  // one a batch of elements
+  Eigen::VectorXd points_at_m;                   // node positions that `points` belong to
   // of the forces pass alone
   Eigen::VectorXd internal_N;        // at all nodes: elastic forces and strands
   Eigen::VectorXd muscle_torque_Nm;  // that the tissue exerts on the joints, positive flexes

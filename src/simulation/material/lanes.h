@@ -29,7 +29,7 @@ MYOTACT_INTO_CLONES Real each(const Real& x, Function&& function) {
   if constexpr (kWidth<Real> == 1) {
     return function(x);
   } else {
-    Real result;
+    Real result{};
     for (int lane = 0; lane < kWidth<Real>; ++lane) result[lane] = function(x[lane]);
     return result;
   }

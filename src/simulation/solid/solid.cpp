@@ -4,9 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include <Eigen/Geometry>
-#include <Eigen/LU>
-
 #include "core/error.h"
 #include "core/text.h"
 #include "simulation/solid/law_batch.h"
@@ -58,23 +55,9 @@ void check_fibre(const SolidInput& input, std::size_t t, int material, const std
 }
 
 TetShape<double> shape_of(const SolidInput& input, const geometry::TetMesh& mesh, std::size_t t) {
-  Mat3 edges;
-  const Vec3& first = mesh.nodes_m[at(mesh.corners[t][0])];
-  for (int k = 0; k < 3; ++k) edges.col(k) = mesh.nodes_m[at(mesh.corners[t][at(k + 1)])] - first;
-  const Mat3 inverse = edges.inverse();
-  TetShape<double> shape;
-  for (std::size_t A = 0; A < 3; ++A) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      shape.gradient_1_m[k + 1][A] = inverse(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(A));
-    }
-    shape.gradient_1_m[0][A] = -(shape.gradient_1_m[1][A] + shape.gradient_1_m[2][A] + shape.gradient_1_m[3][A]);
-  }
-  shape.volume_m3 = edges.determinant() / 6.0;
-  if (!input.fibre.empty()) {
-    const Vec3 unit = input.fibre[t].normalized();
-    shape.fibre = {unit.x(), unit.y(), unit.z()};
-  }
-  return shape;
+  std::array<Vec3, 4> corners;
+  for (std::size_t c = 0; c < 4; ++c) corners[c] = mesh.nodes_m[at(mesh.corners[t][c])];
+  return make_tet_shape(corners, input.fibre.empty() ? Vec3::Zero() : Vec3(input.fibre[t].normalized()));
 }
 
 template <class Tet>
@@ -85,18 +68,6 @@ std::array<int, Tet::kNodes> nodes_of(const geometry::TetMesh& mesh, std::size_t
     for (std::size_t e = 0; e < 6; ++e) nodes[4 + e] = mesh.midsides[t][e];
   }
   return nodes;
-}
-
-PairSlot slot_of(const BlockMatrix& pattern, int a, int b) {
-  return {pattern.slot(std::max(a, b), std::min(a, b)), a >= b};
-}
-
-void set_lane(const TetShape<double>& shape, std::size_t lane, TetShapes& shapes) {
-  for (std::size_t m = 0; m < 4; ++m) {
-    for (std::size_t A = 0; A < 3; ++A) shapes.gradient_1_m[m][A].lane[lane] = shape.gradient_1_m[m][A];
-  }
-  shapes.volume_m3.lane[lane] = shape.volume_m3;
-  for (std::size_t A = 0; A < 3; ++A) shapes.fibre[A].lane[lane] = shape.fibre[A];
 }
 
 }  // namespace
@@ -149,7 +120,7 @@ Solid::Solid(const SolidInput& input, const std::string& file)
   for (Patch& patch : patches_) {
     for (std::size_t a = 0; a < patch.nodes.size(); ++a) {
       for (std::size_t b = a; b < patch.nodes.size(); ++b) {
-        patch.slots.push_back(slot_of(pattern_, patch.nodes[a], patch.nodes[b]));
+        patch.slots.push_back(pair_slot(pattern_, patch.nodes[a], patch.nodes[b]));
       }
     }
   }
@@ -171,16 +142,11 @@ void Solid::add_batches(std::vector<TetBatch<Tet>>& batches) {
       }
       TetBatch<Tet>& batch = batches.back();
       const std::array<int, Tet::kNodes> nodes = nodes_of<Tet>(mesh_, t);
-      // The lanes behind it repeat this tet until they get one of their own.
-      for (std::size_t lane = at(batch.count); lane < kBatch; ++lane) {
-        set_lane(shapes_[t], lane, batch.shapes);
-        batch.tet[lane] = static_cast<int>(t);
-        batch.nodes[lane] = nodes;
-      }
+      set_lane(batch, at(batch.count), static_cast<int>(t), shapes_[t], nodes);
       std::size_t pair = 0;
       for (std::size_t a = 0; a < Tet::kNodes; ++a) {
         for (std::size_t b = a; b < Tet::kNodes; ++b, ++pair) {
-          batch.slots[at(batch.count)][pair] = slot_of(pattern_, nodes[a], nodes[b]);
+          batch.slots[at(batch.count)][pair] = pair_slot(pattern_, nodes[a], nodes[b]);
         }
       }
       ++batch.count;

@@ -8,7 +8,7 @@
 #include "geometry/tet_mesh.h"
 #include "simulation/block_matrix.h"
 #include "simulation/solid/law.h"
-#include "simulation/solid/solid_elements.h"
+#include "simulation/element/tet_elements.h"
 
 namespace myotact::simulation {
 

@@ -4,14 +4,15 @@
 
 #include <Eigen/Core>
 
+#include "core/vector.h"
 #include "simulation/block_matrix.h"
 #include "simulation/element/tet_batch.h"
 
-// The tets of a solid, eight at a time, and how they meet the nodes.
+// Tets, eight at a time, and how they meet the nodes.
 
 namespace myotact::simulation {
 
-/// Where the block of a pair of nodes goes in a BlockMatrix.
+/// Where the block of a pair of nodes goes in a BlockMatrix; base -1: nowhere, one of them is no unknown.
 struct PairSlot {
   BlockSlot block;
   bool in_order = true;  // a's row, b's column; else the other way round
@@ -28,8 +29,7 @@ struct TetBatch {
 };
 
 template <class Tet>
-MYOTACT_INTO_CLONES void gather(const TetBatch<Tet>& batch, const Eigen::VectorXd& values,
-                                TetNodeVectors<Eight, Tet>& gathered) {
+void gather(const TetBatch<Tet>& batch, const Eigen::VectorXd& values, TetNodeVectors<Eight, Tet>& gathered) {
   for (std::size_t lane = 0; lane < kBatch; ++lane) {
     for (std::size_t a = 0; a < Tet::kNodes; ++a) {
       const double* from = values.data() + 3 * batch.nodes[lane][a];
@@ -53,6 +53,7 @@ void scatter(const TetBatch<Tet>& batch, const TetBlocks<Eight, Tet>& blocks, do
   for (std::size_t lane = 0; lane < static_cast<std::size_t>(batch.count); ++lane) {
     for (std::size_t pair = 0; pair < kPairs<Tet>; ++pair) {
       const PairSlot& slot = batch.slots[lane][pair];
+      if (slot.block.base < 0) continue;
       const Matrix3<Eight>& block = blocks[pair];
       double* first = values + slot.block.base;
       double* second = first + slot.block.stride;
@@ -66,5 +67,26 @@ void scatter(const TetBatch<Tet>& batch, const TetBlocks<Eight, Tet>& blocks, do
     }
   }
 }
+
+/// Puts a tet into a lane; the lanes behind it repeat it until they get one of their own.
+template <class Tet>
+void set_lane(TetBatch<Tet>& batch, std::size_t lane, int tet, const TetShape<double>& shape,
+              const std::array<int, Tet::kNodes>& nodes) {
+  for (; lane < kBatch; ++lane) {
+    const double* from = reinterpret_cast<const double*>(&shape);
+    Eight* to = reinterpret_cast<Eight*>(&batch.shapes);
+    for (std::size_t k = 0; k < sizeof(shape) / sizeof(double); ++k) to[k].lane[lane] = from[k];
+    batch.tet[lane] = tet;
+    batch.nodes[lane] = nodes;
+  }
+}
+
+inline PairSlot pair_slot(const BlockMatrix& pattern, int a, int b) {
+  if (a < 0 || b < 0) return {};
+  return {pattern.slot(a > b ? a : b, a > b ? b : a), a >= b};
+}
+
+/// From the rest position of the 4 corners (volume > 0) and the unit direction of the fibres, or zero.
+TetShape<double> make_tet_shape(const std::array<Vec3, 4>& corners_m, const Vec3& fibre);
 
 }  // namespace myotact::simulation

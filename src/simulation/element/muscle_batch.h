@@ -1,0 +1,30 @@
+#pragma once
+
+#include "simulation/element/tet_batch.h"
+#include "simulation/material/stable_neo_hookean.h"
+
+namespace myotact::simulation {
+
+/// What eight quadratic tets of living muscle need: the matrix, with its volume term on the tets' mean volume ratios,
+/// and at each point the nominal stress of the fibres (force over rest section) with its slope against the stretch.
+struct MuscleBatch {
+  const TetShapes& shapes;
+  const PointBatch<QuadraticTet>& points;
+  StableNeoHookean matrix;
+  Eight fluctuation_Pa;
+  std::array<Eight, QuadraticTet::kPoints> stress_Pa{};
+  std::array<Eight, QuadraticTet::kPoints> slope_Pa{};
+};
+
+/// Forces that hold the deformed tets (slope of their energy) [N].
+void muscle_forces(const MuscleBatch& batch, TetNodeVectors<Eight, QuadraticTet>& force_N);
+
+/// Slope of the forces against the positions. `definite` drops or bounds every term that could make it indefinite: a
+/// slower but safe Newton matrix.
+void muscle_stiffness(const MuscleBatch& batch, bool definite, TetBlocks<Eight, QuadraticTet>& blocks_N_m);
+
+/// Slope of the integral of the fibres' stretch over the tets' volume against the node positions [m^2].
+void fibre_stretch_slopes(const TetShapes& shapes, const PointBatch<QuadraticTet>& points,
+                          TetNodeVectors<Eight, QuadraticTet>& slope_m2);
+
+}  // namespace myotact::simulation
