@@ -8,6 +8,7 @@
 #include "app/interruption.h"
 #include "app/options.h"
 #include "core/error.h"
+#include "core/file.h"
 #include "core/text.h"
 #include "measure/solve_answer.h"
 
@@ -32,7 +33,7 @@ class ProgressLine {
     const Clock::time_point now = Clock::now();
     if (now < next_) return;
     next_ = now + (on_terminal_ ? std::chrono::milliseconds(200) : std::chrono::seconds(5));
-    const std::string line = fmt::format("solve: {:3.0f} % reached, {} Newton steps, out of balance {:.1e}",
+    const std::string line = fmt::format("solve: at {:.0f} %, {} Newton steps, out of balance {:.1e}",
                                          100.0 * progress.share, progress.iterations, progress.residual_share);
     std::cerr << (on_terminal_ ? "\r" : "") << line << (on_terminal_ ? " " : "\n") << std::flush;
     shown_ = true;
@@ -64,6 +65,8 @@ int solve(const Options& options) {
   watch_for_interruption();
   try {
     const measure::SolveCase input = measure::load_case(options.file);
+    // Before a solve that may be long, not after it.
+    if (options.vtk && options.vtk->has_parent_path()) make_writable_folder(options.vtk->parent_path());
     const measure::SolveAnswer answer = solve_watched(input);
     if (const int status = interruption(); status != 0) return status;
     if (options.vtk) geometry::write_vtk(answer.deformed, answer.results, *options.vtk);

@@ -20,7 +20,7 @@ using geometry::TetFile;
 
 TetFile make_box(const JsonValue& value) {
   constexpr double kSmallest_m = 1e-9, kLargest_m = 1e6;
-  constexpr int kMostCells = 1'000'000;  // six tets each: as much as a machine of today solves
+  constexpr int kMostCells = 200'000;  // six tets each: more than 16 GB can factor
   JsonObject box(value);
   const JsonValue size = box.at("size_m");
   const JsonValue count = box.at("cells");

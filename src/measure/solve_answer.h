@@ -13,7 +13,7 @@
 namespace myotact::measure {
 
 struct SolveProgress {
-  double share = 0.0;           // of the load, or of the time
+  double share = 0.0;           // of the load that is being applied, or of the time
   double residual_share = 0.0;  // out-of-balance force over the elements' forces
   int iterations = 0;           // Newton steps so far
 };
