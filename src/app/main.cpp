@@ -17,11 +17,6 @@ namespace {
 using myotact::ExitStatus;
 using myotact::app::Options;
 
-void add_log_level(CLI::App& command, Options& options) {
-  command.add_option("--log-level", options.log_level, "trace, debug, info, warning, error, critical or off")
-      ->capture_default_str();
-}
-
 void add_common(CLI::App& command, Options& options) {
   command.add_option("--device", options.devices, "device name: simulated or mouse")->delimiter(',');
   command.add_option("--set", options.set, "override a key of the scene: key=value");
@@ -30,7 +25,8 @@ void add_common(CLI::App& command, Options& options) {
   command.add_option("-o,--out", options.out, "folder for what the command leaves")->capture_default_str();
   command.add_option("--record", options.record, "write a recording to this file");
   command.add_flag("--json", options.json, "machine-readable standard output");
-  add_log_level(command, options);
+  command.add_option("--log-level", options.log_level, "trace, debug, info, warning, error, critical or off")
+      ->capture_default_str();
   command.add_option("--workers", options.workers, "threads of a simulation step")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
@@ -72,7 +68,7 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
   CLI::App* solve = program.add_subcommand("solve", "one finite-element case, its answer as JSON");
   solve->add_option("case", options.file, "case file")->required();
   solve->add_option("--vtk", options.vtk, "write the deformed mesh to this file, for ParaView");
-  add_log_level(*solve, options);
+  add_common(*solve, options);
   bind(solve, myotact::app::solve);
   CLI::App* devices = program.add_subcommand("devices", "which devices there are");
   add_common(*devices, options);
