@@ -70,6 +70,12 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
   solve->add_option("--vtk", options.vtk, "write the deformed mesh to this file, for ParaView");
   add_common(*solve, options);
   bind(solve, myotact::app::solve);
+  CLI::App* validate =
+      program.add_subcommand("validate", "every analytic and published case, expected against obtained");
+  validate->add_option("--filter", options.filter, "only the case of this name, or all that have it in their names");
+  validate->add_option("--report", options.report, "write a page with the table and plots to this file");
+  add_common(*validate, options);
+  bind(validate, myotact::app::validate);
   CLI::App* devices = program.add_subcommand("devices", "which devices there are");
   add_common(*devices, options);
   bind(devices, myotact::app::devices);

@@ -28,8 +28,10 @@ struct Options {
   int workers = 2;
   std::vector<double> angles_deg = {0.0};
   std::vector<double> levels = {0.0, 0.25, 0.5, 0.75, 1.0};
-  std::filesystem::path file;  // replay, solve
-  std::optional<std::filesystem::path> vtk;
+  std::filesystem::path file;                // replay, solve
+  std::optional<std::filesystem::path> vtk;  // solve
+  std::string filter;                        // validate
+  std::optional<std::filesystem::path> report;
 };
 
 /// --set and --device as overrides of the scene. Throws Error Usage for a --set without "=".
@@ -47,6 +49,7 @@ int view(const Options& options);
 int stiffness(const Options& options);
 int replay(const Options& options);
 int solve(const Options& options);
+int validate(const Options& options);
 int devices(const Options& options);
 
 }  // namespace myotact::app

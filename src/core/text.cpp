@@ -63,6 +63,29 @@ std::vector<std::string_view> words_of(std::string_view line) {
   }
 }
 
+std::string escape_markup(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += c;
+    }
+  }
+  return escaped;
+}
+
 std::string join(std::span<const std::string> words, std::string_view separator) {
   std::string joined;
   for (const std::string& word : words) {

@@ -118,7 +118,8 @@ Lists column_structures(const Lists& neighbours, const std::vector<int>& parent)
 
 }  // namespace
 
-BlockFactor::BlockFactor(const BlockMatrix& pattern) {
+template <class Scalar>
+BlockFactorOf<Scalar>::BlockFactorOf(const BlockMatrix& pattern) {
   Lists neighbours = neighbours_of(pattern);
   order_ = minimum_degree(neighbours);
   const std::vector<int> post = postorder(elimination_tree(renumbered(neighbours, order_)));
@@ -128,7 +129,8 @@ BlockFactor::BlockFactor(const BlockMatrix& pattern) {
   place_entries(pattern);
 }
 
-void BlockFactor::make_fronts(const std::vector<std::vector<int>>& neighbours) {
+template <class Scalar>
+void BlockFactorOf<Scalar>::make_fronts(const std::vector<std::vector<int>>& neighbours) {
   const std::vector<int> parent = elimination_tree(neighbours);
   const Lists rows = column_structures(neighbours, parent);
   const int n = static_cast<int>(neighbours.size());
@@ -159,7 +161,7 @@ void BlockFactor::make_fronts(const std::vector<std::vector<int>>& neighbours) {
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
     Front& front = fronts_[f];
     const std::size_t size = 3 * front.nodes.size();
-    values_.emplace_back(3 * at(front.own) * (size + kFrontPadding), 0.0F);
+    values_.emplace_back(3 * at(front.own) * (size + kFrontPadding), Scalar(0));
     largest_front_ = std::max(largest_front_, size);
     largest_rest_ = std::max(largest_rest_, size - 3 * at(front.own));
     if (at(front.own) == front.nodes.size()) continue;
@@ -181,7 +183,8 @@ void BlockFactor::make_fronts(const std::vector<std::vector<int>>& neighbours) {
   }
 }
 
-void BlockFactor::place_entries(const BlockMatrix& pattern) {
+template <class Scalar>
+void BlockFactorOf<Scalar>::place_entries(const BlockMatrix& pattern) {
   std::vector<int> front_of(order_.size());
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
     for (int k = 0; k < fronts_[f].own; ++k) front_of[at(fronts_[f].nodes[at(k)])] = static_cast<int>(f);
@@ -204,12 +207,14 @@ void BlockFactor::place_entries(const BlockMatrix& pattern) {
 }
 
 /// Places of a front's remainder on the stack: its lower triangle, column after column.
-std::size_t BlockFactor::remainder_places(const Front& front) {
+template <class Scalar>
+std::size_t BlockFactorOf<Scalar>::remainder_places(const Front& front) {
   const std::size_t below = 3 * (front.nodes.size() - at(front.own));
   return below * (below + 1) / 2;
 }
 
-void BlockFactor::reserve(Workspace& work) const {
+template <class Scalar>
+void BlockFactorOf<Scalar>::reserve(Workspace& work) const {
   const std::size_t stride = largest_front_ + kFrontPadding;
   work.rest.resize(std::max(work.rest.size(), largest_rest_ * stride));
   work.panel.resize(std::max(work.panel.size(), kFrontPanel * stride));
@@ -217,35 +222,38 @@ void BlockFactor::reserve(Workspace& work) const {
   work.top = 0;
 }
 
-DenseFront BlockFactor::kept(std::size_t f) const {
+template <class Scalar>
+DenseFront<Scalar> BlockFactorOf<Scalar>::kept(std::size_t f) const {
   const int size = 3 * static_cast<int>(fronts_[f].nodes.size());
   // The values are this object's own; const callers only read them.
-  return {const_cast<float*>(values_[f].data()), nullptr, size + kFrontPadding, size, 3 * fronts_[f].own};
+  return {const_cast<Scalar*>(values_[f].data()), nullptr, size + kFrontPadding, size, 3 * fronts_[f].own};
 }
 
 /// Adds the matrix's own blocks.
-void BlockFactor::add_entries(std::size_t f, const double* values, const DenseFront& to) const {
+template <class Scalar>
+void BlockFactorOf<Scalar>::add_entries(std::size_t f, const double* values, const DenseFront<Scalar>& to) const {
   for (const Entry& entry : entries_[f]) {
     const double* block = values + entry.slot.base;
     for (int j = 0; j < 3; ++j) {
-      float* column = to.column(3 * entry.column + j) + 3 * entry.row;
+      Scalar* column = to.column(3 * entry.column + j) + 3 * entry.row;
       for (int i = 0; i < 3; ++i) {
         column[i] +=
-            static_cast<float>(entry.transposed ? block[i * entry.slot.stride + j] : block[j * entry.slot.stride + i]);
+            static_cast<Scalar>(entry.transposed ? block[i * entry.slot.stride + j] : block[j * entry.slot.stride + i]);
       }
     }
   }
 }
 
 /// Adds a child's packed lower triangle, column after column.
-void BlockFactor::add_remainder(const Front& child, const float* remainder, const DenseFront& to) {
-  const auto add_rows = [&remainder](float* rows, int count) {
+template <class Scalar>
+void BlockFactorOf<Scalar>::add_remainder(const Front& child, const Scalar* remainder, const DenseFront<Scalar>& to) {
+  const auto add_rows = [&remainder](Scalar* rows, int count) {
     for (int i = 0; i < count; ++i) rows[i] += remainder[i];
     remainder += count;
   };
   for (auto run = child.runs.begin(); run != child.runs.end(); ++run) {
     for (int j = 0; j < 3 * run->count; ++j) {
-      float* column = to.column(3 * run->place + j);
+      Scalar* column = to.column(3 * run->place + j);
       add_rows(column + 3 * run->place + j, 3 * run->count - j);
       for (auto below = run + 1; below != child.runs.end(); ++below)
         add_rows(column + 3 * below->place, 3 * below->count);
@@ -254,10 +262,11 @@ void BlockFactor::add_remainder(const Front& child, const float* remainder, cons
 }
 
 /// The front before its elimination. Its own columns are where solve() finds them, the rest in the workspace.
-DenseFront BlockFactor::assemble_front(std::size_t f, const double* values, Workspace& work) {
-  DenseFront to = kept(f);
+template <class Scalar>
+DenseFront<Scalar> BlockFactorOf<Scalar>::assemble_front(std::size_t f, const double* values, Workspace& work) {
+  DenseFront<Scalar> to = kept(f);
   to.rest_values = work.rest.data();
-  for (int c = 0; c < to.size; ++c) std::fill(to.column(c) + c, to.column(c) + to.size, 0.0F);
+  for (int c = 0; c < to.size; ++c) std::fill(to.column(c) + c, to.column(c) + to.size, Scalar(0));
   add_entries(f, values, to);
   const std::vector<int>& children = fronts_[f].children;
   for (auto child = children.rbegin(); child != children.rend(); ++child) {
@@ -267,20 +276,22 @@ DenseFront BlockFactor::assemble_front(std::size_t f, const double* values, Work
   return to;
 }
 
-void BlockFactor::push_remainder(const Front& front, const DenseFront& dense, Workspace& work) {
-  float* stack = work.stack.data() + work.top;
+template <class Scalar>
+void BlockFactorOf<Scalar>::push_remainder(const Front& front, const DenseFront<Scalar>& dense, Workspace& work) {
+  Scalar* stack = work.stack.data() + work.top;
   for (int c = dense.own; c < dense.size; ++c) {
     stack = std::copy(dense.column(c) + c, dense.column(c) + dense.size, stack);
   }
   work.top += remainder_places(front);
 }
 
-bool BlockFactor::factor(const BlockMatrix& matrix) {
+template <class Scalar>
+bool BlockFactorOf<Scalar>::factor(const BlockMatrix& matrix) {
   thread_local Workspace work;
   reserve(work);
   positive_ = true;
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
-    const DenseFront dense = assemble_front(f, matrix.lower().valuePtr(), work);
+    const DenseFront<Scalar> dense = assemble_front(f, matrix.lower().valuePtr(), work);
     const Pivots pivots = eliminate_front(dense, work.panel.data());
     if (pivots != Pivots::Positive) positive_ = false;
     if (pivots == Pivots::Unusable) return false;
@@ -290,7 +301,8 @@ bool BlockFactor::factor(const BlockMatrix& matrix) {
 }
 
 /// Four right sides side by side, in elimination order, become the solutions.
-void BlockFactor::solve_four(double* x) const {
+template <class Scalar>
+void BlockFactorOf<Scalar>::solve_four(double* x) const {
   constexpr std::ptrdiff_t kNode = 4 * 3;  // numbers a node
   std::vector<double> local(4 * largest_front_);
   const auto sweep = [&](const Front& front, auto&& solve_front) {
@@ -311,7 +323,8 @@ void BlockFactor::solve_four(double* x) const {
   }
 }
 
-Eigen::MatrixXd BlockFactor::solve(const Eigen::MatrixXd& right) const {
+template <class Scalar>
+Eigen::MatrixXd BlockFactorOf<Scalar>::solve(const Eigen::MatrixXd& right) const {
   Eigen::MatrixXd result(right.rows(), right.cols());
   std::vector<double> four(4 * 3 * order_.size());
   for (Eigen::Index first = 0; first < right.cols(); first += 4) {
@@ -332,11 +345,15 @@ Eigen::MatrixXd BlockFactor::solve(const Eigen::MatrixXd& right) const {
   return result;
 }
 
-Eigen::MatrixXd BlockFactor::solve_refined(const BlockMatrix& matrix, const Eigen::MatrixXd& right) const {
+template <class Scalar>
+Eigen::MatrixXd BlockFactorOf<Scalar>::solve_refined(const BlockMatrix& matrix, const Eigen::MatrixXd& right) const {
   Eigen::MatrixXd solution = solve(right);
   const Eigen::MatrixXd residual = right - matrix.lower().selfadjointView<Eigen::Lower>() * solution;
   solution += solve(residual);
   return solution;
 }
+
+template class BlockFactorOf<float>;
+template class BlockFactorOf<double>;
 
 }  // namespace myotact::simulation

@@ -10,16 +10,17 @@
 namespace myotact::simulation {
 
 /// L D L^T of a symmetric BlockMatrix by the multifrontal method: nodes are ordered by minimum degree, neighbouring
-/// columns of like structure are eliminated together in dense fronts. The factors are kept in single precision, which
-/// moves half the bytes: a solution is right to 1e-5 .. 3e-3 on the muscles of the elbow, enough for a Newton step,
-/// whose residual is taken in double anyway. The pattern is analysed once; a factorisation allocates nothing but each
-/// thread's own workspace, once. No pivoting: meant for positive definite matrices; an indefinite one is factored too
-/// as long as no pivot vanishes.
-class BlockFactor {
+/// columns of like structure are eliminated together in dense fronts. Scalar is what the factors are kept in.
+/// Single precision moves half the bytes: a solution is right to 1e-5 .. 3e-3 on the muscles of the elbow, enough for a
+/// Newton step, whose residual is taken in double anyway. The pattern is analysed once; a factorisation allocates
+/// nothing but each thread's own workspace, once. No pivoting: meant for positive definite matrices; an indefinite one
+/// is factored too as long as no pivot vanishes.
+template <class Scalar>
+class BlockFactorOf {
  public:
-  BlockFactor() = default;
+  BlockFactorOf() = default;
   /// Analyses the pattern.
-  explicit BlockFactor(const BlockMatrix& pattern);
+  explicit BlockFactorOf(const BlockMatrix& pattern);
 
   /// Factors a matrix of that pattern. False when a pivot is zero or not finite; solve() must not be called then.
   bool factor(const BlockMatrix& matrix);
@@ -57,26 +58,31 @@ class BlockFactor {
   /// for their parents. Fronts are met children first, so the waiting remainders are a stack. One a thread, small
   /// enough to stay in its cache.
   struct Workspace {
-    std::vector<float> rest, panel, stack;
+    std::vector<Scalar> rest, panel, stack;
     std::size_t top = 0;
   };
   static std::size_t remainder_places(const Front& front);
   void reserve(Workspace& work) const;
-  DenseFront assemble_front(std::size_t front, const double* values, Workspace& work);
-  void add_entries(std::size_t front, const double* values, const DenseFront& to) const;
-  static void add_remainder(const Front& child, const float* remainder, const DenseFront& to);
-  static void push_remainder(const Front& front, const DenseFront& dense, Workspace& work);
-  DenseFront kept(std::size_t front) const;
+  DenseFront<Scalar> assemble_front(std::size_t front, const double* values, Workspace& work);
+  void add_entries(std::size_t front, const double* values, const DenseFront<Scalar>& to) const;
+  static void add_remainder(const Front& child, const Scalar* remainder, const DenseFront<Scalar>& to);
+  static void push_remainder(const Front& front, const DenseFront<Scalar>& dense, Workspace& work);
+  DenseFront<Scalar> kept(std::size_t front) const;
   void solve_four(double* x) const;
 
   std::vector<int> order_;  // elimination position of each node
   std::vector<Front> fronts_;
   std::vector<std::vector<Entry>> entries_;  // one list a front
-  std::vector<std::vector<float>> values_;   // own columns of each front after factor(), see dense_front.h
+  std::vector<std::vector<Scalar>> values_;  // own columns of each front after factor(), see dense_front.h
   std::size_t largest_front_ = 0;            // rows
   std::size_t largest_rest_ = 0;             // columns that are not a front's own
   std::size_t deepest_stack_ = 0;            // places
   bool positive_ = false;
 };
+
+/// For the steps of a running simulation.
+using BlockFactor = BlockFactorOf<float>;
+/// For static solves to the last digits, and for comparison.
+using ExactBlockFactor = BlockFactorOf<double>;
 
 }  // namespace myotact::simulation

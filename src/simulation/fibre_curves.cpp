@@ -1,5 +1,6 @@
 #include "simulation/fibre_curves.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -17,6 +18,9 @@ constexpr std::array<Bell, 3> kBells = {{
     {0.1, 1.0, 0.353553390593274, 0.0},
 }};
 
+/// Curves that rise for ever stop here, so that the largest double stays finite.
+constexpr double kLargestArgument = 1e300;
+
 /// A bell is below 1e-300 when its argument exceeds this; leaving it out there keeps 0/0 away where its width passes 0.
 constexpr double kFarthestDeviation = 37.0;
 
@@ -26,6 +30,16 @@ constexpr double kPassiveZero_lo = 0.2;  // the curve passes 0 here
 constexpr double kPassiveStraight_lo = 2.0;
 
 constexpr std::array<double, 4> kVelocity = {-0.3211346127989808, -8.149, -0.374, 0.8825327733249912};
+
+constexpr double kTendonStrain = 0.049;  // at peak isometric force
+constexpr double kTendonScale = 0.2;     // c1; the tendon pushes with no more than this
+constexpr double kTendonStraight = 1.0 + 2.0 * kTendonStrain;
+
+/// Exponent per unit of strain that makes the force 1 at kTendonStrain.
+double tendon_shape() noexcept {
+  static const double shape = std::log((1.0 + kTendonScale) / kTendonScale) / kTendonStrain;
+  return shape;
+}
 
 /// (n - centre) / width, or nothing to add (false) where the bell has vanished.
 bool deviation(const Bell& bell, double n, double& x) noexcept {
@@ -70,7 +84,7 @@ double active_force_length_slope(double n) noexcept {
 double passive_force_length(double n) noexcept {
   if (n > kPassiveStraight_lo) {
     return passive_force_length(kPassiveStraight_lo) +
-           (n - kPassiveStraight_lo) * passive_force_length_slope(kPassiveStraight_lo);
+           (std::min(n, kLargestArgument) - kPassiveStraight_lo) * passive_force_length_slope(kPassiveStraight_lo);
   }
   return (passive_exponential(n) - passive_exponential(kPassiveZero_lo)) * passive_scale();
 }
@@ -82,7 +96,8 @@ double passive_force_length_slope(double n) noexcept {
 
 double force_velocity(double v) noexcept {
   if (v <= -1.0) return 0.0;
-  const double force = kVelocity[0] * std::asinh(kVelocity[1] * v + kVelocity[2]) + kVelocity[3];
+  const double force =
+      kVelocity[0] * std::asinh(kVelocity[1] * std::min(v, kLargestArgument) + kVelocity[2]) + kVelocity[3];
   return force > 0.0 ? force : 0.0;
 }
 
@@ -90,6 +105,24 @@ double force_velocity_slope(double v) noexcept {
   if (v <= -1.0) return 0.0;
   const double argument = kVelocity[1] * v + kVelocity[2];
   return kVelocity[0] * kVelocity[1] / std::sqrt(argument * argument + 1.0);
+}
+
+double velocity_at_force(double force) noexcept {
+  if (force <= 0.0) return -1.0;
+  const double bounded = std::min(force, force_velocity(1.0));  // sinh overflows not far beyond
+  const double v = (std::sinh((bounded - kVelocity[3]) / kVelocity[0]) - kVelocity[2]) / kVelocity[1];
+  return std::clamp(v, -1.0, 1.0);
+}
+
+double tendon_force(double stretch) noexcept {
+  const double curved = std::min(stretch, kTendonStraight);
+  const double straight = std::min(stretch, kLargestArgument) - curved;
+  return kTendonScale * std::expm1(tendon_shape() * (curved - 1.0)) + straight * tendon_force_slope(kTendonStraight);
+}
+
+double tendon_force_slope(double stretch) noexcept {
+  const double curved = std::min(stretch, kTendonStraight);
+  return kTendonScale * tendon_shape() * std::exp(tendon_shape() * (curved - 1.0));
 }
 
 }  // namespace myotact::simulation

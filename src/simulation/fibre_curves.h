@@ -21,5 +21,12 @@ double passive_force_length_slope(double n) noexcept;
 /// 0 for v <= -1: a fibre that shortens faster than it can does not push.
 double force_velocity(double v) noexcept;
 double force_velocity_slope(double v) noexcept;
+/// The v at which the force is `force`, within -1 .. 1.
+double velocity_at_force(double force) noexcept;
+
+/// Of a tendon whose length is `stretch` times its slack length: 1 at 4.9 % strain, through 0 when slack, as low as
+/// -0.2 below. Goes on as a straight line past 9.8 % strain, where no tendon is whole.
+double tendon_force(double stretch) noexcept;
+double tendon_force_slope(double stretch) noexcept;
 
 }  // namespace myotact::simulation

@@ -21,21 +21,6 @@ struct Range {
   double lowest, highest;
 };
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else
-      out += c;
-  }
-  return out;
-}
-
 /// Fewest digits that tell neighbouring ticks apart.
 std::string tick_text(double value, double spacing) {
   const int digits = std::max(0, static_cast<int>(std::ceil(-std::log10(spacing) - 1e-9)));
@@ -83,12 +68,13 @@ std::string frame_svg(const Chart& chart, const Axes& axes) {
                        tick_text(x, x_step)) +
            "\n";
   }
-  svg += fmt::format(R"(<text x="{}" y="28" font-size="16" font-weight="bold">{}</text>)", kLeft, escaped(chart.title));
+  svg += fmt::format(R"(<text x="{}" y="28" font-size="16" font-weight="bold">{}</text>)", kLeft,
+                     escape_markup(chart.title));
   svg += fmt::format(R"(<text x="{}" y="{}" text-anchor="middle">{}</text>)", 0.5 * (kLeft + kWidth - kRight),
-                     kHeight - 18, escaped(chart.x_label));
+                     kHeight - 18, escape_markup(chart.x_label));
   const double middle = 0.5 * (kTop + kHeight - kBottom);
   svg += fmt::format(R"svg(<text x="22" y="{0}" text-anchor="middle" transform="rotate(-90 22 {0})">{1}</text>)svg",
-                     middle, escaped(chart.y_label)) +
+                     middle, escape_markup(chart.y_label)) +
          "\n";
   return svg;
 }
@@ -106,7 +92,7 @@ std::string series_svg(const ChartSeries& series, const Axes& axes, const char* 
   svg += markers;
   svg += fmt::format(R"(<line x1="{0}" y1="{1}" x2="{2}" y2="{1}" stroke="{3}" stroke-width="3"/>)", kLeft + 14,
                      legend_y, kLeft + 38, colour);
-  svg += fmt::format(R"(<text x="{}" y="{}">{}</text>)", kLeft + 46, legend_y + 4, escaped(series.name)) + "\n";
+  svg += fmt::format(R"(<text x="{}" y="{}">{}</text>)", kLeft + 46, legend_y + 4, escape_markup(series.name)) + "\n";
   return svg;
 }
 

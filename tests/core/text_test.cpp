@@ -64,5 +64,9 @@ TEST(Text, WordsAreSplitAtBlanks) {
   EXPECT_EQ(join(std::vector<std::string>{"a", "b"}), "a, b");
 }
 
+TEST(Text, MarkupIsEscaped) {
+  EXPECT_EQ(escape_markup("a < b && \"c\" > d"), "a &lt; b &amp;&amp; &quot;c&quot; &gt; d");
+}
+
 }  // namespace
 }  // namespace myotact

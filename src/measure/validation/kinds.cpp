@@ -1,0 +1,25 @@
+#include "measure/validation/kinds.h"
+
+#include <fmt/format.h>
+
+#include "core/text.h"
+#include "measure/validation/fibre_kinds.h"
+#include "measure/validation/oscillator_kinds.h"
+#include "measure/validation/pendulum_kind.h"
+
+namespace myotact::measure {
+
+const std::vector<Kind>& validation_kinds() {
+  static const std::vector<Kind> kinds = {
+      {"activation", activation},         {"force_curves", force_curve_values},
+      {"hinge_pendulum", hinge_pendulum}, {"isotonic_velocity", isotonic_velocity},
+      {"oscillator", oscillator},         {"oscillator_order", oscillator_order},
+  };
+  return kinds;
+}
+
+std::string quantity_at(std::string_view name, double place) {
+  return fmt::format("{}({})", name, to_text(place));
+}
+
+}  // namespace myotact::measure

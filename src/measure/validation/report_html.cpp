@@ -1,0 +1,93 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/text.h"
+#include "measure/validation/report.h"
+
+namespace myotact::measure {
+namespace {
+
+constexpr const char* kHead = R"(<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><title>Myotact: validation</title><style>
+body { font: 14px sans-serif; color: #222222; margin: 2em; }
+table { border-collapse: collapse; margin: 0.5em 0; }
+th, td { border-bottom: 1px solid #dddddd; padding: 2px 10px; text-align: left; vertical-align: top; }
+td.number { text-align: right; font-variant-numeric: tabular-nums; }
+.fail { color: #a02c00; font-weight: bold; }
+</style></head><body>
+)";
+
+constexpr double kTolerance_px = 200.0;  // a bar of this length has used up its tolerance
+constexpr double kLongest_px = 300.0;    // a longer bar ends here
+constexpr double kRow_px = 18.0;
+constexpr double kLabel_px = 260.0;
+
+// Blue and orange of Okabe and Ito: told apart by everyone.
+constexpr const char* kPassColour = "#0072B2";
+constexpr const char* kFailColour = "#D55E00";
+
+/// Error over tolerance. A bound, or an exact value, is either kept (0) or not (the longest bar).
+double used_share(const CheckResult& result) {
+  constexpr double kMost = kLongest_px / kTolerance_px;
+  if (!result.passed && !(result.check.tolerance > 0.0)) return kMost;
+  if (!(result.check.tolerance > 0.0)) return 0.0;
+  const double share = result.error / result.check.tolerance;
+  return std::isfinite(share) ? std::min(share, kMost) : kMost;
+}
+
+std::string bars_svg(const CaseResult& result) {
+  const double height = kRow_px * static_cast<double>(result.checks.size()) + 8.0;
+  std::string svg = fmt::format(
+      R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="{1}" viewBox="0 0 {0} {1}" font-size="12">)",
+      kLabel_px + kLongest_px + 10.0, height);
+  for (std::size_t i = 0; i < result.checks.size(); ++i) {
+    const CheckResult& check = result.checks[i];
+    const double top = 4.0 + kRow_px * static_cast<double>(i);
+    svg += fmt::format(R"(<text x="{}" y="{}" text-anchor="end">{}</text>)", kLabel_px - 8.0, top + 13.0,
+                       escape_markup(check.check.quantity));
+    svg += fmt::format(R"(<rect x="{}" y="{}" width="{:.1f}" height="{}" fill="{}"/>)", kLabel_px, top + 3.0,
+                       std::max(1.0, used_share(check) * kTolerance_px), kRow_px - 6.0,
+                       check.passed ? kPassColour : kFailColour);
+  }
+  svg += fmt::format(R"(<line x1="{0}" y1="0" x2="{0}" y2="{1}" stroke="#222222" stroke-dasharray="3 3"/>)",
+                     kLabel_px + kTolerance_px, height);
+  return svg + "</svg>\n";
+}
+
+std::string case_table(const CaseResult& result) {
+  std::string html =
+      "<table><tr><th>quantity</th><th>expected</th><th>obtained</th><th>error</th><th>tolerance</th><th>result</th>"
+      "<th>source</th></tr>\n";
+  for (const CheckResult& c : result.checks) {
+    const bool has_tolerance = c.check.expectation == Expectation::Value;
+    html += fmt::format(
+        R"(<tr><td>{}</td><td class="number">{}</td><td class="number">{:.7g}</td><td class="number">{:.2g}</td>)",
+        escape_markup(c.check.quantity), escape_markup(expected_text(c.check)), c.obtained, c.error);
+    html += fmt::format(R"(<td class="number">{}</td>{}<td>{}</td></tr>)",
+                        has_tolerance ? fmt::format("{:.2g}", c.check.tolerance) : "",
+                        c.passed ? "<td>pass</td>" : R"(<td class="fail">FAIL</td>)", escape_markup(c.check.source));
+    html += '\n';
+  }
+  return html + "</table>\n";
+}
+
+}  // namespace
+
+std::string validation_html(const std::vector<CaseResult>& results) {
+  const auto passed = std::count_if(results.begin(), results.end(), [](const auto& r) { return r.passed(); });
+  std::string html = kHead;
+  html += fmt::format(
+      "<h1>Myotact: validation</h1>\n<p>{} of {} cases pass. Bars show errors; the dashed line is the "
+      "tolerance.</p>\n",
+      passed, results.size());
+  for (const CaseResult& result : results) {
+    html += fmt::format("<h2{}>{}: {}</h2>\n<p>{}</p>\n", result.passed() ? "" : R"( class="fail")",
+                        escape_markup(result.name), result.passed() ? "pass" : "FAIL", escape_markup(result.title));
+    html += bars_svg(result) + case_table(result);
+  }
+  return html + "</body></html>\n";
+}
+
+}  // namespace myotact::measure

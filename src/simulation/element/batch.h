@@ -1,0 +1,105 @@
+#pragma once
+
+#include <type_traits>
+
+#include "simulation/material/lanes.h"
+
+// Elements are kept and computed eight at a time. How many of the eight go through the arithmetic at once depends on
+// the processor; the result does not.
+
+namespace myotact::simulation {
+
+inline constexpr int kBatch = 8;
+
+/// One number of each of eight elements.
+struct Eight {
+  alignas(64) double lane[kBatch] = {};
+};
+
+enum class VectorUnit { Sse2, Avx2, Avx512 };
+/// The widest that this processor has and that is allowed.
+VectorUnit vector_unit();
+/// For measurements: nothing wider is used from now on. Not while a step runs.
+void allow_vector_unit(VectorUnit widest);
+
+namespace detail {
+
+template <class Real>
+struct Unaligned {
+  typedef Real Type __attribute__((aligned(8), may_alias));
+};
+
+/// `Of` is a template of aggregates of numbers, such as TetShape: the same numbers for eight elements and for a part.
+template <class Real, class Part, class Whole>
+MYOTACT_INTO_CLONES void load(const Whole& whole, int part, Part& to) {
+  static_assert(sizeof(Whole) / sizeof(Eight) == sizeof(Part) / sizeof(Real));
+  const double* from = reinterpret_cast<const double*>(&whole) + part;
+  Real* out = reinterpret_cast<Real*>(&to);
+  for (std::size_t k = 0; k < sizeof(Part) / sizeof(Real); ++k) {
+    out[k] = *reinterpret_cast<const typename Unaligned<Real>::Type*>(from + kBatch * k);
+  }
+}
+
+template <class Real, class Part, class Whole>
+MYOTACT_INTO_CLONES void store(const Part& part_values, int part, Whole& whole) {
+  static_assert(sizeof(Whole) / sizeof(Eight) == sizeof(Part) / sizeof(Real));
+  double* to = reinterpret_cast<double*>(&whole) + part;
+  const Real* from = reinterpret_cast<const Real*>(&part_values);
+  for (std::size_t k = 0; k < sizeof(Part) / sizeof(Real); ++k) {
+    *reinterpret_cast<typename Unaligned<Real>::Type*>(to + kBatch * k) = from[k];
+  }
+}
+
+#if defined(__x86_64__)
+template <class Kernel>
+[[gnu::target("avx512f,avx512dq,avx512vl")]] void run_avx512(const Kernel& kernel) {
+  kernel(std::type_identity<Lanes8>{}, 0);
+}
+template <class Kernel>
+[[gnu::target("avx2")]] void run_avx2(const Kernel& kernel) {
+  for (int part = 0; part < kBatch; part += 4) kernel(std::type_identity<Lanes4>{}, part);
+}
+#endif
+template <class Kernel>
+void run_sse2(const Kernel& kernel) {
+  for (int part = 0; part < kBatch; part += 2) kernel(std::type_identity<Lanes2>{}, part);
+}
+
+}  // namespace detail
+
+/// Calls kernel(type_identity<Real>, part) until all eight lanes are done; part is the first lane of Real. The kernel
+/// is a generic lambda marked always_inline, so that it is compiled for each kind of register.
+template <class Kernel>
+void run_batch(const Kernel& kernel) {
+#if defined(__x86_64__)
+  switch (vector_unit()) {
+    case VectorUnit::Avx512:
+      return detail::run_avx512(kernel);
+    case VectorUnit::Avx2:
+      return detail::run_avx2(kernel);
+    case VectorUnit::Sse2:
+      break;
+  }
+#endif
+  detail::run_sse2(kernel);
+}
+
+#if defined(__x86_64__)
+namespace detail {
+template <class Body>
+[[gnu::target("avx2")]] void run_plain_avx2(const Body& body) {
+  body();
+}
+}  // namespace detail
+#endif
+
+/// Calls body(), a lambda of plain loops marked always_inline, compiled for AVX2 where the processor has it.
+template <class Body>
+void run_for_processor(const Body& body) {
+#if defined(__x86_64__)
+  if (vector_unit() != VectorUnit::Sse2) return detail::run_plain_avx2(body);
+#endif
+  body();
+}
+
+}  // namespace myotact::simulation

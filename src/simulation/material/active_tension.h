@@ -1,0 +1,64 @@
+#pragma once
+
+#include "simulation/material/fibre_family.h"
+
+namespace myotact::simulation {
+
+/// A fibre whose Cauchy stress times J is the activation times T0, whatever its length: W = a T0 ln(stretch).
+/// FEBio's prescribed uniaxial contraction.
+struct ConstantTension {
+  double tension_Pa = 0.0;
+
+  FibreLaw at(double stretch, double activation) const {
+    const double stress = activation * tension_Pa / stretch;
+    return {stress, -stress / stretch};
+  }
+  double energy_Pa(double stretch, double activation) const { return activation * tension_Pa * std::log(stretch); }
+};
+
+/// Contraction without a direction, sigma = a T0 B / J: W = a T0 / 2 (I1 - 3). FEBio's prescribed isotropic
+/// contraction.
+struct IsotropicTension {
+  double tension_Pa = 0.0;
+
+  template <class Real>
+  MYOTACT_INTO_CLONES void add_energy(const Point<Real>& p, const Real& activation, Response<Real>& out) const {
+    out.energy_Pa += 0.5 * tension_Pa * activation * (p.I1 - 3.0);
+  }
+
+  template <class Real>
+  MYOTACT_INTO_CLONES void add(const Point<Real>& p, const Real& activation, Response<Real>& out) const {
+    const Real scale = tension_Pa * activation;
+    for (std::size_t k = 0; k < 9; ++k) out.P[k] += scale * p.F[k];
+    add_unit(scale, out.C);
+  }
+
+  template <class Real>
+  MYOTACT_INTO_CLONES VolumeTerm<Real> volume(const Real& /*J*/) const {
+    return {};
+  }
+};
+
+/// Heart muscle at a calcium concentration (Guccione and McCulloch, J Biomech Eng 115:72, 1993), as in FEBio's
+/// "trans iso" materials: tension T = Tmax ca0^2 / (ca0^2 + ECa50^2), ECa50 = camax / sqrt(exp(B (l - l0)) - 1),
+/// l = refl stretch; no tension at or below l0.
+struct CalciumTension {
+  double largest_Pa = 0.0;
+  double calcium = 0.0, largest_calcium = 0.0;  // micromole
+  double steepness_1_um = 0.0;                  // B
+  double shortest_um = 0.0;                     // l0, a sarcomere
+  double reference_um = 0.0;                    // refl
+
+  FibreLaw at(double stretch, double activation) const {
+    const double growth = std::exp(steepness_1_um * (reference_um * stretch - shortest_um));
+    if (growth <= 1.0) return {};
+    const double squared = calcium * calcium * (growth - 1.0), rest = largest_calcium * largest_calcium;
+    const double tension = activation * largest_Pa * squared / (squared + rest);
+    const double rate = activation * largest_Pa * rest * calcium * calcium * growth * steepness_1_um * reference_um /
+                        ((squared + rest) * (squared + rest));
+    return {tension / stretch, rate / stretch - tension / (stretch * stretch)};
+  }
+  double energy_Pa(double stretch, double activation) const { return integrate_stress(*this, stretch, activation); }
+};
+
+}  // namespace myotact::simulation

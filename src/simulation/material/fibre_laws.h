@@ -1,0 +1,79 @@
+#pragma once
+
+#include "simulation/fibre_curves.h"
+#include "simulation/material/fibre_family.h"
+
+namespace myotact::simulation {
+
+/// Active and passive fibre of skeletal muscle: nominal stress = peak (a fL(n) + fP(n)), with the
+/// normalised length n = rest_length + gain (stretch - 1).
+struct MuscleFibre {
+  double peak_Pa = 0.0;
+  double rest_length = 1.0;  // over the optimal length, at stretch 1
+  double gain = 1.0;
+
+  FibreLaw at(double stretch, double activation) const {
+    const double n = rest_length + gain * (stretch - 1.0);
+    return {peak_Pa * (activation * active_force_length(n) + passive_force_length(n)),
+            peak_Pa * gain * (activation * active_force_length_slope(n) + passive_force_length_slope(n))};
+  }
+  double energy_Pa(double stretch, double activation) const { return integrate_stress(*this, stretch, activation); }
+};
+
+/// Exponential toe and straight line: c3 (exp(c4 (stretch - 1)) - 1) / stretch up to the stretch `straight`, beyond it
+/// (c5 stretch + c6) / stretch with the same value; nothing below 1. c5 <= 0: with the same slope. Tendon and passive
+/// fibres of the uncoupled laws (Weiss, Maker and Govindjee 1996; Blemker et al. 2005).
+struct ExponentialFibre {
+  double toe_Pa = 0.0;       // c3
+  double exponent = 0.0;     // c4
+  double straight_Pa = 0.0;  // c5
+  double straight = 1.0;     // stretch where the toe ends
+
+  FibreLaw at(double stretch, double /*activation*/) const {
+    if (stretch <= 1.0) return {};
+    const double end = std::min(stretch, straight);
+    const double growth = toe_Pa * std::exp(exponent * (end - 1.0));
+    const double modulus = straight_Pa > 0.0 ? straight_Pa : exponent * growth;
+    const double tension = growth - toe_Pa + modulus * (stretch - end);
+    const double slope = stretch <= straight ? exponent * growth : modulus;
+    return {tension / stretch, slope / stretch - tension / (stretch * stretch)};
+  }
+  double energy_Pa(double stretch, double activation) const { return integrate_stress(*this, stretch, activation); }
+};
+
+/// Fibres of Blemker's muscle: nominal stress = peak (a fL(r) + fP(r)), r = stretch over the optimal stretch.
+///   fL = 9 (r - .4)^2 (r <= .6), 1 - 4 (1 - r)^2, 9 (r - 1.6)^2 (r >= 1.4), 0 outside [.4, 1.6]
+///   fP = P1 (exp(P2 (r - 1)) - 1) from 1, straight from `straight` on.
+struct BlemkerFibre {
+  double peak_Pa = 0.0;
+  double optimal_stretch = 1.0;
+  double toe = 0.05;      // P1
+  double exponent = 6.6;  // P2
+  double straight = 1.4;
+
+  FibreLaw at(double stretch, double activation) const {
+    const double r = stretch / optimal_stretch;
+    double active = 0.0, active_slope = 0.0, passive = 0.0, passive_slope = 0.0;
+    if (r > 0.4 && r <= 0.6) {
+      active = 9.0 * (r - 0.4) * (r - 0.4);
+      active_slope = 18.0 * (r - 0.4);
+    } else if (r > 0.6 && r < 1.4) {
+      active = 1.0 - 4.0 * (1.0 - r) * (1.0 - r);
+      active_slope = 8.0 * (1.0 - r);
+    } else if (r >= 1.4 && r < 1.6) {
+      active = 9.0 * (r - 1.6) * (r - 1.6);
+      active_slope = 18.0 * (r - 1.6);
+    }
+    if (r > 1.0) {
+      const double end = std::min(r, straight), growth = toe * std::exp(exponent * (end - 1.0));
+      passive_slope = exponent * growth;
+      passive = growth - toe + passive_slope * (r - end);
+    }
+    const double scale = peak_Pa / optimal_stretch;
+    return {scale * (activation * active + passive),
+            scale / optimal_stretch * (activation * active_slope + passive_slope)};
+  }
+  double energy_Pa(double stretch, double activation) const { return integrate_stress(*this, stretch, activation); }
+};
+
+}  // namespace myotact::simulation

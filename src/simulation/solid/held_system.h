@@ -1,0 +1,38 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "simulation/block_factor.h"
+#include "simulation/solid/solid.h"
+
+namespace myotact::simulation {
+
+/// A component of a node that is held or moved.
+struct HeldDof {
+  int node = 0;
+  int component = 0;
+  double displacement_m = 0.0;  // from rest, at full load
+};
+
+/// The linear system of a solid some of whose components are held: their rows and columns become those of the unit
+/// matrix, scaled, so that the pattern stays.
+class HeldSystem {
+ public:
+  HeldSystem(const Solid& solid, std::span<const HeldDof> held);
+
+  bool is_held(Eigen::Index dof) const { return held_[static_cast<std::size_t>(dof)] != 0; }
+  /// Values at held components become zero.
+  void drop_held(Eigen::VectorXd& values) const;
+  /// Takes the held rows and columns out of the matrix.
+  void hold(BlockMatrix& matrix) const;
+
+  ExactBlockFactor factor;
+
+ private:
+  std::vector<char> held_;
+  std::vector<int> zeros_;  // places in the matrix's values
+  std::vector<int> diagonals_;
+};
+
+}  // namespace myotact::simulation

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "geometry/tet_mesh.h"
+#include "simulation/block_matrix.h"
+#include "simulation/solid/law.h"
+#include "simulation/solid/solid_elements.h"
+
+namespace myotact::simulation {
+
+/// How a solid's tets carry it: linear; linear with the volume term on the mean volume ratio of a patch of neighbours
+/// (F-bar in energy form, does not lock when nearly incompressible); quadratic with the volume term on the tet's mean
+/// volume ratio and a small term that holds the points inside it together.
+enum class ElementKind { Linear, Patched, Quadratic };
+
+/// Laws add up: a matrix and its fibres, for example.
+struct SolidMaterial {
+  std::vector<Law> laws;
+  double density_kg_m3 = 1000.0;
+  /// c of 1/2 c (J - mean J)^2 inside a quadratic tet; negative: each point has its own volume term (no mean).
+  double fluctuation_Pa = 0.0;
+};
+
+struct SolidInput {
+  geometry::TetMesh mesh;  // linear, or quadratic with straight sides
+  ElementKind kind = ElementKind::Quadratic;
+  std::vector<SolidMaterial> materials;
+  std::vector<int> material;  // of each tet; empty: all the first
+  std::vector<Vec3> fibre;    // of each tet, unit; empty: none
+  std::vector<int> patch;     // of each tet, for Patched; empty: found by clustering
+};
+
+/// A body of tets whose nodes are all unknowns. Built once; evaluation allocates nothing.
+class Solid {
+ public:
+  /// Throws Error BadData naming `file` and the tet: not positive volume, curved side, missing or non-unit fibre where
+  /// a law needs one.
+  Solid(const SolidInput& input, const std::string& file);
+
+  int nodes() const { return static_cast<int>(rest_m_.size() / 3); }
+  const Eigen::VectorXd& rest_m() const { return rest_m_; }    // 3 numbers a node
+  const Eigen::VectorXd& mass_kg() const { return mass_kg_; }  // lumped, one a node
+  const BlockMatrix& pattern() const { return pattern_; }      // of all nodes
+  const geometry::TetMesh& mesh() const { return mesh_; }
+  double rest_volume_m3(std::size_t tet) const;
+
+  struct Evaluation {
+    Eigen::VectorXd force_N;            // slope of the energy at all nodes
+    BlockMatrix stiffness;              // slope of the forces, when asked for
+    double smallest_J = 1.0;            // over the integration points
+    double largest_volume_error = 0.0;  // |mean J - 1| over the tets
+    double force_scale_N = 0.0;         // size of the elements' forces, to judge a residual by
+    std::vector<int> inverted;          // tets with a point of J <= 0 (at most 8 are named)
+  };
+  Evaluation make_evaluation() const;
+
+  enum class Tangent { None, Exact, Definite };
+  /// Forces, and the tangent if wanted, at positions x [m]. Definite: every point's tangent is projected, so that the
+  /// stiffness is positive semi-definite for certain.
+  void evaluate(const Eigen::VectorXd& position_m, double activation, Tangent tangent, Evaluation& out) const;
+  /// Elastic energy [J]; slower than evaluate().
+  double energy_J(const Eigen::VectorXd& position_m, double activation) const;
+
+  /// State of one tet, mean over its points.
+  struct TetState {
+    Mat3 cauchy_Pa = Mat3::Zero();
+    double J = 1.0;
+    double fibre_stretch = 1.0;
+  };
+  TetState state_of(std::size_t tet, const Eigen::VectorXd& position_m, double activation) const;
+
+ private:
+  template <class Tet>
+  void add_batches(std::vector<TetBatch<Tet>>& batches);
+  template <class Tet>
+  void evaluate_batches(const std::vector<TetBatch<Tet>>& batches, const Eigen::VectorXd& position_m, double activation,
+                        Tangent tangent, Evaluation& out) const;
+  void evaluate_patches(const Eigen::VectorXd& position_m, double activation, Tangent tangent, Evaluation& out) const;
+  std::vector<Point<double>> points_of(std::size_t tet, const Eigen::VectorXd& position_m) const;
+
+  /// Neighbouring linear tets with one volume term.
+  struct Patch {
+    std::vector<int> nodes;
+    std::size_t material = 0;
+    double volume_m3 = 0.0;
+    std::vector<PairSlot> slots;  // of the pairs a <= b of its nodes
+  };
+
+  geometry::TetMesh mesh_;
+  ElementKind kind_;
+  std::vector<SolidMaterial> materials_;
+  std::vector<int> material_;  // of each tet
+  std::vector<TetShape<double>> shapes_;
+  Eigen::VectorXd rest_m_, mass_kg_;
+  BlockMatrix pattern_;
+  std::vector<TetBatch<LinearTet>> linear_;
+  std::vector<TetBatch<QuadraticTet>> quadratic_;
+  std::vector<int> patch_of_;  // of each tet
+  std::vector<Patch> patches_;
+};
+
+}  // namespace myotact::simulation

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "simulation/solid/held_system.h"
+#include "simulation/solid/pressure.h"
+
+namespace myotact::simulation {
+
+/// Everything that acts on a solid, at full load.
+struct SolidLoads {
+  std::vector<HeldDof> held;
+  Eigen::VectorXd nodal_force_N;  // dead load, 3 numbers a node; empty: none
+  std::vector<PressureFace> pressure;
+  Vec3 gravity_m_s2 = Vec3::Zero();
+  double activation = 0.0;
+};
+
+/// Forces that nothing balances yet, at positions x under a share of the load: internal minus external. The tangent is
+/// that of these forces.
+void out_of_balance(const Solid& solid, const SolidLoads& loads, double load, const Eigen::VectorXd& position_m,
+                    Solid::Tangent tangent, Solid::Evaluation& out);
+
+struct StaticOptions {
+  double tolerance = 1e-8;   // out-of-balance force over the size of the elements' forces
+  int load_steps = 1;        // the least number; more are taken where one does not converge
+  int most_iterations = 60;  // Newton steps of one load step
+  /// Called after each Newton step with the share of the load that is being applied and the residual share; may be
+  /// empty.
+  std::function<void(double load, double residual_share)> progress;
+};
+
+struct StaticResult {
+  bool converged = false;
+  int load_steps = 0;  // that converged
+  int iterations = 0;  // Newton steps in all
+  int definite = 0;    // Newton steps that needed the projected tangent
+  double load = 0.0;   // share of the load that is in equilibrium
+  double residual_share = 0.0;
+  Eigen::VectorXd position_m;  // of the last converged state
+  Eigen::VectorXd reaction_N;  // at held components, zero elsewhere: force that the support exerts on the solid
+};
+
+/// Static equilibrium from `start_m` (positions, e.g. those at rest) under growing load, by Newton's method with a line
+/// search; a tangent that is not positive definite is projected. A load step that fails is halved, at most ten times;
+/// then the result holds the last converged state and `converged` is false.
+StaticResult solve_static(const Solid& solid, const SolidLoads& loads, const Eigen::VectorXd& start_m,
+                          const StaticOptions& options);
+
+}  // namespace myotact::simulation
