@@ -65,6 +65,11 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
   replay->add_option("file", options.file, "recording")->required();
   add_common(*replay, options);
   bind(replay, myotact::app::replay);
+  CLI::App* solve = program.add_subcommand("solve", "one finite-element case, its answer as JSON");
+  solve->add_option("case", options.file, "case file")->required();
+  solve->add_option("--vtk", options.vtk, "write the deformed mesh to this file, for ParaView");
+  add_common(*solve, options);
+  bind(solve, myotact::app::solve);
   CLI::App* validate =
       program.add_subcommand("validate", "every analytic and published case, expected against obtained");
   validate->add_option("--filter", options.filter, "only the case of this name, or all that have it in their names");

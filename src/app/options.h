@@ -28,8 +28,9 @@ struct Options {
   int workers = 2;
   std::vector<double> angles_deg = {0.0};
   std::vector<double> levels = {0.0, 0.25, 0.5, 0.75, 1.0};
-  std::filesystem::path file;  // replay
-  std::string filter;          // validate
+  std::filesystem::path file;                // replay, solve
+  std::optional<std::filesystem::path> vtk;  // solve
+  std::string filter;                        // validate
   std::optional<std::filesystem::path> report;
 };
 
@@ -47,6 +48,7 @@ int run(const Options& options);
 int view(const Options& options);
 int stiffness(const Options& options);
 int replay(const Options& options);
+int solve(const Options& options);
 int validate(const Options& options);
 int devices(const Options& options);
 

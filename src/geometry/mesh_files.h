@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "geometry/tet_mesh.h"
@@ -18,7 +19,7 @@ void write_ply(const TriangleMesh& mesh, const std::filesystem::path& path);
 /// Refuses non-finite coordinates and files whose size does not fit the header.
 TriangleMesh read_stl(const std::filesystem::path& path);
 
-/// Named values of a tet mesh in a legacy VTK 3.0 file.
+/// A tet mesh with the values that its file has for it; formats without a kind of value leave that list empty.
 struct TetFile {
   TetMesh mesh;
   std::vector<Vec3> fibres;         // cell vectors "fibre"
@@ -30,5 +31,22 @@ struct TetFile {
 /// Legacy VTK 3.0, ASCII, unstructured grid of cell type 10 or 24, double. Throws as above, naming the line.
 TetFile read_vtk(const std::filesystem::path& path);
 void write_vtk(const TetFile& file, const std::filesystem::path& path);
+
+/// What a computation adds to a mesh, for ParaView. Names hold no blanks; lists have one entry a node or a tet.
+struct TetResults {
+  std::vector<std::pair<std::string, std::vector<Vec3>>> point_vectors;
+  std::vector<std::pair<std::string, std::vector<double>>> cell_scalars;
+};
+void write_vtk(const TetFile& file, const TetResults& results, const std::filesystem::path& path);
+
+/// TetGen's NAME.node and NAME.ele, of which `path` names either. Indices from 0 or 1; attributes and markers are read
+/// over. Throws as above, naming the line.
+TetFile read_tetgen(const std::filesystem::path& path);
+
+/// Medit's .mesh in text form: Vertices, and Tetrahedra with their references as regions; other sections are read over.
+TetFile read_medit(const std::filesystem::path& path);
+
+/// Any of these, told by the extension: .vtk, .mesh, .node or .ele.
+TetFile read_tet_mesh(const std::filesystem::path& path);
 
 }  // namespace myotact::geometry

@@ -1,4 +1,3 @@
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <string_view>
@@ -9,81 +8,16 @@
 #include "core/file.h"
 #include "core/text.h"
 #include "geometry/mesh_files.h"
+#include "geometry/words.h"
 
 namespace myotact::geometry {
 
 namespace {
 
 constexpr int kLinearTet = 10, kQuadraticTet = 24;  // VTK cell types
-constexpr int kMostElements = 20'000'000;
-constexpr std::size_t kLongestShown = 40;  // characters of a wrong word in a message
-
-/// Words of a text file, one after the other, with the line they stand in.
-class Words {
- public:
-  Words(std::string file, std::string_view text) : file_(std::move(file)), text_(text) {}
-
-  std::string_view next() {
-    skip_blanks();
-    const std::size_t start = position_;
-    while (position_ < text_.size() && !is_blank(text_[position_])) ++position_;
-    if (start == position_) throw error("the file ends early");
-    return text_.substr(start, position_ - start);
-  }
-
-  bool at_end() {
-    skip_blanks();
-    return position_ == text_.size();
-  }
-
-  /// What is left of the present line; the next word comes from the line after it.
-  std::string_view rest_of_line() {
-    const std::size_t end = std::min(text_.find('\n', position_), text_.size());
-    const std::string_view line = text_.substr(position_, end - position_);
-    position_ = std::min(end + 1, text_.size());
-    if (end < text_.size()) ++line_;
-    return line;
-  }
-
-  void expect(std::string_view word) {
-    const std::string_view found = next();
-    if (found != word) throw error(fmt::format("is \"{}\"; must be \"{}\"", found.substr(0, kLongestShown), word));
-  }
-
-  double number() {
-    const std::string_view word = next();
-    const auto value = parse_number(word);
-    if (!value || !std::isfinite(*value)) {
-      throw error(fmt::format("\"{}\" is no finite number", word.substr(0, kLongestShown)));
-    }
-    return *value;
-  }
-
-  int integer(int lowest, int highest) {
-    const double value = number();
-    if (!(value >= lowest && value <= highest) || value != std::floor(value)) {
-      throw error(fmt::format("{} must be a whole number from {} to {}", to_text(value), lowest, highest));
-    }
-    return static_cast<int>(value);
-  }
-
-  Error error(const std::string& problem) const { return bad_data(file_, fmt::format("line {}", line_), problem); }
-
- private:
-  static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
-
-  void skip_blanks() {
-    while (position_ < text_.size() && is_blank(text_[position_])) line_ += text_[position_++] == '\n' ? 1 : 0;
-  }
-
-  std::string file_;
-  std::string_view text_;
-  std::size_t position_ = 0;
-  int line_ = 1;
-};
 
 void read_points(Words& words, TetMesh& mesh) {
-  const int count = words.integer(0, kMostElements);
+  const int count = words.integer(0, kMostMeshElements);
   const std::string_view type = words.next();
   if (type != "double" && type != "float") throw words.error("points must be double or float");
   for (int i = 0; i < count; ++i) {
@@ -94,7 +28,7 @@ void read_points(Words& words, TetMesh& mesh) {
 }
 
 void read_cells(Words& words, TetMesh& mesh) {
-  const int count = words.integer(1, kMostElements);
+  const int count = words.integer(1, kMostMeshElements);
   words.integer(0, std::numeric_limits<int>::max());  // size of the list: implied by the cells
   const int last_node = static_cast<int>(mesh.nodes_m.size()) - 1;
   for (int i = 0; i < count; ++i) {
@@ -114,7 +48,7 @@ void read_cells(Words& words, TetMesh& mesh) {
 }
 
 void read_cell_types(Words& words, const TetMesh& mesh) {
-  const int count = words.integer(0, kMostElements);
+  const int count = words.integer(0, kMostMeshElements);
   if (static_cast<std::size_t>(count) != mesh.corners.size()) throw words.error("must have one type a cell");
   const int wanted = mesh.quadratic() ? kQuadraticTet : kLinearTet;
   for (int i = 0; i < count; ++i) {
@@ -166,7 +100,7 @@ void read_array(Words& words, std::string_view kind, bool of_cells, TetFile& fil
     return;
   }
   if (kind != "SCALARS") {
-    throw words.error(fmt::format("\"{}\" is not read; must be SCALARS or VECTORS", kind.substr(0, kLongestShown)));
+    throw words.error(fmt::format("\"{}\" is not read; must be SCALARS or VECTORS", shown(kind)));
   }
   const std::vector<double> values = read_scalars(words, count);
   if (of_cells && name == "region") file.regions = to_integers(values, words);
@@ -185,7 +119,7 @@ void read_data(Words& words, TetFile& file) {
     }
     of_cells = kind == "CELL_DATA";
     const std::size_t wanted = of_cells ? file.mesh.corners.size() : file.mesh.nodes_m.size();
-    if (static_cast<std::size_t>(words.integer(0, kMostElements)) != wanted) {
+    if (static_cast<std::size_t>(words.integer(0, kMostMeshElements)) != wanted) {
       throw words.error(fmt::format("{} must have {} entries", kind, wanted));
     }
   }
@@ -201,7 +135,12 @@ void append_numbers(std::string& text, std::initializer_list<double> values) {
   text += '\n';
 }
 
-void append_scalars(std::string& text, const char* name, const char* type, const std::vector<double>& values) {
+void append_vectors(std::string& text, const std::string& name, const std::vector<Vec3>& vectors) {
+  text += fmt::format("VECTORS {} double\n", name);
+  for (const Vec3& vector : vectors) append_numbers(text, {vector.x(), vector.y(), vector.z()});
+}
+
+void append_scalars(std::string& text, const std::string& name, const char* type, const std::vector<double>& values) {
   text += fmt::format("SCALARS {} {} 1\nLOOKUP_TABLE default\n", name, type);
   for (const double value : values) append_numbers(text, {value});
 }
@@ -246,19 +185,26 @@ TetFile read_vtk(const std::filesystem::path& path) {
 }
 
 void write_vtk(const TetFile& file, const std::filesystem::path& path) {
+  write_vtk(file, TetResults{}, path);
+}
+
+void write_vtk(const TetFile& file, const TetResults& results, const std::filesystem::path& path) {
   std::string text = "# vtk DataFile Version 3.0\nmuscle\nASCII\nDATASET UNSTRUCTURED_GRID\n";
   text += fmt::format("POINTS {} double\n", file.mesh.nodes_m.size());
   for (const Vec3& node : file.mesh.nodes_m) append_numbers(text, {node.x(), node.y(), node.z()});
   append_cells(text, file.mesh);
   text += fmt::format("CELL_DATA {}\n", file.mesh.corners.size());
-  if (!file.fibres.empty()) text += "VECTORS fibre double\n";
-  for (const Vec3& fibre : file.fibres) append_numbers(text, {fibre.x(), fibre.y(), fibre.z()});
+  if (!file.fibres.empty()) append_vectors(text, "fibre", file.fibres);
   if (!file.sections_m2.empty()) append_scalars(text, "section", "double", file.sections_m2);
   if (!file.regions.empty()) append_scalars(text, "region", "int", {file.regions.begin(), file.regions.end()});
-  if (!file.attachments.empty()) {
+  for (const auto& [name, values] : results.cell_scalars) append_scalars(text, name, "double", values);
+  if (!file.attachments.empty() || !results.point_vectors.empty()) {
     text += fmt::format("POINT_DATA {}\n", file.mesh.nodes_m.size());
+  }
+  if (!file.attachments.empty()) {
     append_scalars(text, "attachment", "int", {file.attachments.begin(), file.attachments.end()});
   }
+  for (const auto& [name, vectors] : results.point_vectors) append_vectors(text, name, vectors);
   write_file(path, text);
 }
 

@@ -1,0 +1,85 @@
+#include <chrono>
+#include <iostream>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include "app/interruption.h"
+#include "app/options.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "core/text.h"
+#include "measure/solve_answer.h"
+
+namespace myotact::app {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A signal came: the solve ends where it is, and nothing has been written.
+struct Stopped {
+  int status = 0;
+};
+
+/// One line on standard error for solves that take longer than a second: rewritten on a terminal, repeated every few
+/// seconds in a log.
+class ProgressLine {
+ public:
+  ~ProgressLine() { end(); }
+
+  void show(const measure::SolveProgress& progress) {
+    const Clock::time_point now = Clock::now();
+    if (now < next_) return;
+    next_ = now + (on_terminal_ ? std::chrono::milliseconds(200) : std::chrono::seconds(5));
+    const std::string line = fmt::format("solve: at {:.0f} %, {} Newton steps, out of balance {:.1e}",
+                                         100.0 * progress.share, progress.iterations, progress.residual_share);
+    std::cerr << (on_terminal_ ? "\r" : "") << line << (on_terminal_ ? " " : "\n") << std::flush;
+    shown_ = true;
+  }
+
+  /// The line stays and what follows begins a new one.
+  void end() {
+    if (shown_ && on_terminal_) std::cerr << '\n' << std::flush;
+    shown_ = false;
+  }
+
+ private:
+  bool on_terminal_ = ::isatty(STDERR_FILENO) == 1;
+  bool shown_ = false;
+  Clock::time_point next_ = Clock::now() + std::chrono::seconds(1);
+};
+
+measure::SolveAnswer solve_watched(const measure::SolveCase& input) {
+  ProgressLine line;
+  return measure::solve_case(input, [&](const measure::SolveProgress& progress) {
+    if (const int status = interruption(); status != 0) throw Stopped{status};
+    line.show(progress);
+  });
+}
+
+}  // namespace
+
+int solve(const Options& options) {
+  watch_for_interruption();
+  try {
+    const measure::SolveCase input = measure::load_case(options.file);
+    // Before a solve that may be long, not after it.
+    if (options.vtk && options.vtk->has_parent_path()) make_writable_folder(options.vtk->parent_path());
+    const measure::SolveAnswer answer = solve_watched(input);
+    if (const int status = interruption(); status != 0) return status;
+    if (options.vtk) geometry::write_vtk(answer.deformed, answer.results, *options.vtk);
+    std::cout << measure::answer_json(answer) << std::flush;
+    if (answer.converged) return static_cast<int>(ExitStatus::Done);
+    spdlog::error(
+        "{}: did not converge: the answer is the last state in equilibrium, at {} of the {}; load less, give "
+        "\"ramp\" more steps, or mesh finer where it folds",
+        options.file.string(), to_text(answer.reached), input.dynamics == measure::Dynamics::Static ? "load" : "time");
+    return static_cast<int>(ExitStatus::CheckFailed);
+  } catch (const Stopped& stopped) {
+    return stopped.status;
+  }
+}
+
+}  // namespace myotact::app

@@ -1,0 +1,91 @@
+#include "geometry/words.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/text.h"
+
+namespace myotact::geometry {
+
+namespace {
+
+bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\n' || c == '\r';
+}
+
+}  // namespace
+
+std::string shown(std::string_view word) {
+  constexpr std::size_t kLongestShown = 40;  // characters
+  return std::string(word.substr(0, kLongestShown));
+}
+
+std::string_view Words::next() {
+  skip_blanks();
+  const std::size_t start = position_;
+  word_line_ = line_;
+  while (position_ < text_.size() && !is_blank(text_[position_]) && !(comment_ != '\0' && text_[position_] == comment_))
+    ++position_;
+  if (start == position_) throw error("the file ends early");
+  return text_.substr(start, position_ - start);
+}
+
+bool Words::at_end() {
+  skip_blanks();
+  return position_ == text_.size();
+}
+
+std::string_view Words::rest_of_line() {
+  const std::size_t end = std::min(text_.find('\n', position_), text_.size());
+  std::string_view line = text_.substr(position_, end - position_);
+  position_ = std::min(end + 1, text_.size());
+  word_line_ = line_;
+  if (end < text_.size()) ++line_;
+  if (comment_ != '\0') line = line.substr(0, line.find(comment_));
+  return line;
+}
+
+std::vector<std::string_view> Words::next_line() {
+  if (at_end()) throw error("the file ends early");
+  return words_of(rest_of_line());
+}
+
+void Words::expect(std::string_view word) {
+  const std::string_view found = next();
+  if (found != word) throw error(fmt::format("is \"{}\"; must be \"{}\"", shown(found), word));
+}
+
+double Words::number_in(std::string_view word) const {
+  const auto value = parse_number(word);
+  if (!value || !std::isfinite(*value)) throw error(fmt::format("\"{}\" is no finite number", shown(word)));
+  return *value;
+}
+
+int Words::integer_in(std::string_view word, int lowest, int highest) const {
+  const double value = number_in(word);
+  if (!(value >= lowest && value <= highest) || value != std::floor(value)) {
+    throw error(fmt::format("{} must be a whole number from {} to {}", to_text(value), lowest, highest));
+  }
+  return static_cast<int>(value);
+}
+
+Error Words::error(const std::string& problem) const {
+  return bad_data(file_, fmt::format("line {}", word_line_), problem);
+}
+
+void Words::skip_blanks() {
+  while (position_ < text_.size()) {
+    const char c = text_[position_];
+    if (comment_ != '\0' && c == comment_) {
+      position_ = std::min(text_.find('\n', position_), text_.size());
+      continue;
+    }
+    if (!is_blank(c)) return;
+    line_ += c == '\n' ? 1 : 0;
+    ++position_;
+  }
+}
+
+}  // namespace myotact::geometry

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.h"
+
+namespace myotact::geometry {
+
+/// Words of a text file, one after the other, with the line they stand in. Refers to `text`, which must outlive it.
+/// What does not fit throws Error BadData naming file, line and value.
+class Words {
+ public:
+  /// From `comment` on, if given, the rest of a line is read over.
+  Words(std::string file, std::string_view text, char comment = '\0')
+      : file_(std::move(file)), text_(text), comment_(comment) {}
+
+  std::string_view next();
+  bool at_end();
+  /// What is left of the present line; the next word comes from the line after it.
+  std::string_view rest_of_line();
+  /// The words of the next line that has any.
+  std::vector<std::string_view> next_line();
+
+  void expect(std::string_view word);
+  double number() { return number_in(next()); }
+  int integer(int lowest, int highest) { return integer_in(next(), lowest, highest); }
+  /// The same of a word that was already taken.
+  double number_in(std::string_view word) const;
+  int integer_in(std::string_view word, int lowest, int highest) const;
+
+  /// Names the line of the word taken last.
+  Error error(const std::string& problem) const;
+
+ private:
+  void skip_blanks();
+
+  std::string file_;
+  std::string_view text_;
+  char comment_;
+  std::size_t position_ = 0;
+  int line_ = 1;       // at position_
+  int word_line_ = 1;  // of the word taken last
+};
+
+/// As much of a word as a message shows, whatever the file holds.
+std::string shown(std::string_view word);
+
+/// Readers refuse meshes with more nodes or tets: ten times the largest scan seen; bounds their memory.
+inline constexpr int kMostMeshElements = 20'000'000;
+
+}  // namespace myotact::geometry

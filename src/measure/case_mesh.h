@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+
+#include "core/json_reader.h"
+#include "measure/solve_case.h"
+
+namespace myotact::measure {
+
+/// Where a case says what its mesh is.
+struct MeshKeys {
+  JsonValue mesh;
+  std::optional<JsonValue> fibre;
+  Element element = Element::T10;
+};
+
+/// The mesh named by a case, or its box, turned into what the element needs; every tet has a positive volume.
+CaseMesh read_case_mesh(const MeshKeys& keys);
+
+}  // namespace myotact::measure
