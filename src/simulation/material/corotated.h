@@ -25,21 +25,25 @@ inline Matrix3<double> rotation_by_singular_values(const Matrix3<double>& F) {
 
 /// Below this volume ratio Newton's iteration would be too slow, or find a reflection.
 inline constexpr double kSafeRatio = 0.05;
-/// Newton's iteration with scaling doubles its digits each time: 9 are enough for every F with J >= kSafeRatio whose
-/// entries stay below 100 (measured against the singular values: 1e-15).
-inline constexpr int kPolarIterations = 9;
+/// Scaled steps bring every F with J >= kSafeRatio whose entries stay below 10 close to its rotation, plain ones then
+/// double the digits (measured against the singular values: 1e-15).
+inline constexpr int kScaledSteps = 4, kPlainSteps = 3;
 
 /// R of F = R S by Newton's iteration R <- (g R + R^-T / g) / 2 (Higham 1986).
 template <class Real>
 MYOTACT_INTO_CLONES Matrix3<Real> polar_rotation(const Point<Real>& p) {
   Matrix3<Real> R = p.F;
-  for (int iteration = 0; iteration < kPolarIterations; ++iteration) {
+  for (int step = 0; step < kScaledSteps + kPlainSteps; ++step) {
     const Point<Real> at = make_point<Real>(R, {});
-    Real cofactor_squared{};
-    for (std::size_t k = 0; k < 9; ++k) cofactor_squared += at.cofactor[k] * at.cofactor[k];
     const Real inverse_J = 1.0 / at.J;
-    const Real g = square_root(square_root(cofactor_squared * inverse_J * inverse_J / at.I1));
-    const Real keep = 0.5 * g, turn = 0.5 * inverse_J / g;
+    Real keep = constant<Real>(0.5), turn = 0.5 * inverse_J;
+    if (step < kScaledSteps) {
+      Real cofactor_squared{};
+      for (std::size_t k = 0; k < 9; ++k) cofactor_squared += at.cofactor[k] * at.cofactor[k];
+      const Real g = square_root(square_root(cofactor_squared / at.I1) * larger(inverse_J, -inverse_J));
+      keep = 0.5 * g;
+      turn = turn / g;
+    }
     for (std::size_t k = 0; k < 9; ++k) R[k] = keep * R[k] + turn * at.cofactor[k];
   }
   if constexpr (kWidth<Real> == 1) {

@@ -5,7 +5,7 @@
 namespace myotact::simulation {
 
 HeldSystem::HeldSystem(const Solid& solid, std::span<const HeldDof> held)
-    : factor(solid.pattern()), held_(static_cast<std::size_t>(solid.rest_m().size()), 0) {
+    : held_(static_cast<std::size_t>(solid.rest_m().size()), 0) {
   for (const HeldDof& dof : held) held_[static_cast<std::size_t>(3 * dof.node + dof.component)] = 1;
   const Eigen::SparseMatrix<double>& lower = solid.pattern().lower();
   for (int column = 0; column < lower.cols(); ++column) {

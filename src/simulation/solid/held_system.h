@@ -3,7 +3,6 @@
 #include <span>
 #include <vector>
 
-#include "simulation/block_factor.h"
 #include "simulation/solid/solid.h"
 
 namespace myotact::simulation {
@@ -26,8 +25,6 @@ class HeldSystem {
   void drop_held(Eigen::VectorXd& values) const;
   /// Takes the held rows and columns out of the matrix.
   void hold(BlockMatrix& matrix) const;
-
-  ExactBlockFactor factor;
 
  private:
   std::vector<char> held_;

@@ -7,8 +7,8 @@
 
 #include "geometry/tet_mesh.h"
 #include "simulation/block_matrix.h"
-#include "simulation/solid/law.h"
 #include "simulation/element/tet_elements.h"
+#include "simulation/solid/law.h"
 
 namespace myotact::simulation {
 

@@ -17,7 +17,13 @@ SolidMotion::SolidMotion(const Solid& solid, const SolidLoads& loads, const Moti
       loads_(loads),
       options_(options),
       system_(solid, loads.held),
-      evaluation_(solid.make_evaluation()) {
+      elastic_(solid.make_evaluation()),
+      matrix_(solid.pattern()) {
+  if (options.single_precision) {
+    single_ = BlockFactor(solid.pattern());
+  } else {
+    exact_ = ExactBlockFactor(solid.pattern());
+  }
   set_state(solid.rest_m(), Eigen::VectorXd::Zero(solid.rest_m().size()));
 }
 
@@ -32,31 +38,43 @@ void SolidMotion::set_state(const Eigen::VectorXd& position_m, const Eigen::Vect
   has_history_ = false;
 }
 
-void SolidMotion::add_inertia(const TimeRule& rule, bool tangent, Instant& next) {
+void SolidMotion::look(const Eigen::VectorXd& position_m, Solid::Tangent tangent) {
+  if (known_ == tangent && known_m_ == position_m) return;
+  out_of_balance(solid_, loads_, 1.0, position_m, tangent, elastic_);
+  known_ = tangent;
+  known_m_ = position_m;
+}
+
+void SolidMotion::balance(const TimeRule& rule, Instant& next) {
   next.velocity_m_s = rule.rate_1_s * next.position_m - rule.history(now_.position_m, before_.position_m);
   const Eigen::VectorXd acceleration =
       rule.rate_1_s * next.velocity_m_s - rule.history(now_.velocity_m_s, before_.velocity_m_s);
+  residual_N_ = elastic_.force_N;
   for (Eigen::Index node = 0; node < solid_.mass_kg().size(); ++node) {
-    const double mass = solid_.mass_kg()[node];
-    evaluation_.force_N.segment<3>(3 * node) += mass * acceleration.segment<3>(3 * node);
-    if (tangent) {
-      evaluation_.stiffness.add_diagonal(static_cast<int>(node), mass * rule.rate_1_s * rule.rate_1_s);
-    }
+    residual_N_.segment<3>(3 * node) += solid_.mass_kg()[node] * acceleration.segment<3>(3 * node);
   }
+  system_.drop_held(residual_N_);
 }
 
-void SolidMotion::look(const TimeRule& rule, Solid::Tangent tangent, Instant& next) {
-  out_of_balance(solid_, loads_, 1.0, next.position_m, tangent, evaluation_);
-  add_inertia(rule, tangent != Solid::Tangent::None, next);
-  system_.drop_held(evaluation_.force_N);
+bool SolidMotion::solve(Eigen::VectorXd& direction) {
+  const auto with = [&](auto& factor) {
+    if (!factor.factor(matrix_) || !factor.positive()) return false;
+    direction = factor.solve(-residual_N_);
+    return true;
+  };
+  return options_.single_precision ? with(single_) : with(exact_);
 }
 
 bool SolidMotion::find_direction(const TimeRule& rule, Instant& next, Eigen::VectorXd& direction) {
   for (const Solid::Tangent tangent : {Solid::Tangent::Exact, Solid::Tangent::Definite}) {
-    look(rule, tangent, next);
-    system_.hold(evaluation_.stiffness);
-    if (!system_.factor.factor(evaluation_.stiffness) || !system_.factor.positive()) continue;
-    direction = system_.factor.solve(-evaluation_.force_N);
+    look(next.position_m, tangent);
+    balance(rule, next);
+    std::copy_n(elastic_.stiffness.lower().valuePtr(), matrix_.lower().nonZeros(), matrix_.values());
+    for (int node = 0; node < solid_.nodes(); ++node) {
+      matrix_.add_diagonal(node, solid_.mass_kg()[node] * rule.rate_1_s * rule.rate_1_s);
+    }
+    system_.hold(matrix_);
+    if (!solve(direction)) continue;
     system_.drop_held(direction);
     return direction.allFinite();
   }
@@ -64,22 +82,22 @@ bool SolidMotion::find_direction(const TimeRule& rule, Instant& next, Eigen::Vec
 }
 
 /// Every force of a step, inertia included, has a potential. The step goes along the Newton direction as far as that
-/// falls; its slope there tells. Nearly always the whole way, and then this costs nothing but the look at the forces
-/// that the residual needs anyway.
+/// falls; its slope there tells. Nearly always the whole way, and what is found there is the start of the next step.
 bool SolidMotion::newton_step(const TimeRule& rule, Instant& next) {
   Eigen::VectorXd direction;
   if (!find_direction(rule, next, direction)) return false;
-  const double slope = -evaluation_.force_N.dot(direction);
+  const double slope = -residual_N_.dot(direction);
   const Eigen::VectorXd start = next.position_m;
   double part = 1.0;
   for (int cut = 0; cut < kMostCuts; ++cut) {
     next.position_m = start + part * direction;
-    look(rule, Solid::Tangent::None, next);
-    const double there = -evaluation_.force_N.dot(direction);
+    look(next.position_m, Solid::Tangent::Exact);
+    balance(rule, next);
+    const double there = -residual_N_.dot(direction);
     if (there > -kLineSearchDrop * slope) return true;
     part *= std::isfinite(there) ? std::clamp(slope / (slope - there), 0.1, 0.7) : 0.3;
   }
-  return std::isfinite(evaluation_.force_N.norm());
+  return std::isfinite(residual_N_.norm());
 }
 
 bool SolidMotion::step() {
@@ -89,7 +107,7 @@ bool SolidMotion::step() {
   for (int k = 0; k < options_.newton_steps; ++k) {
     if (!newton_step(rule, next)) return false;
   }
-  residual_share_ = evaluation_.force_N.norm() / (evaluation_.force_scale_N + 1e-30);
+  residual_share_ = residual_N_.norm() / (elastic_.force_scale_N + 1e-30);
   before_ = now_;
   now_ = next;
   has_history_ = true;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/block_factor.h"
+
 namespace myotact::simulation {
 namespace {
 
@@ -18,7 +20,12 @@ constexpr int kMostIdle = 15;
 class StaticSolver {
  public:
   StaticSolver(const Solid& solid, const SolidLoads& loads, const StaticOptions& options)
-      : solid_(solid), loads_(loads), options_(options), system_(solid, loads.held), now_(solid.make_evaluation()) {}
+      : solid_(solid),
+        loads_(loads),
+        options_(options),
+        system_(solid, loads.held),
+        factor_(solid.pattern()),
+        now_(solid.make_evaluation()) {}
 
   StaticResult run(const Eigen::VectorXd& start_m) {
     result_.position_m = x_ = start_m;
@@ -73,7 +80,7 @@ class StaticSolver {
         right -= pushed;
       }
       system_.hold(now_.stiffness);
-      if (system_.factor.factor(now_.stiffness) && system_.factor.positive()) {
+      if (factor_.factor(now_.stiffness) && factor_.positive()) {
         result_.definite += tangent == Solid::Tangent::Definite ? 1 : 0;
         return true;
       }
@@ -105,7 +112,7 @@ class StaticSolver {
       const Eigen::VectorXd gap = missing(load);
       Eigen::VectorXd right;
       if (!factor_tangent(load, gap, right)) return false;
-      Eigen::VectorXd direction = system_.factor.solve(right);
+      Eigen::VectorXd direction = factor_.solve(right);
       system_.drop_held(direction);
       ++result_.iterations;
       if (!direction.allFinite()) return false;
@@ -136,6 +143,7 @@ class StaticSolver {
   const SolidLoads& loads_;
   const StaticOptions& options_;
   HeldSystem system_;
+  ExactBlockFactor factor_;
   Solid::Evaluation now_;
   Eigen::VectorXd x_, residual_;
   StaticResult result_;
