@@ -58,7 +58,7 @@ Vec3 bounded_vector(const JsonValue& value, double largest) {
 }
 
 void ConditionReader::hold(const JsonValue& place, int node, int component, double displacement_m) {
-  int& index = held_[static_cast<std::size_t>(3 * node + component)];
+  int& index = held_[3 * static_cast<std::size_t>(node) + static_cast<std::size_t>(component)];
   if (index == kFree) {
     index = static_cast<int>(out_.loads.held.size());
     out_.loads.held.push_back({node, component, displacement_m});
