@@ -2,62 +2,34 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "simulation/element/batch.h"
+#include "simulation/front_tiles.h"
 #include "simulation/vector_clones.h"
 
 namespace myotact::simulation {
 namespace {
 
-/// 32 bytes of numbers side by side, anywhere in memory.
-template <class Scalar>
-struct PackOf;
-template <>
-struct PackOf<float> {
-  using Type = FloatPack;
-};
-template <>
-struct PackOf<double> {
-  using Type = Pack;
-};
+using tiles::UpdateColumns;
 
-/// Columns [start, start + width), eliminated, with `scaled`: their L D, `stride` places a column.
+/// The version for this processor.
 template <class Scalar>
-struct Eliminated {
-  int start, width;
-  const Scalar* scaled;
-};
-
-/// `Columns` columns from j of one pack of rows -= rows factors^T, held in registers. `to` and `rows` start at the
-/// first row, `factors` at row j of L.
-template <int Columns, class Scalar>
-MYOTACT_INTO_CLONES void update_tile(const Eliminated<Scalar>& by, const Scalar* rows, const Scalar* factors,
-                                     Scalar* to, std::ptrdiff_t stride) {
-  using Pack = typename PackOf<Scalar>::Type;
-  Pack sum[Columns] = {};
-  for (int k = 0; k < by.width; ++k, rows += stride, factors += stride) {
-    const Pack row = *reinterpret_cast<const Pack*>(rows);
-    for (int c = 0; c < Columns; ++c) sum[c] += row * factors[c];
+UpdateColumns<Scalar> update_columns_here() {
+#if defined(__x86_64__)
+  constexpr bool kSingle = std::is_same_v<Scalar, float>;
+  using Wide = std::conditional_t<kSingle, tiles::Avx512Float, tiles::Avx512Double>;
+  using Narrow = std::conditional_t<kSingle, tiles::Avx2Float, tiles::Avx2Double>;
+  switch (vector_unit()) {
+    case VectorUnit::Avx512:
+      return &tiles::avx512_columns<Wide, Scalar>;
+    case VectorUnit::Avx2:
+      return &tiles::avx2_columns<Narrow, Scalar>;
+    case VectorUnit::Sse2:
+      break;
   }
-  for (int c = 0; c < Columns; ++c) *reinterpret_cast<Pack*>(to + c * stride) -= sum[c];
-}
-
-template <int Columns, class Scalar>
-MYOTACT_INTO_CLONES void update_strip(const DenseFront<Scalar>& front, const Eliminated<Scalar>& by, int j) {
-  constexpr int kRows = static_cast<int>(sizeof(typename PackOf<Scalar>::Type) / sizeof(Scalar));
-  const Scalar* factors = front.column(by.start) + j;
-  for (int i = j; i < front.size; i += kRows) {
-    update_tile<Columns>(by, by.scaled + i, factors, front.column(j) + i, front.stride);
-  }
-}
-
-/// Columns [first, last) -= scaled L^T.
-template <class Scalar>
-MYOTACT_INTO_CLONES void update_columns(const DenseFront<Scalar>& front, const Eliminated<Scalar>& by, int first,
-                                        int last) {
-  int j = first;
-  for (; j + 6 <= last; j += 6) update_strip<6>(front, by, j);
-  if (j < last) update_strip<3>(front, by, j);
+#endif
+  return &tiles::plain_columns<tiles::Plain<Scalar>, Scalar>;
 }
 
 /// Eliminates the three columns from `start`, over all rows below; `scaled` receives their L D.
@@ -86,7 +58,8 @@ MYOTACT_INTO_CLONES Pivots eliminate_node(const DenseFront<Scalar>& front, int s
 }
 
 template <class Scalar>
-MYOTACT_INTO_CLONES Pivots eliminate(const DenseFront<Scalar>& front, Scalar* work) {
+MYOTACT_INTO_CLONES Pivots eliminate(const DenseFront<Scalar>& front, UpdateColumns<Scalar> update_columns,
+                                     Scalar* work) {
   Pivots pivots = Pivots::Positive;
   for (int start = 0; start < front.own; start += kFrontPanel) {
     const int end = std::min(start + kFrontPanel, front.own);
@@ -95,10 +68,10 @@ MYOTACT_INTO_CLONES Pivots eliminate(const DenseFront<Scalar>& front, Scalar* wo
       const Pivots here = eliminate_node(front, c, scaled);
       if (here == Pivots::Unusable) return here;
       if (here == Pivots::Mixed) pivots = here;
-      update_columns<Scalar>(front, {c, 3, scaled}, c + 3, end);
+      update_columns(front, {c, 3, scaled}, c + 3, end);
     }
-    update_columns<Scalar>(front, {start, end - start, work}, end, front.own);
-    update_columns<Scalar>(front, {start, end - start, work}, front.own, front.size);
+    update_columns(front, {start, end - start, work}, end, front.own);
+    update_columns(front, {start, end - start, work}, front.own, front.size);
   }
   return pivots;
 }
@@ -138,7 +111,8 @@ MYOTACT_INTO_CLONES void backward(const DenseFront<Scalar>& front, double* value
 template <class Scalar>
 Pivots eliminate_front(const DenseFront<Scalar>& front, Scalar* work) {
   Pivots pivots = Pivots::Unusable;
-  run_for_processor([&]() __attribute__((always_inline)) { pivots = eliminate(front, work); });
+  const UpdateColumns<Scalar> update_columns = update_columns_here<Scalar>();
+  run_for_processor([&]() __attribute__((always_inline)) { pivots = eliminate(front, update_columns, work); });
   return pivots;
 }
 

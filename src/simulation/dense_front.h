@@ -21,7 +21,7 @@ struct DenseFront {
   }
 };
 
-inline constexpr int kFrontPadding = 8;
+inline constexpr int kFrontPadding = 16;
 /// Columns that are eliminated together before the rest is updated: their part of a front of 150 rows stays in the
 /// first-level cache. A multiple of 3.
 inline constexpr int kFrontPanel = 24;

@@ -9,10 +9,11 @@ namespace {
 VectorUnit widest_unit() {
 #if defined(__x86_64__)
   __builtin_cpu_init();
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")) {
+  if (__builtin_cpu_supports("fma") && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512vl")) {
     return VectorUnit::Avx512;
   }
-  if (__builtin_cpu_supports("avx2")) return VectorUnit::Avx2;
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return VectorUnit::Avx2;
 #endif
   return VectorUnit::Sse2;
 }
