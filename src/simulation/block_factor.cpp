@@ -10,7 +10,7 @@ namespace {
 
 /// A front joins the one above it when the zeros that this stores are below this share of the joint front's columns, or
 /// when both are so small that bookkeeping would cost more than the zeros.
-constexpr double kLargestZeroShare = 0.15;
+constexpr double kLargestZeroShare = 0.3;
 constexpr int kSmallFront = 6;  // nodes
 
 std::size_t at(int i) {
