@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Every test in release by g++, then by clang under the address and undefined-behaviour sanitizers. --quick: only the
-# unit and physics tests, in release.
+# unit and physics tests, in release. Benchmarks and the soak run by ctest's labels only: bench, soak.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -17,7 +17,7 @@ build release
 if [ "${1:-}" = "--quick" ]; then
   exec ctest --test-dir "$project/build/release" -j2 --output-on-failure -L 'unit|physics' -LE 'slow|bench'
 fi
-ctest --test-dir "$project/build/release" -j2 --output-on-failure -LE bench
+ctest --test-dir "$project/build/release" -j2 --output-on-failure -LE 'bench|soak'
 build asan
 # Timing means nothing under sanitizers; the slow tests ran above.
 exec ctest --test-dir "$project/build/asan" -j2 --output-on-failure -LE 'bench|slow|realtime'
