@@ -110,6 +110,9 @@ nlohmann::json summary_json(const scene::Scene& scene, const RunSummary& summary
           {"largest_line_tension_N", summary.extremes.line_tension_N},
           {"contact_s", summary.extremes.contact_s},
           {"largest_drift_deg", summary.extremes.drift_rad * kDegrees},
+          {"largest_residual_share", summary.extremes.residual_share},
+          {"largest_volume_error", summary.extremes.volume_error},
+          {"smallest_J", summary.extremes.volume_ratio},
           {"fault_bits", summary.extremes.faults}};
 }
 

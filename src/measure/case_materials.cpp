@@ -84,6 +84,7 @@ MuscleFibre muscle_fibre(JsonObject& fields) {
   fibre.peak_Pa = positive(fields, "peak_Pa");
   fibre.rest_length = positive_or(fields, "rest_length", fibre.rest_length, kLargestPure);
   fibre.gain = positive_or(fields, "gain", fibre.gain, kLargestPure);
+  if (const auto curves = fields.find("curves")) fibre.curves = *find_curve_set(curves->one_of(curve_set_names()));
   return fibre;
 }
 

@@ -34,10 +34,13 @@ struct RateFrame {
 struct SceneFrame {
   std::uint64_t sequence = 0;
   double time_s = 0.0;
-  std::vector<std::array<double, 12>> body_poses;                 // X_WB, row-major 3x4, bodies
+  double residual_share = 0.0;                     // out-of-balance force of the last step over the size of the forces
+  std::vector<std::array<double, 12>> body_poses;  // X_WB, row-major 3x4, bodies
   std::vector<std::vector<std::array<float, 3>>> skins_world_m;   // muscles x skin vertices
   std::vector<double> activations;                                // muscles, 0 .. 1
   std::vector<double> tensions_N;                                 // muscles
+  std::vector<double> volume_ratios;                              // muscles, volume now over rest
+  std::vector<double> smallest_volume_ratios;                     // muscles, over the integration points
   std::vector<std::vector<std::array<double, 3>>> lines_world_m;  // muscles x line points
   std::vector<JointFrame> joints;
   std::vector<ToolFrame> tools;

@@ -15,6 +15,11 @@ void Extremes::add_tick(const haptics::HapticTick& tick) {
 }
 
 void Extremes::add_step(const Scene& scene, const simulation::Simulation& simulation) {
+  residual_share = std::max(residual_share, simulation.residual_share());
+  for (int m = 0; m < static_cast<int>(scene.specimen.muscles.size()); ++m) {
+    volume_error = std::max(volume_error, std::abs(simulation.volume_ratio(m) - 1.0));
+    volume_ratio = std::min(volume_ratio, simulation.smallest_volume_ratio(m));
+  }
   if (!scene.co_contraction) return;
   const int joint = scene.co_contraction->joint;
   const double start_rad = scene.joints[static_cast<std::size_t>(joint)].angle_rad;

@@ -81,7 +81,8 @@ void move_free_nodes(LimbMuscle& muscle, const Eigen::VectorXd& change_m) {
 void read_out(Limb& limb) {
   for (LimbMuscle& muscle : limb.muscles) {
     if (muscle.rigid) continue;
-    muscle.readout = {muscle.system.muscle_torque_Nm, muscle.system.tension_N, muscle.system.smallest_J};
+    muscle.readout = {muscle.system.muscle_torque_Nm, muscle.system.tension_N, muscle.system.smallest_J,
+                      muscle.system.volume_ratio};
   }
   const auto span = [](const Eigen::VectorXd& v) {
     return std::span<const double>(v.data(), static_cast<std::size_t>(v.size()));

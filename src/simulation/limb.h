@@ -26,6 +26,7 @@ struct MuscleReadout {
   Eigen::VectorXd torque_Nm;  // one a joint, positive flexes
   double tension_N = 0.0;     // on its insertion
   double smallest_J = 1.0;    // volume ratio over the integration points
+  double volume_ratio = 1.0;  // of the whole muscle
 };
 
 /// One muscle: model, state, and what a solve leaves behind. Owned by one task at a time.

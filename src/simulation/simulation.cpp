@@ -84,6 +84,7 @@ struct Simulation::Impl {
   int whole_steps = 0;   // of equal length since the last restart; the second-order rule needs one
   int next_refresh = 0;  // muscle whose stiffness is refreshed by the next step
   int failed_steps = 0;
+  double residual_share = 0.0;  // of the last step
 
   double time_s() const { return static_cast<double>(steps) * settings.dt_s; }
   bool advance_in_parts(double dt_s, int halvings);
@@ -98,7 +99,9 @@ struct Simulation::Impl {
 bool Simulation::Impl::advance_in_parts(double dt_s, int halvings) {
   for (int half = 0; half < 2; ++half) {
     push_history(limb);
-    if (advance(limb, {0.5 * dt_s, false}, workers).sound) continue;
+    const StepReport report = advance(limb, {0.5 * dt_s, false}, workers);
+    residual_share = report.residual_share;
+    if (report.sound) continue;
     restore_last(limb);
     if (halvings >= kMostHalvings || !advance_in_parts(0.5 * dt_s, halvings + 1)) return false;
   }
@@ -215,7 +218,9 @@ void Simulation::step(std::span<const messages::ToolState> tools) {
   }
   in.limb.springs = tool_springs(tools, {in.specimen, in.surfaces.skins()}, in.limb);
   push_history(in.limb);
-  bool sound = advance(in.limb, {dt_s, in.whole_steps > 0}, in.workers).sound;
+  const StepReport report = advance(in.limb, {dt_s, in.whole_steps > 0}, in.workers);
+  in.residual_share = report.residual_share;
+  bool sound = report.sound;
   ++in.whole_steps;
   if (!sound) {
     in.whole_steps = 0;
@@ -292,6 +297,14 @@ std::vector<Vec3> Simulation::line_world_m(int muscle) const {
   return line_points_W(*impl_->lines[at(muscle)].line, impl_->limb.skeleton);
 }
 
+double Simulation::volume_ratio(int muscle) const {
+  return impl_->limb.muscles[at(muscle)].readout.volume_ratio;
+}
+
+double Simulation::residual_share() const {
+  return impl_->residual_share;
+}
+
 double Simulation::smallest_volume_ratio(int muscle) const {
   return impl_->limb.muscles[at(muscle)].readout.smallest_J;
 }
@@ -333,6 +346,7 @@ void Simulation::write_frame(messages::SceneFrame& frame) const {
   const Impl& in = *impl_;
   frame.sequence = in.steps;
   frame.time_s = in.time_s();
+  frame.residual_share = in.residual_share;
   const std::size_t muscles = in.limb.muscles.size();
   frame.body_poses.resize(in.specimen.bodies.size());
   for (std::size_t b = 0; b < frame.body_poses.size(); ++b) {
@@ -346,10 +360,14 @@ void Simulation::write_frame(messages::SceneFrame& frame) const {
   frame.lines_world_m.resize(muscles);
   frame.activations.resize(muscles);
   frame.tensions_N.resize(muscles);
+  frame.volume_ratios.resize(muscles);
+  frame.smallest_volume_ratios.resize(muscles);
   for (std::size_t m = 0; m < muscles; ++m) {
     const int muscle = static_cast<int>(m);
     frame.activations[m] = activation(muscle);
     frame.tensions_N[m] = muscle_force_N(muscle);
+    frame.volume_ratios[m] = volume_ratio(muscle);
+    frame.smallest_volume_ratios[m] = smallest_volume_ratio(muscle);
     const std::span<const Vec3> skin = skin_world_m(muscle);
     frame.skins_world_m[m].resize(skin.size());
     std::transform(skin.begin(), skin.end(), frame.skins_world_m[m].begin(), [](const Vec3& p) {

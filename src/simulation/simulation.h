@@ -71,6 +71,9 @@ class Simulation {
   std::span<const Vec3> skin_world_m(int muscle) const;
   std::vector<Vec3> line_world_m(int muscle) const;
   double smallest_volume_ratio(int muscle) const;  // smallest J over the integration points
+  double volume_ratio(int muscle) const;           // volume of the whole muscle over that at rest
+  /// Largest out-of-balance share of a muscle after the last step: forces that nothing balances over the size of all.
+  double residual_share() const;
   std::uint64_t state_hash() const;
   int failed_steps() const;  // that had to be repeated in shorter parts, since construction
 

@@ -105,10 +105,14 @@ void deform_elements(const Pass& pass) {
       deform_batch<QuadraticTet>(tets.shapes, position, system.points[b]);
     }
   }
+  double volume_m3 = 0.0, rest_m3 = 0.0;
   for (std::size_t b = 0; b < pass.tissue.batches.size(); ++b) {
     const TetBatch<QuadraticTet>& tets = pass.tissue.batches[b].tets;
     for (std::size_t lane = 0; lane < at(tets.count); ++lane) {
+      const double tet_m3 = tets.shapes.volume_m3.lane[lane];
+      rest_m3 += tet_m3;
       for (std::size_t p = 0; p < kTetPoints; ++p) {
+        volume_m3 += tet_m3 / kTetPoints * system.points[b][p].J.lane[lane];
         const Point<Eight>& point = system.points[b][p];
         pass.state.now.stretch[at(tets.tet[lane]) * kTetPoints + p] =
             std::max(std::sqrt(point.I4.lane[lane]), kShortestStretch);
@@ -116,6 +120,7 @@ void deform_elements(const Pass& pass) {
       }
     }
   }
+  system.volume_ratio = volume_m3 / rest_m3;
 }
 
 Eight fluctuation_of(const TissueBatch& batch, double activation) {

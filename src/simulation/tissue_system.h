@@ -71,6 +71,7 @@ struct TissueSystem {
   double tension_N = 0.0;            // on the insertion, along the line's last segment
   double force_scale_N = 0.0;        // size of the nodal forces, to judge a residual by
   double smallest_J = 1.0;           // over the integration points
+  double volume_ratio = 1.0;         // of the whole muscle, now over rest
 };
 
 TissueSystem make_system(const MuscleTissue& tissue, const Skeleton& skeleton);

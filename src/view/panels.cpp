@@ -70,7 +70,10 @@ void draw_muscles(const anatomy::Specimen& specimen, const messages::SceneFrame&
     ImGui::PopStyleColor();
     ImGui::SameLine();
     ImGui::TextUnformatted(specimen.muscles[m].name_en.c_str());
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", specimen.muscles[m].name_la.c_str());
+    if (ImGui::IsItemHovered()) {
+      ImGui::SetTooltip("%s\nvolume %+.2f %%, smallest J %.2f", specimen.muscles[m].name_la.c_str(),
+                        100.0 * (frame.volume_ratios[m] - 1.0), frame.smallest_volume_ratios[m]);
+    }
   }
 }
 
@@ -96,9 +99,15 @@ void draw_force_bar(double force_N, double peak_N) {
   ImGui::ProgressBar(static_cast<float>(force_N / peak_N), ImVec2(-1, 0), text.c_str());
 }
 
-void draw_rates(const messages::RateFrame& rates) {
+void draw_rates(const messages::SceneFrame& frame) {
+  const messages::RateFrame& rates = frame.rates;
   ImGui::TextWrapped("simulation %.0f Hz, haptics %.0f Hz, %llu ticks missed, time x %.2f", rates.simulation_hz,
                      rates.haptic_hz, static_cast<unsigned long long>(rates.missed_ticks), rates.time_factor);
+  double volume_error = 0.0, smallest_J = 1.0;
+  for (const double ratio : frame.volume_ratios) volume_error = std::max(volume_error, std::abs(ratio - 1.0));
+  for (const double ratio : frame.smallest_volume_ratios) smallest_J = std::min(smallest_J, ratio);
+  ImGui::TextWrapped("residual %.1f %%, volume within %.2f %%, smallest J %.2f", 100.0 * frame.residual_share,
+                     100.0 * volume_error, smallest_J);
 }
 
 void draw_help() {
@@ -150,7 +159,7 @@ void draw_panels(const anatomy::Specimen& specimen, const messages::SceneFrame& 
     draw_force_bar(std::hypot(f[0], f[1], f[2]), state.device_peak_N);
   }
   ImGui::Separator();
-  draw_rates(frame.rates);
+  draw_rates(frame);
   ImGui::TextDisabled("Not a medical device.");
   ImGui::End();
   if (state.help) draw_help();

@@ -36,6 +36,8 @@ const std::vector<NamedLaw>& all_laws() {
       {"blemker_muscle", BlemkerMuscle<BlemkerFibre>{500.0, 700.0, 1e6, {3e5, 1.05}}, 0.0, 1e-3},
       {"blemker_tendon", BlemkerMuscle<ExponentialFibre>{5e3, 5e3, 1e6, {27e3, 4.0, 0.0, 1.2}}, 0.0, 1e-3},
       {"muscle_fibres", UnsplitFibres<MuscleFibre>{{3e5, 0.9, 1.0}}, 3e5 * 0.0094},
+      {"muscle_fibres_thelen", UnsplitFibres<MuscleFibre>{{3e5, 0.9, 1.0, CurveSet::Thelen2003}}, 0.0, 1e-3},
+      {"muscle_fibres_millard", UnsplitFibres<MuscleFibre>{{3e5, 0.9, 1.0, CurveSet::Millard2012}}, 0.0, 1e-3},
       {"muscle_fibres_isochoric", IsochoricFibres<MuscleFibre>{{3e5, 0.9, 1.0}}, 3e5 * 0.0094},
       {"blemker_fibres", UnsplitFibres<BlemkerFibre>{{3e5}}, 0.0, 1e-3},
       {"exponential_fibres", UnsplitFibres<ExponentialFibre>{{1e4, 6.0, 0.0, 1.2}}, 0.0, 1e-3},

@@ -25,6 +25,8 @@ messages::SceneFrame frame_of(const anatomy::Specimen& specimen, double activati
     }
     frame.activations.push_back(activation);
     frame.tensions_N.push_back(0.0);
+    frame.volume_ratios.push_back(1.0);
+    frame.smallest_volume_ratios.push_back(1.0);
   }
   return frame;
 }

@@ -1,21 +1,23 @@
 #pragma once
 
-#include "simulation/fibre_curves.h"
+#include "simulation/curves/curve_set.h"
 #include "simulation/material/fibre_family.h"
 
 namespace myotact::simulation {
 
-/// Active and passive fibre of skeletal muscle: nominal stress = peak (a fL(n) + fP(n)), with the
-/// normalised length n = rest_length + gain (stretch - 1).
+/// Active and passive fibre of skeletal muscle by a published set of curves: nominal stress = peak (a fL(n) + fP(n)),
+/// with the normalised length n = rest_length + gain (stretch - 1).
 struct MuscleFibre {
   double peak_Pa = 0.0;
   double rest_length = 1.0;  // over the optimal length, at stretch 1
   double gain = 1.0;
+  CurveSet curves = CurveSet::DeGrooteFregly2016;
 
   FibreLaw at(double stretch, double activation) const {
     const double n = rest_length + gain * (stretch - 1.0);
-    return {peak_Pa * (activation * active_force_length(n) + passive_force_length(n)),
-            peak_Pa * gain * (activation * active_force_length_slope(n) + passive_force_length_slope(n))};
+    const ForceCurves& set = force_curves(curves);
+    return {peak_Pa * (activation * set.active.value(n) + set.passive.value(n)),
+            peak_Pa * gain * (activation * set.active.slope(n) + set.passive.slope(n))};
   }
   double energy_Pa(double stretch, double activation) const { return integrate_stress(*this, stretch, activation); }
 };
