@@ -4,6 +4,7 @@
 
 #include "core/text.h"
 #include "measure/validation/fibre_kinds.h"
+#include "measure/validation/homogeneous_kind.h"
 #include "measure/validation/oscillator_kinds.h"
 #include "measure/validation/pendulum_kind.h"
 
@@ -11,9 +12,13 @@ namespace myotact::measure {
 
 const std::vector<Kind>& validation_kinds() {
   static const std::vector<Kind> kinds = {
-      {"activation", activation},         {"force_curves", force_curve_values},
-      {"hinge_pendulum", hinge_pendulum}, {"isotonic_velocity", isotonic_velocity},
-      {"oscillator", oscillator},         {"oscillator_order", oscillator_order},
+      {"activation", activation},
+      {"force_curves", force_curve_values},
+      {"hinge_pendulum", hinge_pendulum},
+      {"homogeneous_state", homogeneous_state},
+      {"isotonic_velocity", isotonic_velocity},
+      {"oscillator", oscillator},
+      {"oscillator_order", oscillator_order},
   };
   return kinds;
 }

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "geometry/tet_mesh.h"
+
+namespace myotact::measure {
+
+struct Box {
+  Vec3 size_m = Vec3::Ones();
+  std::array<int, 3> cells{1, 1, 1};
+  bool mirrored = true;  // each cell is the mirror image of its neighbours, so that no direction is favoured
+};
+
+/// A box with a corner in the origin: six tets a cell about one of its diagonals (Kuhn). Tets 6 c .. 6 c + 5 are those
+/// of cell c; nodes run along x first, then y, then z.
+geometry::TetMesh make_box(const Box& box);
+
+/// The cell of each tet: patches of the size that the patched element wants.
+std::vector<int> cells_of_box(const geometry::TetMesh& mesh);
+
+/// Moves the nodes inside the box at random by at most `share` of a cell's size along each axis.
+void shake_inside(const Box& box, double share, geometry::TetMesh& mesh);
+
+}  // namespace myotact::measure
