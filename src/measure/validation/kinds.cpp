@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
+#include "measure/validation/element_kinds.h"
 #include "measure/validation/fibre_kinds.h"
 #include "measure/validation/homogeneous_kind.h"
 #include "measure/validation/oscillator_kinds.h"
@@ -19,6 +20,8 @@ const std::vector<Kind>& validation_kinds() {
       {"isotonic_velocity", isotonic_velocity},
       {"oscillator", oscillator},
       {"oscillator_order", oscillator_order},
+      {"patch_test", patch_test},
+      {"tangent_test", tangent_test},
   };
   return kinds;
 }
