@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
+#include "measure/validation/beam_kinds.h"
 #include "measure/validation/element_kinds.h"
 #include "measure/validation/fibre_kinds.h"
 #include "measure/validation/homogeneous_kind.h"
@@ -14,7 +15,10 @@ namespace myotact::measure {
 const std::vector<Kind>& validation_kinds() {
   static const std::vector<Kind> kinds = {
       {"activation", activation},
+      {"beam_vibration", beam_vibration},
+      {"cantilever", cantilever},
       {"force_curves", force_curve_values},
+      {"hanging_beam", hanging_beam},
       {"hinge_pendulum", hinge_pendulum},
       {"homogeneous_state", homogeneous_state},
       {"isotonic_velocity", isotonic_velocity},
