@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
+#include "measure/validation/bar_kinds.h"
 #include "measure/validation/beam_kinds.h"
 #include "measure/validation/element_kinds.h"
 #include "measure/validation/fibre_kinds.h"
@@ -17,6 +18,7 @@ const std::vector<Kind>& validation_kinds() {
       {"activation", activation},
       {"beam_vibration", beam_vibration},
       {"cantilever", cantilever},
+      {"clamped_bar", clamped_bar},
       {"force_curves", force_curve_values},
       {"hanging_beam", hanging_beam},
       {"hinge_pendulum", hinge_pendulum},
@@ -26,6 +28,7 @@ const std::vector<Kind>& validation_kinds() {
       {"oscillator_order", oscillator_order},
       {"patch_test", patch_test},
       {"tangent_test", tangent_test},
+      {"thick_cylinder", thick_cylinder},
   };
   return kinds;
 }
