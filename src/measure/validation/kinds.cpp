@@ -8,6 +8,7 @@
 #include "measure/validation/element_kinds.h"
 #include "measure/validation/fibre_kinds.h"
 #include "measure/validation/homogeneous_kind.h"
+#include "measure/validation/motion_kinds.h"
 #include "measure/validation/oscillator_kinds.h"
 #include "measure/validation/pendulum_kind.h"
 
@@ -27,6 +28,8 @@ const std::vector<Kind>& validation_kinds() {
       {"oscillator", oscillator},
       {"oscillator_order", oscillator_order},
       {"patch_test", patch_test},
+      {"solid_conservation", solid_conservation},
+      {"solid_order", solid_order},
       {"tangent_test", tangent_test},
       {"thick_cylinder", thick_cylinder},
   };
