@@ -9,6 +9,7 @@
 #include "measure/validation/fibre_kinds.h"
 #include "measure/validation/homogeneous_kind.h"
 #include "measure/validation/motion_kinds.h"
+#include "measure/validation/muscle_kinds.h"
 #include "measure/validation/oscillator_kinds.h"
 #include "measure/validation/pendulum_kind.h"
 
@@ -25,6 +26,7 @@ const std::vector<Kind>& validation_kinds() {
       {"hinge_pendulum", hinge_pendulum},
       {"homogeneous_state", homogeneous_state},
       {"isotonic_velocity", isotonic_velocity},
+      {"muscle_elements", muscle_elements},
       {"oscillator", oscillator},
       {"oscillator_order", oscillator_order},
       {"patch_test", patch_test},
