@@ -29,11 +29,11 @@ void add_nodes(const Vec3& size_m, const Cell& cells, TetMesh& mesh) {
 }
 
 /// The diagonal starts at the corner with even indices: that is what mirrors neighbours.
-void add_cell(const Cell& cell, const Cell& cells, TetMesh& mesh) {
+void add_cell(const Cell& cell, const Cell& cells, BoxCells kind, TetMesh& mesh) {
   Cell start = cell;
   Cell step{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const bool mirrored = cell[axis] % 2 != 0;
+    const bool mirrored = kind == BoxCells::Mirrored && cell[axis] % 2 != 0;
     start[axis] += mirrored ? 1 : 0;
     step[axis] = mirrored ? -1 : 1;
   }
@@ -52,12 +52,12 @@ void add_cell(const Cell& cell, const Cell& cells, TetMesh& mesh) {
 
 }  // namespace
 
-TetMesh make_box_mesh(const Vec3& size_m, const std::array<int, 3>& cells) {
+TetMesh make_box_mesh(const Vec3& size_m, const std::array<int, 3>& cells, BoxCells kind) {
   TetMesh mesh;
   add_nodes(size_m, cells, mesh);
   for (int i = 0; i < cells[0]; ++i) {
     for (int j = 0; j < cells[1]; ++j) {
-      for (int k = 0; k < cells[2]; ++k) add_cell({i, j, k}, cells, mesh);
+      for (int k = 0; k < cells[2]; ++k) add_cell({i, j, k}, cells, kind, mesh);
     }
   }
   return mesh;

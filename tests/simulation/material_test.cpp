@@ -43,7 +43,7 @@ const std::vector<NamedLaw>& all_laws() {
       {"exponential_fibres", UnsplitFibres<ExponentialFibre>{{1e4, 6.0, 0.0, 1.2}}, 0.0, 1e-3},
       {"exponential_fibres_isochoric", IsochoricFibres<ExponentialFibre>{{1e4, 6.0, 0.0, 1.2}}, 0.0, 1e-3},
       {"constant_tension", UnsplitFibres<ConstantTension>{{5e4}}},
-      {"calcium_tension", IsochoricFibres<CalciumTension>{{5e4, 4.35, 4.35, 4.75, 1.58, 2.04}}, 0.0, 1e-3},
+      {"calcium_tension", UnsplitFibres<CalciumTension>{{5e4, 4.35, 4.35, 4.75, 1.58, 2.04, 0.97}}, 0.0, 1e-3},
       {"isotropic_tension", IsotropicTension{5e4}}};
   return laws;
 }

@@ -170,5 +170,22 @@ TEST(Solid, RecoversFromInvertedStarts) {
   }
 }
 
+/// Nothing holds the cube but three planes, so that in equilibrium every stress is round-off and no force is left to
+/// judge the residual by.
+TEST(StaticSolve, FindsTheStressFreeStateOfAFreeContraction) {
+  SolidInput input = input_of(ElementKind::Linear, {NeoHookean{1.0, 1.5}, IsotropicTension{0.5}});
+  const Solid solid(input, "cube");
+  SolidLoads loads;
+  loads.activation = 1.0;
+  for (int n = 0; n < solid.nodes(); ++n) {
+    for (int i = 0; i < 3; ++i) {
+      if (solid.rest_m()[3 * n + i] < 1e-9) loads.held.push_back({n, i, 0.0});
+    }
+  }
+  const StaticResult result = solve_static(solid, loads, solid.rest_m(), {});
+  EXPECT_TRUE(result.converged);
+  EXPECT_LT(solid.state_of(0, result.position_m, 1.0).cauchy_Pa.norm(), 1e-8);
+}
+
 }  // namespace
 }  // namespace myotact::simulation

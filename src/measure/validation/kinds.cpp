@@ -3,7 +3,13 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
+#include "measure/validation/bar_kinds.h"
+#include "measure/validation/beam_kinds.h"
+#include "measure/validation/element_kinds.h"
 #include "measure/validation/fibre_kinds.h"
+#include "measure/validation/homogeneous_kind.h"
+#include "measure/validation/motion_kinds.h"
+#include "measure/validation/muscle_kinds.h"
 #include "measure/validation/oscillator_kinds.h"
 #include "measure/validation/pendulum_kind.h"
 
@@ -11,9 +17,23 @@ namespace myotact::measure {
 
 const std::vector<Kind>& validation_kinds() {
   static const std::vector<Kind> kinds = {
-      {"activation", activation},         {"force_curves", force_curve_values},
-      {"hinge_pendulum", hinge_pendulum}, {"isotonic_velocity", isotonic_velocity},
-      {"oscillator", oscillator},         {"oscillator_order", oscillator_order},
+      {"activation", activation},
+      {"beam_vibration", beam_vibration},
+      {"cantilever", cantilever},
+      {"clamped_bar", clamped_bar},
+      {"force_curves", force_curve_values},
+      {"hanging_beam", hanging_beam},
+      {"hinge_pendulum", hinge_pendulum},
+      {"homogeneous_state", homogeneous_state},
+      {"isotonic_velocity", isotonic_velocity},
+      {"muscle_elements", muscle_elements},
+      {"oscillator", oscillator},
+      {"oscillator_order", oscillator_order},
+      {"patch_test", patch_test},
+      {"solid_conservation", solid_conservation},
+      {"solid_order", solid_order},
+      {"tangent_test", tangent_test},
+      {"thick_cylinder", thick_cylinder},
   };
   return kinds;
 }

@@ -4,16 +4,18 @@
 
 namespace myotact::simulation {
 
-/// A fibre whose Cauchy stress times J is the activation times T0, whatever its length: W = a T0 ln(stretch).
-/// FEBio's prescribed uniaxial contraction.
+/// A fibre of constant second Piola-Kirchhoff stress, the activation times T0, so that its Cauchy stress is
+/// T0 stretch^2 / J: W = a T0 / 2 (stretch^2 - 1). FEBio's prescribed uniaxial contraction.
 struct ConstantTension {
   double tension_Pa = 0.0;
 
   FibreLaw at(double stretch, double activation) const {
-    const double stress = activation * tension_Pa / stretch;
-    return {stress, -stress / stretch};
+    const double modulus = activation * tension_Pa;
+    return {modulus * stretch, modulus};
   }
-  double energy_Pa(double stretch, double activation) const { return activation * tension_Pa * std::log(stretch); }
+  double energy_Pa(double stretch, double activation) const {
+    return 0.5 * activation * tension_Pa * (stretch * stretch - 1.0);
+  }
 };
 
 /// Contraction without a direction, sigma = a T0 B / J: W = a T0 / 2 (I1 - 3). FEBio's prescribed isotropic
@@ -41,21 +43,25 @@ struct IsotropicTension {
 
 /// Heart muscle at a calcium concentration (Guccione and McCulloch, J Biomech Eng 115:72, 1993), as in FEBio's
 /// "trans iso" materials: tension T = Tmax ca0^2 / (ca0^2 + ECa50^2), ECa50 = camax / sqrt(exp(B (l - l0)) - 1),
-/// l = refl stretch; no tension at or below l0.
+/// l = refl J^(-1/3) stretch; no tension at or below l0. There T is Cauchy stress and J that of the point, which no
+/// energy can give; here J is a number, and where it is the point's J, which takes a few rounds, so is the stress.
 struct CalciumTension {
   double largest_Pa = 0.0;
   double calcium = 0.0, largest_calcium = 0.0;  // micromole
   double steepness_1_um = 0.0;                  // B
   double shortest_um = 0.0;                     // l0, a sarcomere
   double reference_um = 0.0;                    // refl
+  double volume_ratio = 1.0;                    // J
 
   FibreLaw at(double stretch, double activation) const {
-    const double growth = std::exp(steepness_1_um * (reference_um * stretch - shortest_um));
+    const double length_um = reference_um / std::cbrt(volume_ratio);  // at stretch 1
+    const double growth = std::exp(steepness_1_um * (length_um * stretch - shortest_um));
     if (growth <= 1.0) return {};
     const double squared = calcium * calcium * (growth - 1.0), rest = largest_calcium * largest_calcium;
-    const double tension = activation * largest_Pa * squared / (squared + rest);
-    const double rate = activation * largest_Pa * rest * calcium * calcium * growth * steepness_1_um * reference_um /
-                        ((squared + rest) * (squared + rest));
+    const double scale = activation * largest_Pa * volume_ratio;
+    const double tension = scale * squared / (squared + rest);
+    const double rate =
+        scale * rest * calcium * calcium * growth * steepness_1_um * length_um / ((squared + rest) * (squared + rest));
     return {tension / stretch, rate / stretch - tension / (stretch * stretch)};
   }
   double energy_Pa(double stretch, double activation) const { return integrate_stress(*this, stretch, activation); }

@@ -22,6 +22,6 @@ using Law =
     std::variant<StableNeoHookean, NeoHookean, MooneyRivlin, Corotated, BlemkerMuscle<BlemkerFibre>,
                  BlemkerMuscle<ExponentialFibre>, UnsplitFibres<MuscleFibre>, IsochoricFibres<MuscleFibre>,
                  UnsplitFibres<BlemkerFibre>, IsochoricFibres<ExponentialFibre>, UnsplitFibres<ExponentialFibre>,
-                 UnsplitFibres<ConstantTension>, IsochoricFibres<CalciumTension>, IsotropicTension>;
+                 UnsplitFibres<ConstantTension>, UnsplitFibres<CalciumTension>, IsotropicTension>;
 
 }  // namespace myotact::simulation

@@ -25,7 +25,8 @@ class StaticSolver {
         options_(options),
         system_(solid, loads.held),
         factor_(solid.pattern()),
-        now_(solid.make_evaluation()) {}
+        now_(solid.make_evaluation()),
+        smallest_step_m_(options.tolerance * size_m(solid)) {}
 
   StaticResult run(const Eigen::VectorXd& start_m) {
     result_.position_m = x_ = start_m;
@@ -50,6 +51,11 @@ class StaticSolver {
   }
 
  private:
+  static double size_m(const Solid& solid) {
+    const Eigen::Map<const Eigen::Matrix3Xd> nodes(solid.rest_m().data(), 3, solid.nodes());
+    return (nodes.rowwise().maxCoeff() - nodes.rowwise().minCoeff()).maxCoeff();
+  }
+
   double share() const { return residual_.norm() / (now_.force_scale_N + external_scale_N() + 1e-30); }
 
   double external_scale_N() const { return loads_.nodal_force_N.size() > 0 ? loads_.nodal_force_N.norm() : 0.0; }
@@ -71,6 +77,7 @@ class StaticSolver {
   }
 
   bool factor_tangent(double load, const Eigen::VectorXd& gap, Eigen::VectorXd& right) {
+    exact_ = true;
     for (const Solid::Tangent tangent : {Solid::Tangent::Exact, Solid::Tangent::Definite}) {
       look(load, tangent);
       right = -residual_;
@@ -84,8 +91,15 @@ class StaticSolver {
         result_.definite += tangent == Solid::Tangent::Definite ? 1 : 0;
         return true;
       }
+      exact_ = false;
     }
     return false;
+  }
+
+  /// An exact Newton step estimates what is left to go. Where the stress vanishes everywhere (free contraction) nothing
+  /// but this can tell: the elements' forces are round-off themselves.
+  bool is_there(const Eigen::VectorXd& direction) const {
+    return exact_ && direction.lpNorm<Eigen::Infinity>() < smallest_step_m_;
   }
 
   /// Goes along `direction` as far as the energy falls. False when no part of it helps.
@@ -121,10 +135,10 @@ class StaticSolver {
         look(load, Solid::Tangent::None);
         if (!(now_.smallest_J > kSmallestJ) || !std::isfinite(residual_.norm())) return false;
       } else if (!search(load, direction)) {
-        return share() < options_.tolerance;
+        return share() < options_.tolerance || is_there(direction);
       }
       if (options_.progress) options_.progress(load, share());
-      if (share() < options_.tolerance) return true;
+      if (share() < options_.tolerance || (gap.squaredNorm() == 0.0 && is_there(direction))) return true;
       idle = share() < 0.9 * best ? 0 : idle + 1;
       best = std::min(best, share());
       if (idle > kMostIdle) return false;
@@ -146,6 +160,8 @@ class StaticSolver {
   ExactBlockFactor factor_;
   Solid::Evaluation now_;
   Eigen::VectorXd x_, residual_;
+  double smallest_step_m_;
+  bool exact_ = true;  // the tangent factored last was not projected
   StaticResult result_;
 };
 

@@ -23,7 +23,7 @@ void out_of_balance(const Solid& solid, const SolidLoads& loads, double load, co
                     Solid::Tangent tangent, Solid::Evaluation& out);
 
 struct StaticOptions {
-  double tolerance = 1e-8;   // out-of-balance force over the size of the elements' forces
+  double tolerance = 1e-8;   // out-of-balance force over the elements' forces, or Newton step over the body's size
   int load_steps = 1;        // the least number; more are taken where one does not converge
   int most_iterations = 60;  // Newton steps of one load step
   /// Called after each Newton step with the share of the load that is being applied and the residual share; may be
