@@ -147,7 +147,7 @@ const std::vector<NamedLaw>& known_laws() {
        [](JsonObject& f) -> Law { return IsochoricFibres<ExponentialFibre>{exponential_fibre(f)}; }},
       {"fibre_tension",
        [](JsonObject& f) -> Law { return UnsplitFibres<ConstantTension>{{positive(f, "tension_Pa")}}; }},
-      {"calcium_tension", [](JsonObject& f) -> Law { return IsochoricFibres<CalciumTension>{calcium_tension(f)}; }},
+      {"calcium_tension", [](JsonObject& f) -> Law { return UnsplitFibres<CalciumTension>{calcium_tension(f)}; }},
       {"isotropic_tension", [](JsonObject& f) -> Law { return IsotropicTension{positive(f, "tension_Pa")}; }},
   };
   return kLaws;

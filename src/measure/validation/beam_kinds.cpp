@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "measure/validation/solid_inputs.h"
+#include "simulation/block_factor.h"
 
 namespace myotact::measure {
 namespace {
@@ -88,11 +89,12 @@ struct Vibration {
 
 Vibration lowest_vibration(const Solid& solid, const SolidLoads& loads) {
   constexpr int kMostIterations = 200;
-  simulation::HeldSystem system(solid, loads.held);
+  const simulation::HeldSystem system(solid, loads.held);
+  simulation::ExactBlockFactor factor(solid.pattern());
   Solid::Evaluation at_rest = solid.make_evaluation();
   solid.evaluate(solid.rest_m(), 0.0, Solid::Tangent::Exact, at_rest);
   system.hold(at_rest.stiffness);
-  if (!system.factor.factor(at_rest.stiffness)) return {};
+  if (!factor.factor(at_rest.stiffness)) return {};
   Eigen::VectorXd mass(solid.rest_m().size());
   for (Eigen::Index k = 0; k < mass.size(); ++k) mass[k] = solid.mass_kg()[k / 3];
   // Not symmetric, so that of two equal bending modes the start holds both and neither is missed.
@@ -104,7 +106,7 @@ Vibration lowest_vibration(const Solid& solid, const SolidLoads& loads) {
   for (int iteration = 0; iteration < kMostIterations && !result.converged; ++iteration) {
     Eigen::VectorXd pushed = mass.cwiseProduct(mode);
     system.drop_held(pushed);
-    const Eigen::VectorXd next = system.factor.solve(pushed);
+    const Eigen::VectorXd next = factor.solve(pushed);
     const double squared = next.dot(pushed) / next.dot(mass.cwiseProduct(next));
     result.converged = std::abs(std::sqrt(squared) - result.omega_rad_s) < 1e-10 * result.omega_rad_s;
     result.omega_rad_s = std::sqrt(squared);
