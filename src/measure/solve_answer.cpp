@@ -85,7 +85,7 @@ Eigen::VectorXd held_reactions_N(const SolveCase& input, const Solid& solid, con
   simulation::SolidLoads loads = input.loads;
   loads.activation = state.activation;
   Solid::Evaluation evaluation = solid.make_evaluation();
-  simulation::out_of_balance(solid, loads, 1.0, state.position_m, Solid::Tangent::None, evaluation);
+  simulation::out_of_balance({solid, loads}, 1.0, state.position_m, Solid::Tangent::None, evaluation);
   Eigen::VectorXd reaction_N = Eigen::VectorXd::Zero(evaluation.force_N.size());
   for (const auto& held : loads.held) {
     const Eigen::Index k = 3 * held.node + held.component;

@@ -64,7 +64,7 @@ TEST_F(TetFiles, TetgenMidSidesComeInOurOrder) {
       "1 10 0\n0 0 1 2 3 4 5 6 7 8 9\n");
   ASSERT_TRUE(file.mesh.quadratic());
   for (std::size_t e = 0; e < kTetEdges.size(); ++e) {
-    const auto corner = [&](int k) {
+    const auto corner = [&](std::size_t k) {
       return file.mesh
           .nodes_m[static_cast<std::size_t>(file.mesh.corners[0][static_cast<std::size_t>(kTetEdges[e][k])])];
     };

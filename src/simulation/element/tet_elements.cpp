@@ -6,7 +6,7 @@ namespace myotact::simulation {
 
 TetShape<double> make_tet_shape(const std::array<Vec3, 4>& corners_m, const Vec3& fibre) {
   Mat3 edges;
-  for (int k = 0; k < 3; ++k) edges.col(k) = corners_m[static_cast<std::size_t>(k + 1)] - corners_m[0];
+  for (std::size_t k = 0; k < 3; ++k) edges.col(static_cast<Eigen::Index>(k)) = corners_m[k + 1] - corners_m[0];
   const Mat3 inverse = edges.inverse();
   TetShape<double> shape;
   for (std::size_t A = 0; A < 3; ++A) {

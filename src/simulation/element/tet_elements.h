@@ -86,6 +86,16 @@ inline PairSlot pair_slot(const BlockMatrix& pattern, int a, int b) {
   return {pattern.slot(a > b ? a : b, a > b ? b : a), a >= b};
 }
 
+/// Slots of all pairs a <= b of a list of nodes, row by row.
+template <class Nodes>
+std::vector<PairSlot> pair_slots(const BlockMatrix& pattern, const Nodes& nodes) {
+  std::vector<PairSlot> slots;
+  for (std::size_t a = 0; a < nodes.size(); ++a) {
+    for (std::size_t b = a; b < nodes.size(); ++b) slots.push_back(pair_slot(pattern, nodes[a], nodes[b]));
+  }
+  return slots;
+}
+
 /// From the rest position of the 4 corners (volume > 0) and the unit direction of the fibres, or zero.
 TetShape<double> make_tet_shape(const std::array<Vec3, 4>& corners_m, const Vec3& fibre);
 

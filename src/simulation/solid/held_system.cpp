@@ -6,7 +6,8 @@ namespace myotact::simulation {
 
 HeldSystem::HeldSystem(const Solid& solid, std::span<const HeldDof> held)
     : held_(static_cast<std::size_t>(solid.rest_m().size()), 0) {
-  for (const HeldDof& dof : held) held_[static_cast<std::size_t>(3 * dof.node + dof.component)] = 1;
+  for (const HeldDof& dof : held)
+    held_[3 * static_cast<std::size_t>(dof.node) + static_cast<std::size_t>(dof.component)] = 1;
   const Eigen::SparseMatrix<double>& lower = solid.pattern().lower();
   for (int column = 0; column < lower.cols(); ++column) {
     for (int k = lower.outerIndexPtr()[column]; k < lower.outerIndexPtr()[column + 1]; ++k) {

@@ -45,47 +45,68 @@ int shared_nodes(const geometry::TetMesh& mesh, const std::vector<int>& tets, in
   return count;
 }
 
+/// Patches under construction.
+struct Patching {
+  const geometry::TetMesh& mesh;
+  const std::vector<int>& material;
+  Lists neighbours;
+  std::vector<int> patch;  // of each tet, -1: none yet
+};
+
+std::size_t index(int t) {
+  return static_cast<std::size_t>(t);
+}
+
+/// The free neighbour that adds the fewest nodes, of several the one of lowest number; -1: none.
+int best_neighbour(const Patching& p, const std::vector<int>& tets) {
+  int best = -1, most = -1;
+  for (const int t : tets) {
+    for (const int other : p.neighbours[index(t)]) {
+      if (p.patch[index(other)] >= 0 || p.material[index(other)] != p.material[index(t)]) continue;
+      const int shared = shared_nodes(p.mesh, tets, other);
+      if (shared > most || (shared == most && other < best)) {
+        most = shared;
+        best = other;
+      }
+    }
+  }
+  return best;
+}
+
+std::vector<int> grow_patch(Patching& p, int first, int number) {
+  std::vector<int> tets;
+  for (int next = first; next >= 0; next = best_neighbour(p, tets)) {
+    tets.push_back(next);
+    p.patch[index(next)] = number;
+    if (tets.size() == kPatchSize) break;
+  }
+  return tets;
+}
+
+/// Its tets join a neighbouring patch: alone they would lock.
+void dissolve(Patching& p, const std::vector<int>& tets) {
+  for (const int t : tets) {
+    const auto& around = p.neighbours[index(t)];
+    const auto found = std::find_if(around.begin(), around.end(), [&](int other) {
+      return p.patch[index(other)] != p.patch[index(t)] && p.material[index(other)] == p.material[index(t)];
+    });
+    if (found != around.end()) p.patch[index(t)] = p.patch[index(*found)];
+  }
+}
+
 }  // namespace
 
 std::vector<int> find_patches(const geometry::TetMesh& mesh, const std::vector<int>& material) {
-  const Lists neighbours = face_neighbours(mesh);
-  std::vector<int> patch(mesh.corners.size(), -1);
+  Patching p{mesh, material, face_neighbours(mesh), std::vector<int>(mesh.corners.size(), -1)};
   Lists patches;
-  const auto index = [](int t) { return static_cast<std::size_t>(t); };
-  for (std::size_t first = 0; first < patch.size(); ++first) {
-    if (patch[first] >= 0) continue;
-    std::vector<int> tets{static_cast<int>(first)};
-    const int number = static_cast<int>(patches.size());
-    patch[first] = number;
-    while (tets.size() < kPatchSize) {  // the neighbour that adds the fewest nodes, then the one of lowest number
-      int best = -1, most = -1;
-      for (const int t : tets) {
-        for (const int other : neighbours[index(t)]) {
-          if (patch[index(other)] >= 0 || material[index(other)] != material[first]) continue;
-          const int shared = shared_nodes(mesh, tets, other);
-          if (shared > most || (shared == most && other < best)) {
-            most = shared;
-            best = other;
-          }
-        }
-      }
-      if (best < 0) break;
-      tets.push_back(best);
-      patch[index(best)] = number;
-    }
-    patches.push_back(tets);
+  for (std::size_t first = 0; first < p.patch.size(); ++first) {
+    if (p.patch[first] >= 0) continue;
+    patches.push_back(grow_patch(p, static_cast<int>(first), static_cast<int>(patches.size())));
   }
-  for (const std::vector<int>& tets : patches) {  // lone tets would lock
-    if (tets.size() > kSmallPatch) continue;
-    for (const int t : tets) {
-      for (const int other : neighbours[index(t)]) {
-        if (patch[index(other)] == patch[index(t)] || material[index(other)] != material[index(t)]) continue;
-        patch[index(t)] = patch[index(other)];
-        break;
-      }
-    }
+  for (const std::vector<int>& tets : patches) {
+    if (tets.size() <= kSmallPatch) dissolve(p, tets);
   }
-  return patch;
+  return p.patch;
 }
 
 }  // namespace myotact::simulation

@@ -86,49 +86,53 @@ Solid::Solid(const SolidInput& input, const std::string& file)
     check_tet(mesh_, t, file);
     check_fibre(input, t, material_[t], file);
     shapes_.push_back(shape_of(input, mesh_, t));
-    const double mass = materials_[at(material_[t])].density_kg_m3 * shapes_[t].volume_m3;
-    // The diagonal of the consistent mass matrix, scaled to the tet's mass: row sums would give the corners of a
-    // quadratic tet negative mass.
-    const bool quadratic = mesh_.quadratic();
-    for (const int node : mesh_.corners[t]) mass_kg_[node] += mass * (quadratic ? 1.0 / 36.0 : 0.25);
-    if (!quadratic) continue;
-    for (const int node : mesh_.midsides[t]) mass_kg_[node] += mass * (4.0 / 27.0);
+    add_mass(t);
   }
   if (kind_ == ElementKind::Patched) {
-    patch_of_ = input.patch.empty() ? find_patches(mesh_, material_) : input.patch;
-    const int count = 1 + *std::max_element(patch_of_.begin(), patch_of_.end());
-    patches_.resize(at(count));
-    for (std::size_t t = 0; t < mesh_.corners.size(); ++t) {
-      Patch& patch = patches_[at(patch_of_[t])];
-      patch.material = at(material_[t]);
-      patch.volume_m3 += shapes_[t].volume_m3;
-      patch.nodes.insert(patch.nodes.end(), mesh_.corners[t].begin(), mesh_.corners[t].end());
-    }
-    for (Patch& patch : patches_) {
-      std::sort(patch.nodes.begin(), patch.nodes.end());
-      patch.nodes.erase(std::unique(patch.nodes.begin(), patch.nodes.end()), patch.nodes.end());
-    }
+    make_patches(input.patch.empty() ? find_patches(mesh_, material_) : input.patch);
   }
-  std::vector<std::vector<int>> cliques;
-  for (std::size_t t = 0; t < mesh_.corners.size(); ++t) {
-    cliques.emplace_back(mesh_.corners[t].begin(), mesh_.corners[t].end());
-    if (mesh_.quadratic())
-      cliques.back().insert(cliques.back().end(), mesh_.midsides[t].begin(), mesh_.midsides[t].end());
-  }
-  for (const Patch& patch : patches_) cliques.push_back(patch.nodes);
-  pattern_ = BlockMatrix(nodes(), cliques);
-  for (Patch& patch : patches_) {
-    for (std::size_t a = 0; a < patch.nodes.size(); ++a) {
-      for (std::size_t b = a; b < patch.nodes.size(); ++b) {
-        patch.slots.push_back(pair_slot(pattern_, patch.nodes[a], patch.nodes[b]));
-      }
-    }
-  }
+  make_pattern();
   if (mesh_.quadratic()) {
     add_batches(quadratic_);
   } else {
     add_batches(linear_);
   }
+}
+
+/// Lumps by the diagonal of the consistent mass matrix, scaled to the tet's mass: row sums would give the corners of a
+/// quadratic tet negative mass.
+void Solid::add_mass(std::size_t t) {
+  const double mass = materials_[at(material_[t])].density_kg_m3 * shapes_[t].volume_m3;
+  for (const int node : mesh_.corners[t]) mass_kg_[node] += mass * (mesh_.quadratic() ? 1.0 / 36.0 : 0.25);
+  if (!mesh_.quadratic()) return;
+  for (const int node : mesh_.midsides[t]) mass_kg_[node] += mass * (4.0 / 27.0);
+}
+
+void Solid::make_patches(const std::vector<int>& patch_of) {
+  patch_of_ = patch_of;
+  patches_.resize(at(1 + *std::max_element(patch_of_.begin(), patch_of_.end())));
+  for (std::size_t t = 0; t < mesh_.corners.size(); ++t) {
+    Patch& patch = patches_[at(patch_of_[t])];
+    patch.material = at(material_[t]);
+    patch.volume_m3 += shapes_[t].volume_m3;
+    patch.nodes.insert(patch.nodes.end(), mesh_.corners[t].begin(), mesh_.corners[t].end());
+  }
+  for (Patch& patch : patches_) {
+    std::sort(patch.nodes.begin(), patch.nodes.end());
+    patch.nodes.erase(std::unique(patch.nodes.begin(), patch.nodes.end()), patch.nodes.end());
+  }
+}
+
+/// Nodes of a tet, or of a patch, are coupled pair by pair.
+void Solid::make_pattern() {
+  std::vector<std::vector<int>> cliques;
+  for (std::size_t t = 0; t < mesh_.corners.size(); ++t) {
+    std::vector<int>& clique = cliques.emplace_back(mesh_.corners[t].begin(), mesh_.corners[t].end());
+    if (mesh_.quadratic()) clique.insert(clique.end(), mesh_.midsides[t].begin(), mesh_.midsides[t].end());
+  }
+  for (const Patch& patch : patches_) cliques.push_back(patch.nodes);
+  pattern_ = BlockMatrix(nodes(), cliques);
+  for (Patch& patch : patches_) patch.slots = pair_slots(pattern_, patch.nodes);
 }
 
 template <class Tet>
@@ -141,15 +145,11 @@ void Solid::add_batches(std::vector<TetBatch<Tet>>& batches) {
         batches.back().material = material;
       }
       TetBatch<Tet>& batch = batches.back();
+      const std::size_t lane = at(batch.count++);
       const std::array<int, Tet::kNodes> nodes = nodes_of<Tet>(mesh_, t);
-      set_lane(batch, at(batch.count), static_cast<int>(t), shapes_[t], nodes);
-      std::size_t pair = 0;
-      for (std::size_t a = 0; a < Tet::kNodes; ++a) {
-        for (std::size_t b = a; b < Tet::kNodes; ++b, ++pair) {
-          batch.slots[at(batch.count)][pair] = pair_slot(pattern_, nodes[a], nodes[b]);
-        }
-      }
-      ++batch.count;
+      set_lane(batch, lane, static_cast<int>(t), shapes_[t], nodes);
+      const std::vector<PairSlot> slots = pair_slots(pattern_, nodes);
+      std::copy(slots.begin(), slots.end(), batch.slots[lane].begin());
     }
   }
 }

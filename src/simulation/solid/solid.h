@@ -74,12 +74,19 @@ class Solid {
   TetState state_of(std::size_t tet, const Eigen::VectorXd& position_m, double activation) const;
 
  private:
+  void add_mass(std::size_t tet);
+  void make_patches(const std::vector<int>& patch_of);
+  void make_pattern();
   template <class Tet>
   void add_batches(std::vector<TetBatch<Tet>>& batches);
   template <class Tet>
   void evaluate_batches(const std::vector<TetBatch<Tet>>& batches, const Eigen::VectorXd& position_m, double activation,
                         Tangent tangent, Evaluation& out) const;
   void evaluate_patches(const Eigen::VectorXd& position_m, double activation, Tangent tangent, Evaluation& out) const;
+  std::vector<double> patch_ratios(const Eigen::VectorXd& position_m, std::vector<PointBatch<LinearTet>>& points,
+                                   Evaluation& out) const;
+  void add_volume_slopes(const TetBatch<LinearTet>& batch, const PointBatch<LinearTet>& points,
+                         std::vector<Eigen::VectorXd>& slopes_m2) const;
   std::vector<Point<double>> points_of(std::size_t tet, const Eigen::VectorXd& position_m) const;
 
   /// Neighbouring linear tets with one volume term.

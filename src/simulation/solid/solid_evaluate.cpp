@@ -68,6 +68,47 @@ void make_points_definite(ResponseBatch<Tet>& responses) {
   for (Response<Eight>& response : responses) make_definite(response.C);
 }
 
+MeanVolume<Eight> mean_volume(const SolidMaterial& material, const Eight& mean_J) {
+  MeanVolume<Eight> volume{mean_J, volume_terms(material.laws, mean_J), {}};
+  for (double& fluctuation_Pa : volume.fluctuation_Pa.lane) fluctuation_Pa = material.fluctuation_Pa;
+  return volume;
+}
+
+template <class Tet>
+void add_volume_of_mean(const PointBatch<Tet>& points, const MeanVolume<Eight>& volume, ResponseBatch<Tet>& responses) {
+  if constexpr (Tet::kPoints > 1) add_mean_volume_batch(points, volume, responses);
+}
+
+/// The mean volume ratio's slope with itself.
+template <class Tet>
+void add_mean_stiffness(const TetBatch<Tet>& batch, const PointBatch<Tet>& points, const MeanVolume<Eight>& volume,
+                        Solid::Tangent tangent, TetBlocks<Eight, Tet>& blocks) {
+  Eight factor;
+  for (std::size_t lane = 0; lane < kBatch; ++lane) {
+    const double stiffness_Pa = volume.term.curvature_Pa.lane[lane] - volume.fluctuation_Pa.lane[lane];
+    const bool dropped = tangent == Solid::Tangent::Definite && stiffness_Pa < 0.0;
+    factor.lane[lane] = dropped ? 0.0 : stiffness_Pa / batch.shapes.volume_m3.lane[lane];
+  }
+  TetNodeVectors<Eight, Tet> slope;
+  batch_volume_slopes<Tet>(batch.shapes, points, slope);
+  add_outer_batch<Tet>(slope, factor, blocks);
+}
+
+/// matrix += factor v (x) v, for a list of nodes with the slots of its pairs.
+void add_outer(const std::vector<PairSlot>& slots, const Eigen::VectorXd& v, double factor, BlockMatrix& matrix) {
+  std::size_t pair = 0;
+  for (Eigen::Index a = 0; a < v.size(); a += 3) {
+    for (Eigen::Index b = a; b < v.size(); b += 3, ++pair) {
+      const Mat3 block = factor * v.segment<3>(a) * v.segment<3>(b).transpose();
+      const PairSlot& slot = slots[pair];
+      for (int j = 0; j < 3; ++j) {
+        double* column = matrix.values() + slot.block.base + static_cast<std::ptrdiff_t>(j) * slot.block.stride;
+        for (int i = 0; i < 3; ++i) column[i] += slot.in_order ? block(i, j) : block(j, i);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 template <class Tet>
@@ -84,32 +125,55 @@ void Solid::evaluate_batches(const std::vector<TetBatch<Tet>>& batches, const Ei
     const Eight mean = mean_ratio<Tet>(points);
     note_ratios<Tet>(batch, points, mean, out);
     respond_to<Tet>(material, points, activation, responses);
-    Eight mean_factor;  // of the mean volume ratio's slope with itself [Pa / m^3]
-    bool averaged = false;
-    if constexpr (Tet::kPoints > 1) averaged = material.fluctuation_Pa >= 0.0;
-    if constexpr (Tet::kPoints > 1) {
-      if (averaged) {
-        MeanVolume<Eight> volume{mean, volume_terms(material.laws, mean), {}};
-        for (std::size_t lane = 0; lane < kBatch; ++lane) {
-          volume.fluctuation_Pa.lane[lane] = material.fluctuation_Pa;
-          mean_factor.lane[lane] = volume.term.curvature_Pa.lane[lane] - material.fluctuation_Pa;
-          if (tangent == Tangent::Definite) mean_factor.lane[lane] = std::max(mean_factor.lane[lane], 0.0);
-          mean_factor.lane[lane] /= batch.shapes.volume_m3.lane[lane];
-        }
-        add_mean_volume_batch(points, volume, responses);
-      }
+    const bool averaged = Tet::kPoints > 1 && material.fluctuation_Pa >= 0.0;
+    MeanVolume<Eight> volume;
+    if (averaged) {
+      volume = mean_volume(material, mean);
+      add_volume_of_mean<Tet>(points, volume, responses);
+    } else {
+      add_own_volume<Tet>(material, points, responses);
     }
-    if (!averaged) add_own_volume<Tet>(material, points, responses);
     add_forces<Tet>(batch, responses, out);
     if (tangent == Tangent::None) continue;
     if (tangent == Tangent::Definite) make_points_definite<Tet>(responses);
     batch_stiffness<Tet>(batch.shapes, responses, blocks);
-    if (averaged) {
-      TetNodeVectors<Eight, Tet> slope;
-      batch_volume_slopes<Tet>(batch.shapes, points, slope);
-      add_outer_batch<Tet>(slope, mean_factor, blocks);
-    }
+    if (averaged) add_mean_stiffness<Tet>(batch, points, volume, tangent, blocks);
     scatter(batch, blocks, out.stiffness.values());
+  }
+}
+
+/// Volume ratio of each patch, and all points.
+std::vector<double> Solid::patch_ratios(const Eigen::VectorXd& position_m, std::vector<PointBatch<LinearTet>>& points,
+                                        Evaluation& out) const {
+  std::vector<double> ratio(patches_.size(), 0.0);
+  for (std::size_t b = 0; b < linear_.size(); ++b) {
+    const TetBatch<LinearTet>& batch = linear_[b];
+    TetNodeVectors<Eight, LinearTet> position;
+    gather(batch, position_m, position);
+    deform_batch<LinearTet>(batch.shapes, position, points[b]);
+    note_ratios<LinearTet>(batch, points[b], points[b][0].J, out);
+    for (std::size_t lane = 0; lane < at(batch.count); ++lane) {
+      const std::size_t patch = at(patch_of_[at(batch.tet[lane])]);
+      ratio[patch] += points[b][0].J.lane[lane] * batch.shapes.volume_m3.lane[lane] / patches_[patch].volume_m3;
+    }
+  }
+  return ratio;
+}
+
+/// Adds to the slopes of the patches' volumes, 3 numbers a node of the patch.
+void Solid::add_volume_slopes(const TetBatch<LinearTet>& batch, const PointBatch<LinearTet>& points,
+                              std::vector<Eigen::VectorXd>& slopes_m2) const {
+  TetNodeVectors<Eight, LinearTet> slope;
+  batch_volume_slopes<LinearTet>(batch.shapes, points, slope);
+  for (std::size_t lane = 0; lane < at(batch.count); ++lane) {
+    const std::size_t p = at(patch_of_[at(batch.tet[lane])]);
+    const std::vector<int>& nodes = patches_[p].nodes;
+    for (std::size_t a = 0; a < LinearTet::kNodes; ++a) {
+      const auto place = std::lower_bound(nodes.begin(), nodes.end(), batch.nodes[lane][a]) - nodes.begin();
+      for (std::size_t i = 0; i < 3; ++i) {
+        slopes_m2[p][3 * place + static_cast<Eigen::Index>(i)] += slope[a][i].lane[lane];
+      }
+    }
   }
 }
 
@@ -117,23 +181,12 @@ void Solid::evaluate_patches(const Eigen::VectorXd& position_m, double activatio
                              Evaluation& out) const {
   using Tet = LinearTet;
   std::vector<PointBatch<Tet>> points(linear_.size());
-  std::vector<double> ratio(patches_.size(), 0.0);
-  for (std::size_t b = 0; b < linear_.size(); ++b) {
-    const TetBatch<Tet>& batch = linear_[b];
-    TetNodeVectors<Eight, Tet> position;
-    gather(batch, position_m, position);
-    deform_batch<Tet>(batch.shapes, position, points[b]);
-    note_ratios<Tet>(batch, points[b], points[b][0].J, out);
-    for (std::size_t lane = 0; lane < at(batch.count); ++lane) {
-      const std::size_t patch = at(patch_of_[at(batch.tet[lane])]);
-      ratio[patch] += points[b][0].J.lane[lane] * batch.shapes.volume_m3.lane[lane] / patches_[patch].volume_m3;
-    }
-  }
+  const std::vector<double> ratio = patch_ratios(position_m, points, out);
   std::vector<VolumeTerm<double>> terms(patches_.size());
-  std::vector<Eigen::VectorXd> slopes(patches_.size());  // of a patch's volume, 3 numbers a node of it [m^2]
+  std::vector<Eigen::VectorXd> slopes_m2(patches_.size());
   for (std::size_t p = 0; p < patches_.size(); ++p) {
     terms[p] = volume_term_at(materials_[patches_[p].material].laws, ratio[p]);
-    slopes[p] = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * patches_[p].nodes.size()));
+    slopes_m2[p] = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * patches_[p].nodes.size()));
   }
   ResponseBatch<Tet> responses;
   TetBlocks<Eight, Tet> blocks;
@@ -150,34 +203,13 @@ void Solid::evaluate_patches(const Eigen::VectorXd& position_m, double activatio
     if (tangent == Tangent::Definite) make_points_definite<Tet>(responses);
     batch_stiffness<Tet>(batch.shapes, responses, blocks);
     scatter(batch, blocks, out.stiffness.values());
-    TetNodeVectors<Eight, Tet> slope;
-    batch_volume_slopes<Tet>(batch.shapes, points[b], slope);
-    for (std::size_t lane = 0; lane < at(batch.count); ++lane) {
-      const std::size_t p = at(patch_of_[at(batch.tet[lane])]);
-      for (std::size_t a = 0; a < Tet::kNodes; ++a) {
-        const std::vector<int>& nodes = patches_[p].nodes;
-        const auto place = std::lower_bound(nodes.begin(), nodes.end(), batch.nodes[lane][a]) - nodes.begin();
-        for (int i = 0; i < 3; ++i) slopes[p][3 * place + i] += slope[a][at(i)].lane[lane];
-      }
-    }
+    add_volume_slopes(batch, points[b], slopes_m2);
   }
   if (tangent == Tangent::None) return;
   for (std::size_t p = 0; p < patches_.size(); ++p) {
-    const Patch& patch = patches_[p];
-    double factor = terms[p].curvature_Pa / patch.volume_m3;
+    double factor = terms[p].curvature_Pa / patches_[p].volume_m3;
     if (tangent == Tangent::Definite) factor = std::max(factor, 0.0);
-    std::size_t pair = 0;
-    for (std::size_t a = 0; a < patch.nodes.size(); ++a) {
-      for (std::size_t b = a; b < patch.nodes.size(); ++b, ++pair) {
-        const Mat3 block = factor * slopes[p].segment<3>(static_cast<Eigen::Index>(3 * a)) *
-                           slopes[p].segment<3>(static_cast<Eigen::Index>(3 * b)).transpose();
-        const PairSlot& slot = patch.slots[pair];
-        for (int j = 0; j < 3; ++j) {
-          double* column = out.stiffness.values() + slot.block.base + j * slot.block.stride;
-          for (int i = 0; i < 3; ++i) column[i] += slot.in_order ? block(i, j) : block(j, i);
-        }
-      }
-    }
+    add_outer(patches_[p].slots, slopes_m2[p], factor, out.stiffness);
   }
 }
 

@@ -40,7 +40,7 @@ void SolidMotion::set_state(const Eigen::VectorXd& position_m, const Eigen::Vect
 
 void SolidMotion::look(const Eigen::VectorXd& position_m, Solid::Tangent tangent) {
   if (known_ == tangent && known_m_ == position_m) return;
-  out_of_balance(solid_, loads_, 1.0, position_m, tangent, elastic_);
+  out_of_balance({solid_, loads_}, 1.0, position_m, tangent, elastic_);
   known_ = tangent;
   known_m_ = position_m;
 }

@@ -61,7 +61,7 @@ class StaticSolver {
   double external_scale_N() const { return loads_.nodal_force_N.size() > 0 ? loads_.nodal_force_N.norm() : 0.0; }
 
   void look(double load, Solid::Tangent tangent) {
-    out_of_balance(solid_, loads_, load, x_, tangent, now_);
+    out_of_balance({solid_, loads_}, load, x_, tangent, now_);
     residual_ = now_.force_N;
     system_.drop_held(residual_);
   }
@@ -167,8 +167,9 @@ class StaticSolver {
 
 }  // namespace
 
-void out_of_balance(const Solid& solid, const SolidLoads& loads, double load, const Eigen::VectorXd& position_m,
-                    Solid::Tangent tangent, Solid::Evaluation& out) {
+void out_of_balance(const LoadedSolid& loaded, double load, const Eigen::VectorXd& position_m, Solid::Tangent tangent,
+                    Solid::Evaluation& out) {
+  const auto& [solid, loads] = loaded;
   solid.evaluate(position_m, load * loads.activation, tangent, out);
   for (const PressureFace& face : loads.pressure) {
     add_pressure(face, load, position_m, tangent != Solid::Tangent::None, out);

@@ -17,10 +17,15 @@ struct SolidLoads {
   double activation = 0.0;
 };
 
+struct LoadedSolid {
+  const Solid& solid;
+  const SolidLoads& loads;
+};
+
 /// Forces that nothing balances yet, at positions x under a share of the load: internal minus external. The tangent is
 /// that of these forces.
-void out_of_balance(const Solid& solid, const SolidLoads& loads, double load, const Eigen::VectorXd& position_m,
-                    Solid::Tangent tangent, Solid::Evaluation& out);
+void out_of_balance(const LoadedSolid& loaded, double load, const Eigen::VectorXd& position_m, Solid::Tangent tangent,
+                    Solid::Evaluation& out);
 
 struct StaticOptions {
   double tolerance = 1e-8;   // out-of-balance force over the elements' forces, or Newton step over the body's size
