@@ -19,5 +19,6 @@ if [ "${1:-}" = "--quick" ]; then
 fi
 ctest --test-dir "$project/build/release" -j2 --output-on-failure -LE 'bench|soak'
 build asan
-# Timing means nothing under sanitizers; the slow tests ran above.
-exec ctest --test-dir "$project/build/asan" -j2 --output-on-failure -LE 'bench|slow|realtime'
+# Timing means nothing under sanitizers; the slow tests and the validation cases ran above, and what these call is
+# tested here too.
+exec ctest --test-dir "$project/build/asan" -j2 --output-on-failure -LE 'bench|slow|realtime|validation'

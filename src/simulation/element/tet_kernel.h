@@ -8,6 +8,9 @@
 // The arithmetic of one tet, or of eight side by side: from node positions to deformed points, and from the material's
 // response at the points to nodal forces and stiffness. No allocation.
 //
+// A vector register may not be handed from function to function by value: callers and callees compiled for different
+// processors disagree on how. So everything here is inlined, the lambdas too.
+//
 // With the gradients g_m of the barycentric coordinates, the slope of a shape function is sum_m s_m g_m with numbers
 // s_m that all elements share. So the material's tangent is first brought to the coordinates, B_mn = g_m . C . g_n (3 x
 // 3 blocks), and a pair of nodes sums a few of those blocks.
@@ -38,12 +41,14 @@ MYOTACT_INTO_CLONES void deform_tet(const TetShape<Real>& shape, const TetNodeVe
       if constexpr (Tet::kNodes == 4) {
         common[m][i] = position_m[m][i];
       } else {
-        const auto at = [&](std::size_t q) { return position_m[kNodeBetween[m][q]][i]; };
+        const auto at = [&](std::size_t q) __attribute__((always_inline)) {
+          return position_m[kNodeBetween[m][q]][i];
+        };
         common[m][i] = 4.0 * Tet::kNear * ((at(0) + at(1)) + (at(2) + at(3))) - at(m);
       }
     }
   }
-  const auto pulled_back = [&](auto&& slope) {
+  const auto pulled_back = [&](auto&& slope) __attribute__((always_inline)) {
     Matrix3<Real> F;
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t A = 0; A < 3; ++A) {
@@ -53,12 +58,14 @@ MYOTACT_INTO_CLONES void deform_tet(const TetShape<Real>& shape, const TetNodeVe
     }
     return F;
   };
-  const Matrix3<Real> shared = pulled_back([&](std::size_t m, std::size_t i) { return common[m][i]; });
+  const Matrix3<Real> shared =
+      pulled_back([&](std::size_t m, std::size_t i) __attribute__((always_inline)) { return common[m][i]; });
   if constexpr (Tet::kNodes == 4) {
     points[0] = make_point(shared, shape.fibre);
   } else {
     for (std::size_t p = 0; p < Tet::kPoints; ++p) {
-      Matrix3<Real> F = pulled_back([&](std::size_t m, std::size_t i) { return position_m[kNodeBetween[m][p]][i]; });
+      Matrix3<Real> F = pulled_back([&](std::size_t m, std::size_t i)
+                                        __attribute__((always_inline)) { return position_m[kNodeBetween[m][p]][i]; });
       for (std::size_t k = 0; k < 9; ++k) F[k] = shared[k] + detail::kBetween * F[k];
       points[p] = make_point(F, shape.fibre);
     }
@@ -126,7 +133,7 @@ MYOTACT_INTO_CLONES void coordinate_blocks(const TetShape<Real>& shape, const st
       }
     }
   }
-  const auto at = [&](std::size_t m, std::size_t n, std::size_t e) -> const Real& {
+  const auto at = [&](std::size_t m, std::size_t n, std::size_t e) __attribute__((always_inline))->const Real& {
     return m <= n ? B[coordinate_pair(m, n)][sum][e] : B[coordinate_pair(n, m)][sum][3 * (e % 3) + e / 3];
   };
   for (std::size_t e = 0; e < 9; ++e) {  // the four gradients sum to zero
