@@ -10,7 +10,7 @@
 namespace myotact::testing {
 
 Outcome run_program(const std::string& arguments, const std::string& before) {
-  const std::string command = before + " " + MYOTACT_PROGRAM + " " + arguments + " 2>&1";
+  const std::string command = before + " 2>&1 " + MYOTACT_PROGRAM + " " + arguments;
   FILE* pipe = ::popen(command.c_str(), "r");
   if (pipe == nullptr) throw std::runtime_error("no shell: " + command);
   Outcome outcome;
