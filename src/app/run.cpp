@@ -112,7 +112,7 @@ nlohmann::json summary_json(const scene::Scene& scene, const RunSummary& summary
           {"largest_drift_deg", summary.extremes.drift_rad * kDegrees},
           {"largest_residual_share", summary.extremes.residual_share},
           {"largest_volume_error", summary.extremes.volume_error},
-          {"smallest_J", summary.extremes.volume_ratio},
+          {"smallest_J", summary.extremes.smallest_J},
           {"fault_bits", summary.extremes.faults}};
 }
 

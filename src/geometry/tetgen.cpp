@@ -16,7 +16,7 @@ namespace myotact::geometry {
 namespace {
 
 /// Which of TetGen's six mid-side nodes is the n-th of ours. TetGen's lie between the corners 23, 03, 01, 12, 13, 02
-/// (manual of TetGen 1.5, figure of the second-order element; a mesh of one tet made by libtet 1.5.1 with "o2" agrees).
+/// (read off a mesh of one tet made by libtet 1.5.1 with "o2").
 constexpr std::array<std::size_t, 6> kTetgenMidside = {2, 3, 5, 1, 4, 0};
 
 struct Nodes {

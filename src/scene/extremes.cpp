@@ -18,7 +18,7 @@ void Extremes::add_step(const Scene& scene, const simulation::Simulation& simula
   residual_share = std::max(residual_share, simulation.residual_share());
   for (int m = 0; m < static_cast<int>(scene.specimen.muscles.size()); ++m) {
     volume_error = std::max(volume_error, std::abs(simulation.volume_ratio(m) - 1.0));
-    volume_ratio = std::min(volume_ratio, simulation.smallest_volume_ratio(m));
+    smallest_J = std::min(smallest_J, simulation.smallest_volume_ratio(m));
   }
   if (!scene.co_contraction) return;
   const int joint = scene.co_contraction->joint;

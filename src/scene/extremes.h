@@ -16,7 +16,7 @@ struct Extremes {
   double drift_rad = 0.0;       // of the co-contraction joint from its starting angle
   double residual_share = 0.0;  // out-of-balance force of a step over the size of the forces
   double volume_error = 0.0;    // |V / V at rest - 1| of a whole muscle
-  double volume_ratio = 1.0;    // smallest J over all integration points of the muscles
+  double smallest_J = 1.0;      // over all integration points of the muscles
   std::uint64_t faults = 0;     // haptics::Fault bits
 
   void add_tick(const haptics::HapticTick& tick);

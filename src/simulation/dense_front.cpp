@@ -6,12 +6,15 @@
 
 #include "simulation/element/batch.h"
 #include "simulation/front_tiles.h"
-#include "simulation/vector_clones.h"
+#include "simulation/material/lanes.h"
 
 namespace myotact::simulation {
 namespace {
 
 using tiles::UpdateColumns;
+
+/// Four doubles side by side, anywhere in memory: one number of each of four right sides.
+typedef double Pack __attribute__((vector_size(32), aligned(8), may_alias));
 
 /// The version for this processor.
 template <class Scalar>
@@ -34,7 +37,7 @@ UpdateColumns<Scalar> update_columns_here() {
 
 /// Eliminates the three columns from `start`, over all rows below; `scaled` receives their L D.
 template <class Scalar>
-MYOTACT_INTO_CLONES Pivots eliminate_node(const DenseFront<Scalar>& front, int start, Scalar* scaled) {
+MYOTACT_INLINE Pivots eliminate_node(const DenseFront<Scalar>& front, int start, Scalar* scaled) {
   Pivots pivots = Pivots::Positive;
   for (int c = start; c < start + 3; ++c) {
     Scalar* column = front.column(c);
@@ -58,8 +61,7 @@ MYOTACT_INTO_CLONES Pivots eliminate_node(const DenseFront<Scalar>& front, int s
 }
 
 template <class Scalar>
-MYOTACT_INTO_CLONES Pivots eliminate(const DenseFront<Scalar>& front, UpdateColumns<Scalar> update_columns,
-                                     Scalar* work) {
+MYOTACT_INLINE Pivots eliminate(const DenseFront<Scalar>& front, UpdateColumns<Scalar> update_columns, Scalar* work) {
   Pivots pivots = Pivots::Positive;
   for (int start = 0; start < front.own; start += kFrontPanel) {
     const int end = std::min(start + kFrontPanel, front.own);
@@ -77,7 +79,7 @@ MYOTACT_INTO_CLONES Pivots eliminate(const DenseFront<Scalar>& front, UpdateColu
 }
 
 template <class Scalar>
-MYOTACT_INTO_CLONES void forward(const DenseFront<Scalar>& front, double* values) {
+MYOTACT_INLINE void forward(const DenseFront<Scalar>& front, double* values) {
   Pack* x = reinterpret_cast<Pack*>(values);
   for (int c = 0; c < front.own; c += 3) {
     const Scalar *first = front.column(c), *second = front.column(c + 1), *third = front.column(c + 2);
@@ -89,7 +91,7 @@ MYOTACT_INTO_CLONES void forward(const DenseFront<Scalar>& front, double* values
 }
 
 template <class Scalar>
-MYOTACT_INTO_CLONES void backward(const DenseFront<Scalar>& front, double* values) {
+MYOTACT_INLINE void backward(const DenseFront<Scalar>& front, double* values) {
   Pack* x = reinterpret_cast<Pack*>(values);
   for (int c = front.own - 3; c >= 0; c -= 3) {
     const Scalar *first = front.column(c), *second = front.column(c + 1), *third = front.column(c + 2);

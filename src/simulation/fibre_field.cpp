@@ -54,17 +54,21 @@ void write_fibre_stress(const FibreInputs& in, std::size_t t, std::size_t lane, 
   if (element.peak_Pa == 0.0) return;
   const FibreMap& map = in.tissue.fibre_map;
   const double a = in.state.activation, peak = map.scale * element.peak_Pa;
-  const double shared = active_force_length(in.mean_length);
-  const double damped = active_force_length(in.last_mean_length);
   for (std::size_t p = 0; p < kTetPoints; ++p) {
     const double stretch = in.state.now.stretch[t * kTetPoints + p];
     const double n = map.length(stretch);
     const SpeedFactor speed = speed_factor(in, t * kTetPoints + p, stretch);
-    const double active = shared + kEvenness * (n - in.mean_length) + damped * (speed.value - 1.0);
+    const double active = in.shared_force + kEvenness * (n - in.mean_length) + in.damped_force * (speed.value - 1.0);
     batch.stress_Pa[p].lane[lane] = peak * (a * active + passive_force_length(n));
     batch.slope_Pa[p].lane[lane] =
-        peak * ((a * kEvenness + passive_force_length_slope(n)) * map.gain + a * damped * speed.slope);
+        peak * ((a * kEvenness + passive_force_length_slope(n)) * map.gain + a * in.damped_force * speed.slope);
   }
+}
+
+FibreInputs fibre_inputs(const MuscleTissue& tissue, const TissueState& state, const TissueLoad& load) {
+  const double mean_length = mean_fibre_length(tissue, state.now.stretch);
+  const double last_mean_length = mean_fibre_length(tissue, state.last.stretch);
+  return {tissue, state, load, mean_length, active_force_length(mean_length), active_force_length(last_mean_length)};
 }
 
 double mean_tangent_Nm(const FibreInputs& in) {

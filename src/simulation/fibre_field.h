@@ -27,9 +27,13 @@ struct FibreInputs {
   const MuscleTissue& tissue;
   const TissueState& state;
   const TissueLoad& load;
-  double mean_length = 0.0;       // now
-  double last_mean_length = 0.0;  // at the last instant; scales the damping
+  double mean_length = 0.0;   // now
+  double shared_force = 0.0;  // fL of it
+  double damped_force = 0.0;  // fL of the mean length at the last instant, which scales the damping
 };
+/// What all points share in the present iterate.
+FibreInputs fibre_inputs(const MuscleTissue& tissue, const TissueState& state, const TissueLoad& load);
+
 /// Nominal stress and its slope against the point's own stretch, at the four points of an element's lane.
 void write_fibre_stress(const FibreInputs& inputs, std::size_t element, std::size_t lane, MuscleBatch& batch);
 

@@ -29,8 +29,9 @@ struct Pass {
 using Nodes = TetNodeVectors<Eight, QuadraticTet>;
 using Blocks = TetBlocks<Eight, QuadraticTet>;
 
-/// Motion of an element's clamped nodes when a joint turns; false when it moves none of them.
 using ElementVectors = std::array<Vec3, kTetNodes>;
+
+/// Motion of an element's clamped nodes when a joint turns; false when it moves none of them.
 bool joint_motion(const Pass& pass, const TissueElement& element, int joint, ElementVectors& motion) {
   motion.fill(Vec3::Zero());
   bool any = false;
@@ -112,8 +113,8 @@ void deform_elements(const Pass& pass) {
       const double tet_m3 = tets.shapes.volume_m3.lane[lane];
       rest_m3 += tet_m3;
       for (std::size_t p = 0; p < kTetPoints; ++p) {
-        volume_m3 += tet_m3 / kTetPoints * system.points[b][p].J.lane[lane];
         const Point<Eight>& point = system.points[b][p];
+        volume_m3 += tet_m3 / kTetPoints * point.J.lane[lane];
         pass.state.now.stretch[at(tets.tet[lane]) * kTetPoints + p] =
             std::max(std::sqrt(point.I4.lane[lane]), kShortestStretch);
         system.smallest_J = std::min(system.smallest_J, point.J.lane[lane]);
@@ -163,8 +164,7 @@ void add_stiffness(const Pass& pass, const TissueBatch& batch, const MuscleBatch
 
 void add_elements(const Pass& pass) {
   deform_elements(pass);
-  const FibreInputs fibres{pass.tissue, pass.state, pass.load, mean_fibre_length(pass.tissue, pass.state.now.stretch),
-                           mean_fibre_length(pass.tissue, pass.state.last.stretch)};
+  const FibreInputs fibres = fibre_inputs(pass.tissue, pass.state, pass.load);
   for (std::size_t b = 0; b < pass.tissue.batches.size(); ++b) {
     const TissueBatch& batch = pass.tissue.batches[b];
     MuscleBatch muscle{batch.tets.shapes, pass.system.points[b],

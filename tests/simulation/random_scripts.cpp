@@ -90,7 +90,8 @@ double fastest_m_s(const Simulation& simulation, std::vector<std::vector<Vec3>>&
     const std::span<const Vec3> skin = simulation.skin_world_m(static_cast<int>(m));
     for (std::size_t v = 0; v < skin.size() && v < skins[m].size(); ++v) {
       const double speed = (skin[v] - skins[m][v]).norm() / dt_s;
-      if (!(speed <= fastest)) fastest = speed;
+      if (std::isnan(speed)) return speed;
+      fastest = std::max(fastest, speed);
     }
     skins[m].assign(skin.begin(), skin.end());
   }

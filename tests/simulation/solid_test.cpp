@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "geometry/box_mesh.h"
 #include "simulation/solid/solid_motion.h"
 
 namespace myotact::simulation {
@@ -12,36 +13,12 @@ namespace {
 
 /// Cube of n x n x n cells of six tets, its inner nodes shaken so that no two tets are alike.
 geometry::TetMesh shaken_cube(int n, double shake) {
-  geometry::TetMesh mesh;
+  geometry::TetMesh mesh = geometry::make_box_mesh(Vec3::Ones(), {n, n, n}, geometry::BoxCells::Alike);
   std::mt19937 random(11);
   std::uniform_real_distribution<double> uniform(-shake / n, shake / n);
-  const auto index = [n](int i, int j, int k) { return (i * (n + 1) + j) * (n + 1) + k; };
-  for (int i = 0; i <= n; ++i) {
-    for (int j = 0; j <= n; ++j) {
-      for (int k = 0; k <= n; ++k) {
-        Vec3 x(i, j, k);
-        x /= n;
-        const bool inside = i > 0 && i < n && j > 0 && j < n && k > 0 && k < n;
-        if (inside) x += Vec3(uniform(random), uniform(random), uniform(random));
-        mesh.nodes_m.push_back(x);
-      }
-    }
-  }
-  constexpr std::array<std::array<int, 3>, 6> kOrders{
-      {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
-  for (int cell = 0; cell < n * n * n; ++cell) {
-    const std::array<int, 3> low{cell / (n * n), cell / n % n, cell % n};
-    for (const auto& order : kOrders) {  // the path along the axes in each order makes one tet
-      std::array<int, 3> at = low;
-      std::array<int, 4> tet{index(at[0], at[1], at[2]), 0, 0, 0};
-      for (std::size_t step = 0; step < 3; ++step) {
-        ++at[static_cast<std::size_t>(order[step])];
-        tet[step + 1] = index(at[0], at[1], at[2]);
-      }
-      mesh.corners.push_back(tet);
-      if (geometry::corner_volume_m3(mesh, mesh.corners.size() - 1) < 0.0)
-        std::swap(mesh.corners.back()[2], mesh.corners.back()[3]);
-    }
+  for (Vec3& x : mesh.nodes_m) {
+    const bool inside = x.minCoeff() > 1e-9 && x.maxCoeff() < 1.0 - 1e-9;
+    if (inside) x += Vec3(uniform(random), uniform(random), uniform(random));
   }
   return mesh;
 }

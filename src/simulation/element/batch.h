@@ -31,7 +31,7 @@ struct Unaligned {
 
 /// `Of` is a template of aggregates of numbers, such as TetShape: the same numbers for eight elements and for a part.
 template <class Real, class Part, class Whole>
-MYOTACT_INTO_CLONES void load(const Whole& whole, int part, Part& to) {
+MYOTACT_INLINE void load(const Whole& whole, int part, Part& to) {
   static_assert(sizeof(Whole) / sizeof(Eight) == sizeof(Part) / sizeof(Real));
   const double* from = reinterpret_cast<const double*>(&whole) + part;
   Real* out = reinterpret_cast<Real*>(&to);
@@ -41,7 +41,7 @@ MYOTACT_INTO_CLONES void load(const Whole& whole, int part, Part& to) {
 }
 
 template <class Real, class Part, class Whole>
-MYOTACT_INTO_CLONES void store(const Part& part_values, int part, Whole& whole) {
+MYOTACT_INLINE void store(const Part& part_values, int part, Whole& whole) {
   static_assert(sizeof(Whole) / sizeof(Eight) == sizeof(Part) / sizeof(Real));
   double* to = reinterpret_cast<double*>(&whole) + part;
   const Real* from = reinterpret_cast<const Real*>(&part_values);

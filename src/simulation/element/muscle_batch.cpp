@@ -15,12 +15,12 @@ struct MuscleTets {
 };
 
 template <class Real>
-MYOTACT_INTO_CLONES Real fibre_stretch(const Point<Real>& point) {
+MYOTACT_INLINE Real fibre_stretch(const Point<Real>& point) {
   return larger(square_root(point.I4), constant<Real>(kShortestStretch));
 }
 
 template <class Real>
-MYOTACT_INTO_CLONES void read_batch(const MuscleBatch& batch, int part, MuscleTets<Real>& tets) {
+MYOTACT_INLINE void read_batch(const MuscleBatch& batch, int part, MuscleTets<Real>& tets) {
   detail::load<Real>(batch.shapes, part, tets.shape);
   detail::load<Real>(batch.points, part, tets.points);
   detail::load<Real>(batch.stress_Pa, part, tets.stress);
@@ -33,19 +33,19 @@ MYOTACT_INTO_CLONES void read_batch(const MuscleBatch& batch, int part, MuscleTe
 }
 
 template <class Real>
-MYOTACT_INTO_CLONES Real pressure_at(const MuscleTets<Real>& tets, std::size_t p) {
+MYOTACT_INLINE Real pressure_at(const MuscleTets<Real>& tets, std::size_t p) {
   return tets.volume.term.slope_Pa + point_volume(tets.volume, tets.points[p].J).slope_Pa;
 }
 
 /// m (1 - 1 / (I1 + 1)): what the matrix's shear multiplies F with.
 template <class Real>
-MYOTACT_INTO_CLONES Real shear_at(const StableNeoHookean& matrix, const Point<Real>& point) {
+MYOTACT_INLINE Real shear_at(const StableNeoHookean& matrix, const Point<Real>& point) {
   const double m = matrix.shear_term_Pa();
   return m - m / (point.I1 + 1.0);
 }
 
 template <class Real>
-MYOTACT_INTO_CLONES void add_fibre_tangent(const Point<Real>& point, const Real& across, const Real& along,
+MYOTACT_INLINE void add_fibre_tangent(const Point<Real>& point, const Real& across, const Real& along,
                                            std::array<Real, kPacked>& C) {
   Matrix3<Real> direction;
   for (std::size_t k = 0; k < 9; ++k) direction[k] = point.f[k / 3] * point.fibre[k % 3];
@@ -59,7 +59,7 @@ MYOTACT_INTO_CLONES void add_fibre_tangent(const Point<Real>& point, const Real&
 }
 
 template <class Real>
-MYOTACT_INTO_CLONES void muscle_tangent(const StableNeoHookean& matrix, const MuscleTets<Real>& tets, std::size_t p,
+MYOTACT_INLINE void muscle_tangent(const StableNeoHookean& matrix, const MuscleTets<Real>& tets, std::size_t p,
                                         bool definite, std::array<Real, kPacked>& C) {
   const Point<Real>& point = tets.points[p];
   const Real pressure = pressure_at(tets, p);
@@ -85,7 +85,7 @@ MYOTACT_INTO_CLONES void muscle_tangent(const StableNeoHookean& matrix, const Mu
 }
 
 template <class Real>
-MYOTACT_INTO_CLONES void volume_slopes(const MuscleTets<Real>& tets, TetNodeVectors<Real, QuadraticTet>& slope) {
+MYOTACT_INLINE void volume_slopes(const MuscleTets<Real>& tets, TetNodeVectors<Real, QuadraticTet>& slope) {
   std::array<Matrix3<Real>, 4> cofactor;
   for (std::size_t p = 0; p < 4; ++p) cofactor[p] = tets.points[p].cofactor;
   tet_forces<QuadraticTet>(tets.shape, cofactor, slope);

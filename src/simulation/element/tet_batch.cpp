@@ -17,30 +17,32 @@ void deform_batch(const TetShapes& shapes, const TetNodeVectors<Eight, Tet>& pos
   });
 }
 
-template <class Tet>
-void batch_forces(const TetShapes& shapes, const ResponseBatch<Tet>& responses, TetNodeVectors<Eight, Tet>& force_N) {
+namespace {
+
+/// tet_forces() of eight tets; `matrix(p)` is the stress, or what stands in for it, at point p.
+template <class Tet, class MatrixAt>
+void push_batch(const TetShapes& shapes, const MatrixAt& matrix, TetNodeVectors<Eight, Tet>& to) {
   run_batch(MYOTACT_KERNEL {
     TetShape<Real> shape;
-    std::array<Matrix3<Real>, Tet::kPoints> P;
+    std::array<Matrix3<Real>, Tet::kPoints> at_points;
     TetNodeVectors<Real, Tet> out;
     detail::load<Real>(shapes, part, shape);
-    for (std::size_t p = 0; p < Tet::kPoints; ++p) detail::load<Real>(responses[p].P, part, P[p]);
-    tet_forces<Tet>(shape, P, out);
-    detail::store<Real>(out, part, force_N);
+    for (std::size_t p = 0; p < Tet::kPoints; ++p) detail::load<Real>(matrix(p), part, at_points[p]);
+    tet_forces<Tet>(shape, at_points, out);
+    detail::store<Real>(out, part, to);
   });
+}
+
+}  // namespace
+
+template <class Tet>
+void batch_forces(const TetShapes& shapes, const ResponseBatch<Tet>& responses, TetNodeVectors<Eight, Tet>& force_N) {
+  push_batch<Tet>(shapes, [&](std::size_t p) -> const Matrix3<Eight>& { return responses[p].P; }, force_N);
 }
 
 template <class Tet>
 void batch_volume_slopes(const TetShapes& shapes, const PointBatch<Tet>& points, TetNodeVectors<Eight, Tet>& slope_m2) {
-  run_batch(MYOTACT_KERNEL {
-    TetShape<Real> shape;
-    std::array<Matrix3<Real>, Tet::kPoints> cofactor;
-    TetNodeVectors<Real, Tet> out;
-    detail::load<Real>(shapes, part, shape);
-    for (std::size_t p = 0; p < Tet::kPoints; ++p) detail::load<Real>(points[p].cofactor, part, cofactor[p]);
-    tet_forces<Tet>(shape, cofactor, out);
-    detail::store<Real>(out, part, slope_m2);
-  });
+  push_batch<Tet>(shapes, [&](std::size_t p) -> const Matrix3<Eight>& { return points[p].cofactor; }, slope_m2);
 }
 
 template <class Tet>

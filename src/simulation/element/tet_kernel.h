@@ -8,8 +8,7 @@
 // The arithmetic of one tet, or of eight side by side: from node positions to deformed points, and from the material's
 // response at the points to nodal forces and stiffness. No allocation.
 //
-// A vector register may not be handed from function to function by value: callers and callees compiled for different
-// processors disagree on how. So everything here is inlined, the lambdas too.
+// Everything here is inlined, the lambdas too (see MYOTACT_INLINE).
 //
 // With the gradients g_m of the barycentric coordinates, the slope of a shape function is sum_m s_m g_m with numbers
 // s_m that all elements share. So the material's tangent is first brought to the coordinates, B_mn = g_m . C . g_n (3 x
@@ -32,8 +31,8 @@ template <class Real, class Tet>
 using TetBlocks = std::array<Matrix3<Real>, kPairs<Tet>>;
 
 template <class Tet, class Real>
-MYOTACT_INTO_CLONES void deform_tet(const TetShape<Real>& shape, const TetNodeVectors<Real, Tet>& position_m,
-                                    std::array<Point<Real>, Tet::kPoints>& points) {
+MYOTACT_INLINE void deform_tet(const TetShape<Real>& shape, const TetNodeVectors<Real, Tet>& position_m,
+                               std::array<Point<Real>, Tet::kPoints>& points) {
   // Of the quadratic functions' slopes against L_m, only the part of one node changes from point to point.
   std::array<Vector3<Real>, 4> common;
   for (std::size_t m = 0; m < 4; ++m) {
@@ -72,11 +71,11 @@ MYOTACT_INTO_CLONES void deform_tet(const TetShape<Real>& shape, const TetNodeVe
   }
 }
 
-/// force[a] = volume / points * sum over points and A of P_iA dN_a / dX_A. The P of each
-/// point is given.
+/// force[a] = volume / points * sum over points and A of P_iA dN_a / dX_A. `stress` holds the P
+/// of each point.
 template <class Tet, class Real>
-MYOTACT_INTO_CLONES void tet_forces(const TetShape<Real>& shape, const std::array<Matrix3<Real>, Tet::kPoints>& stress,
-                                    TetNodeVectors<Real, Tet>& force_N) {
+MYOTACT_INLINE void tet_forces(const TetShape<Real>& shape, const std::array<Matrix3<Real>, Tet::kPoints>& stress,
+                               TetNodeVectors<Real, Tet>& force_N) {
   const Real volume = shape.volume_m3 * (1.0 / static_cast<double>(Tet::kPoints));
   std::array<std::array<Vector3<Real>, 4>, Tet::kPoints> pushed;  // [point][coordinate]
   for (std::size_t p = 0; p < Tet::kPoints; ++p) {
@@ -112,8 +111,8 @@ using CoordinateBlocks = std::array<std::array<Matrix3<Real>, kSums>, kCoordinat
 
 /// Places `sum` of all pairs = scale * g_m . C . g_n.
 template <class Real, std::size_t kSums>
-MYOTACT_INTO_CLONES void coordinate_blocks(const TetShape<Real>& shape, const std::array<Real, kPacked>& C,
-                                           const Real& scale, std::size_t sum, CoordinateBlocks<Real, kSums>& B) {
+MYOTACT_INLINE void coordinate_blocks(const TetShape<Real>& shape, const std::array<Real, kPacked>& C,
+                                      const Real& scale, std::size_t sum, CoordinateBlocks<Real, kSums>& B) {
   for (std::size_t n = 1; n < 4; ++n) {
     const Vector3<Real>& g_n = shape.gradient_1_m[n];
     Vector3<Real> scaled;
@@ -151,8 +150,8 @@ template <class Real>
 using PackedTangent = std::array<Real, kPacked>;
 
 template <class Real>
-MYOTACT_INTO_CLONES void quadratic_stiffness(const TetShape<Real>& shape, const std::array<PackedTangent<Real>, 4>& C,
-                                             TetBlocks<Real, QuadraticTet>& blocks_N_m) {
+MYOTACT_INLINE void quadratic_stiffness(const TetShape<Real>& shape, const std::array<PackedTangent<Real>, 4>& C,
+                                        TetBlocks<Real, QuadraticTet>& blocks_N_m) {
   CoordinateBlocks<Real, kSumsPerPair> B;
   const Real volume = shape.volume_m3 * 0.25;
   for (std::size_t p = 0; p < 4; ++p) coordinate_blocks(shape, C[p], volume, p, B);
@@ -184,9 +183,8 @@ MYOTACT_INTO_CLONES void quadratic_stiffness(const TetShape<Real>& shape, const 
 
 /// Stiffness of the pairs of nodes from the tangents at the points.
 template <class Tet, class Real>
-MYOTACT_INTO_CLONES void tet_stiffness(const TetShape<Real>& shape,
-                                       const std::array<PackedTangent<Real>, Tet::kPoints>& C,
-                                       TetBlocks<Real, Tet>& blocks_N_m) {
+MYOTACT_INLINE void tet_stiffness(const TetShape<Real>& shape, const std::array<PackedTangent<Real>, Tet::kPoints>& C,
+                                  TetBlocks<Real, Tet>& blocks_N_m) {
   if constexpr (Tet::kNodes == 4) {
     CoordinateBlocks<Real, 1> B;
     coordinate_blocks(shape, C[0], shape.volume_m3, 0, B);
@@ -198,8 +196,8 @@ MYOTACT_INTO_CLONES void tet_stiffness(const TetShape<Real>& shape,
 
 /// blocks += scale v_a (x) v_b.
 template <class Tet, class Real>
-MYOTACT_INTO_CLONES void add_outer_blocks(const TetNodeVectors<Real, Tet>& v, const Real& scale,
-                                          TetBlocks<Real, Tet>& blocks) {
+MYOTACT_INLINE void add_outer_blocks(const TetNodeVectors<Real, Tet>& v, const Real& scale,
+                                     TetBlocks<Real, Tet>& blocks) {
   std::size_t pair = 0;
   for (std::size_t a = 0; a < Tet::kNodes; ++a) {
     Vector3<Real> scaled;
@@ -224,7 +222,7 @@ inline constexpr double kFoldedRatio = 0.05;
 
 /// What a point adds to the volume term of the mean.
 template <class Real>
-MYOTACT_INTO_CLONES VolumeTerm<Real> point_volume(const MeanVolume<Real>& volume, const Real& J) {
+MYOTACT_INLINE VolumeTerm<Real> point_volume(const MeanVolume<Real>& volume, const Real& J) {
   const Real gap = J - volume.mean_J, low = constant<Real>(kFoldedRatio);
   const Real folded = where_less(J, low, J - low, Real{});
   const Real stiff = where_less(J, low, volume.term.curvature_Pa, Real{});
@@ -235,9 +233,9 @@ MYOTACT_INTO_CLONES VolumeTerm<Real> point_volume(const MeanVolume<Real>& volume
 /// Adds to the responses at the points. The stiffness also needs (U'' - c) of the mean volume ratio's slope with
 /// itself.
 template <class Real>
-MYOTACT_INTO_CLONES void add_mean_volume(const std::array<Point<Real>, QuadraticTet::kPoints>& points,
-                                         const MeanVolume<Real>& volume,
-                                         std::array<Response<Real>, QuadraticTet::kPoints>& responses) {
+MYOTACT_INLINE void add_mean_volume(const std::array<Point<Real>, QuadraticTet::kPoints>& points,
+                                    const MeanVolume<Real>& volume,
+                                    std::array<Response<Real>, QuadraticTet::kPoints>& responses) {
   for (std::size_t p = 0; p < QuadraticTet::kPoints; ++p) {
     const VolumeTerm<Real> own = point_volume(volume, points[p].J);
     add_volume<Real>(points[p],

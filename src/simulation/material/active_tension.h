@@ -24,19 +24,19 @@ struct IsotropicTension {
   double tension_Pa = 0.0;
 
   template <class Real>
-  MYOTACT_INTO_CLONES void add_energy(const Point<Real>& p, const Real& activation, Response<Real>& out) const {
+  MYOTACT_INLINE void add_energy(const Point<Real>& p, const Real& activation, Response<Real>& out) const {
     out.energy_Pa += 0.5 * tension_Pa * activation * (p.I1 - 3.0);
   }
 
   template <class Real>
-  MYOTACT_INTO_CLONES void add(const Point<Real>& p, const Real& activation, Response<Real>& out) const {
+  MYOTACT_INLINE void add(const Point<Real>& p, const Real& activation, Response<Real>& out) const {
     const Real scale = tension_Pa * activation;
     for (std::size_t k = 0; k < 9; ++k) out.P[k] += scale * p.F[k];
     add_unit(scale, out.C);
   }
 
   template <class Real>
-  MYOTACT_INTO_CLONES VolumeTerm<Real> volume(const Real& /*J*/) const {
+  MYOTACT_INLINE VolumeTerm<Real> volume(const Real& /*J*/) const {
     return {};
   }
 };

@@ -55,14 +55,14 @@ struct BlemkerMuscle {
   static constexpr Uses kUses{.I1 = true, .J = true, .I4 = true, .I5 = true};
 
   template <class Real>
-  MYOTACT_INTO_CLONES void add_energy(const Point<Real>& p, const Real& activation, Response<Real>& out) const {
+  MYOTACT_INLINE void add_energy(const Point<Real>& p, const Real& activation, Response<Real>& out) const {
     const IsochoricValues<Real> bar = isochoric_values(invariants_of<Real, kUses>(p));
     out.energy_Pa += shear_slopes(bar.values).energy_Pa;
     FibreFamily<Curve, FibreStretch::Isochoric>{curve}.add_energy(p, activation, out);
   }
 
   template <class Real>
-  MYOTACT_INTO_CLONES void add(const Point<Real>& p, const Real& activation, Response<Real>& out) const {
+  MYOTACT_INLINE void add(const Point<Real>& p, const Real& activation, Response<Real>& out) const {
     const IsochoricValues<Real> bar = isochoric_values(invariants_of<Real, kUses>(p));
     Slopes<Real> slopes = shear_slopes(bar.values);
     const auto law = [&](double stretch, int lane) { return curve.at(stretch, lane_of(activation, lane)); };
@@ -73,13 +73,13 @@ struct BlemkerMuscle {
   }
 
   template <class Real>
-  MYOTACT_INTO_CLONES VolumeTerm<Real> volume(const Real& J) const {
+  MYOTACT_INLINE VolumeTerm<Real> volume(const Real& J) const {
     return logarithmic_volume(bulk_Pa, J);
   }
 
  private:
   template <class Real>
-  MYOTACT_INTO_CLONES Slopes<Real> shear_slopes(const Invariants<Real>& bar) const {
+  MYOTACT_INLINE Slopes<Real> shear_slopes(const Invariants<Real>& bar) const {
     Slopes<Real> out;
     const Real I4 = larger(bar[kI4], constant<Real>(kShortestStretch * kShortestStretch));
     const Real inverse = 1.0 / I4, root = square_root(I4);

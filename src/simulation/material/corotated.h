@@ -31,7 +31,7 @@ inline constexpr int kScaledSteps = 4, kPlainSteps = 3;
 
 /// R of F = R S by Newton's iteration R <- (g R + R^-T / g) / 2 (Higham 1986).
 template <class Real>
-MYOTACT_INTO_CLONES Matrix3<Real> polar_rotation(const Point<Real>& p) {
+MYOTACT_INLINE Matrix3<Real> polar_rotation(const Point<Real>& p) {
   Matrix3<Real> R = p.F;
   for (int step = 0; step < kScaledSteps + kPlainSteps; ++step) {
     const Point<Real> at = make_point<Real>(R, {});
@@ -69,7 +69,7 @@ struct Corotated {
   double lambda_Pa = 0.0;
 
   template <class Real>
-  MYOTACT_INTO_CLONES void add_energy(const Point<Real>& p, Response<Real>& out) const {
+  MYOTACT_INLINE void add_energy(const Point<Real>& p, const Real& /*activation*/, Response<Real>& out) const {
     const Matrix3<Real> R = detail::polar_rotation(p);
     Real trace = constant<Real>(-3.0), squared{};
     for (std::size_t k = 0; k < 9; ++k) {
@@ -80,7 +80,7 @@ struct Corotated {
   }
 
   template <class Real>
-  MYOTACT_INTO_CLONES void add(const Point<Real>& p, const Real& /*activation*/, Response<Real>& out) const {
+  MYOTACT_INLINE void add(const Point<Real>& p, const Real& /*activation*/, Response<Real>& out) const {
     const Matrix3<Real> R = detail::polar_rotation(p);
     Matrix3<Real> S{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -97,15 +97,15 @@ struct Corotated {
   }
 
   template <class Real>
-  MYOTACT_INTO_CLONES VolumeTerm<Real> volume(const Real& /*J*/) const {
+  MYOTACT_INLINE VolumeTerm<Real> volume(const Real& /*J*/) const {
     return {};
   }
 
  private:
   /// C += scale dR/dF = scale sum_kl A_kl T_k (x) T_l, T_k = R [e_k]x, A = (tr S 1 - S)^-1.
   template <class Real>
-  MYOTACT_INTO_CLONES static void add_rotation_slope(const Matrix3<Real>& R, const Matrix3<Real>& S, const Real& trace,
-                                                     const Real& scale, Response<Real>& out) {
+  MYOTACT_INLINE static void add_rotation_slope(const Matrix3<Real>& R, const Matrix3<Real>& S, const Real& trace,
+                                                const Real& scale, Response<Real>& out) {
     Matrix3<Real> gap;
     for (std::size_t k = 0; k < 9; ++k) gap[k] = -0.5 * (S[k] + S[3 * (k % 3) + k / 3]);
     for (std::size_t k = 0; k < 9; k += 4) gap[k] += trace;

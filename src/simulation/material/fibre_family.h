@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <concepts>
 
-#include "simulation/material/mooney_rivlin.h"
+#include "simulation/material/isochoric.h"
 
 namespace myotact::simulation {
 
@@ -60,7 +60,7 @@ struct FibreSlopes {
 };
 
 template <class Real, class Law>
-MYOTACT_INTO_CLONES FibreSlopes<Real> fibre_slopes(const Real& I4, const Law& law) {
+MYOTACT_INLINE FibreSlopes<Real> fibre_slopes(const Real& I4, const Law& law) {
   const Real stretch = larger(square_root(I4), constant<Real>(kShortestStretch));
   Real stress, slope;
   if constexpr (kWidth<Real> == 1) {
@@ -89,7 +89,7 @@ struct FibreFamily {
   static constexpr Uses kUses{.J = kStretch == FibreStretch::Isochoric, .I4 = true};
 
   template <class Real>
-  MYOTACT_INTO_CLONES void add_energy(const Point<Real>& p, const Real& activation, Response<Real>& out) const {
+  MYOTACT_INLINE void add_energy(const Point<Real>& p, const Real& activation, Response<Real>& out) const {
     Real I4 = p.I4;
     if constexpr (kStretch == FibreStretch::Isochoric) I4 = isochoric_values(invariants_of<Real, kUses>(p)).values[kI4];
     const double stretch = std::max(std::sqrt(I4), kShortestStretch);
@@ -100,7 +100,7 @@ struct FibreFamily {
   }
 
   template <class Real>
-  MYOTACT_INTO_CLONES void add(const Point<Real>& p, const Real& activation, Response<Real>& out) const {
+  MYOTACT_INLINE void add(const Point<Real>& p, const Real& activation, Response<Real>& out) const {
     const auto law = [&](double stretch, int lane) { return curve.at(stretch, lane_of(activation, lane)); };
     Slopes<Real> slopes;
     if constexpr (kStretch == FibreStretch::Unsplit) {
@@ -118,7 +118,7 @@ struct FibreFamily {
   }
 
   template <class Real>
-  MYOTACT_INTO_CLONES VolumeTerm<Real> volume(const Real& /*J*/) const {
+  MYOTACT_INLINE VolumeTerm<Real> volume(const Real& /*J*/) const {
     return {};
   }
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "simulation/curves/blemker.h"
 #include "simulation/curves/curve_set.h"
 #include "simulation/material/fibre_family.h"
 
@@ -44,8 +45,7 @@ struct ExponentialFibre {
 };
 
 /// Fibres of Blemker's muscle: nominal stress = peak (a fL(r) + fP(r)), r = stretch over the optimal stretch.
-///   fL = 9 (r - .4)^2 (r <= .6), 1 - 4 (1 - r)^2, 9 (r - 1.6)^2 (r >= 1.4), 0 outside [.4, 1.6]
-///   fP = P1 (exp(P2 (r - 1)) - 1) from 1, straight from `straight` on.
+/// fL as in curves/blemker.h, fP = P1 (exp(P2 (r - 1)) - 1) from r = 1, straight from `straight` on.
 struct BlemkerFibre {
   double peak_Pa = 0.0;
   double optimal_stretch = 1.0;
@@ -55,25 +55,15 @@ struct BlemkerFibre {
 
   FibreLaw at(double stretch, double activation) const {
     const double r = stretch / optimal_stretch;
-    double active = 0.0, active_slope = 0.0, passive = 0.0, passive_slope = 0.0;
-    if (r > 0.4 && r <= 0.6) {
-      active = 9.0 * (r - 0.4) * (r - 0.4);
-      active_slope = 18.0 * (r - 0.4);
-    } else if (r > 0.6 && r < 1.4) {
-      active = 1.0 - 4.0 * (1.0 - r) * (1.0 - r);
-      active_slope = 8.0 * (1.0 - r);
-    } else if (r >= 1.4 && r < 1.6) {
-      active = 9.0 * (r - 1.6) * (r - 1.6);
-      active_slope = 18.0 * (r - 1.6);
-    }
+    double passive = 0.0, passive_slope = 0.0;
     if (r > 1.0) {
       const double end = std::min(r, straight), growth = toe * std::exp(exponent * (end - 1.0));
       passive_slope = exponent * growth;
       passive = growth - toe + passive_slope * (r - end);
     }
     const double scale = peak_Pa / optimal_stretch;
-    return {scale * (activation * active + passive),
-            scale / optimal_stretch * (activation * active_slope + passive_slope)};
+    return {scale * (activation * blemker::active_force_length(r) + passive),
+            scale / optimal_stretch * (activation * blemker::active_force_length_slope(r) + passive_slope)};
   }
   double energy_Pa(double stretch, double activation) const { return integrate_stress(*this, stretch, activation); }
 };

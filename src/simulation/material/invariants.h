@@ -33,7 +33,7 @@ struct PositiveRatio {
 inline constexpr double kLowestRatio = 0.1;
 
 template <class Real>
-MYOTACT_INTO_CLONES PositiveRatio<Real> positive_ratio(const Real& J) {
+MYOTACT_INLINE PositiveRatio<Real> positive_ratio(const Real& J) {
   const Real low = constant<Real>(kLowestRatio), one = constant<Real>(1.0), zero{};
   const Real gap = larger(2.0 * low - J, low);
   const Real bent = low * low / gap;
@@ -43,14 +43,14 @@ MYOTACT_INTO_CLONES PositiveRatio<Real> positive_ratio(const Real& J) {
 
 /// U(j(J)) from the slopes of U against j.
 template <class Real>
-MYOTACT_INTO_CLONES VolumeTerm<Real> through(const PositiveRatio<Real>& ratio, const VolumeTerm<Real>& of_j) {
+MYOTACT_INLINE VolumeTerm<Real> through(const PositiveRatio<Real>& ratio, const VolumeTerm<Real>& of_j) {
   return {of_j.energy_Pa, of_j.slope_Pa * ratio.slope,
           of_j.curvature_Pa * ratio.slope * ratio.slope + of_j.slope_Pa * ratio.curvature};
 }
 
 /// bulk / 2 (ln J)^2.
 template <class Real>
-MYOTACT_INTO_CLONES VolumeTerm<Real> logarithmic_volume(double bulk_Pa, const Real& J) {
+MYOTACT_INLINE VolumeTerm<Real> logarithmic_volume(double bulk_Pa, const Real& J) {
   const PositiveRatio<Real> ratio = positive_ratio(J);
   const Real log_j = logarithm(ratio.j);
   return through<Real>(
@@ -70,7 +70,7 @@ struct Products {
 };
 
 template <class Real>
-MYOTACT_INTO_CLONES Products<Real> products_of(const Point<Real>& p) {
+MYOTACT_INLINE Products<Real> products_of(const Point<Real>& p) {
   Products<Real> out;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
@@ -94,7 +94,7 @@ MYOTACT_INTO_CLONES Products<Real> products_of(const Point<Real>& p) {
 
 /// C += scale (delta_ij s_AB): a matrix of the rest position, the same for every component.
 template <class Real>
-MYOTACT_INTO_CLONES void add_rest_matrix(const Matrix3<Real>& s, const Real& scale, std::array<Real, kPacked>& C) {
+MYOTACT_INLINE void add_rest_matrix(const Matrix3<Real>& s, const Real& scale, std::array<Real, kPacked>& C) {
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t A = 0; A < 3; ++A) {
       for (std::size_t B = A; B < 3; ++B) C[packed(3 * i + A, 3 * i + B)] += scale * s[3 * A + B];
@@ -103,7 +103,7 @@ MYOTACT_INTO_CLONES void add_rest_matrix(const Matrix3<Real>& s, const Real& sca
 }
 
 template <class Real>
-MYOTACT_INTO_CLONES Matrix3<Real> outer(const Vector3<Real>& a, const Vector3<Real>& b) {
+MYOTACT_INLINE Matrix3<Real> outer(const Vector3<Real>& a, const Vector3<Real>& b) {
   Matrix3<Real> product;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t A = 0; A < 3; ++A) product[3 * i + A] = a[i] * b[A];
@@ -113,8 +113,8 @@ MYOTACT_INTO_CLONES Matrix3<Real> outer(const Vector3<Real>& a, const Vector3<Re
 
 /// C += first d2I2/dF2 = 2 first (2 F (x) F + I1 unit - terms of F F^T F).
 template <class Real>
-MYOTACT_INTO_CLONES void add_I2_curvature(const Point<Real>& p, const Products<Real>& q, const Real& first,
-                                          std::array<Real, kPacked>& C) {
+MYOTACT_INLINE void add_I2_curvature(const Point<Real>& p, const Products<Real>& q, const Real& first,
+                                     std::array<Real, kPacked>& C) {
   add_outer(p.F, 4.0 * first, C);
   add_unit(2.0 * first * p.I1, C);
   add_rest_matrix(q.right, -2.0 * first, C);
@@ -134,8 +134,8 @@ MYOTACT_INTO_CLONES void add_I2_curvature(const Point<Real>& p, const Products<R
 
 /// dI5/dF_iA = 2 (g_i a_A + f_i b_A); C += first times its slope.
 template <class Real>
-MYOTACT_INTO_CLONES void add_I5_curvature(const Point<Real>& p, const Products<Real>& q, const Real& first,
-                                          std::array<Real, kPacked>& C) {
+MYOTACT_INLINE void add_I5_curvature(const Point<Real>& p, const Products<Real>& q, const Real& first,
+                                     std::array<Real, kPacked>& C) {
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t A = 0; A < 3; ++A) {
       for (std::size_t j = 0; j < 3; ++j) {
@@ -162,7 +162,7 @@ struct Uses {
 
 /// What a law knows before it states its slopes.
 template <class Real, Uses kUses>
-MYOTACT_INTO_CLONES Invariants<Real> invariants_of(const Point<Real>& p) {
+MYOTACT_INLINE Invariants<Real> invariants_of(const Point<Real>& p) {
   Invariants<Real> inv{};
   inv[kI1] = p.I1;
   inv[kJ] = p.J;
@@ -180,7 +180,7 @@ MYOTACT_INTO_CLONES Invariants<Real> invariants_of(const Point<Real>& p) {
 /// Adds stress and tangent of an energy that is a function of invariants (the energy itself is added apart: it is asked
 /// for rarely).
 template <class Real, Uses kUses>
-MYOTACT_INTO_CLONES void add_slopes(const Point<Real>& p, const Slopes<Real>& s, Response<Real>& out) {
+MYOTACT_INLINE void add_slopes(const Point<Real>& p, const Slopes<Real>& s, Response<Real>& out) {
   std::array<Matrix3<Real>, kInvariants> gradient{};
   constexpr std::array<bool, kInvariants> used{kUses.I1, kUses.I2, kUses.J, kUses.I4, kUses.I5};
   detail::Products<Real> q;
@@ -205,38 +205,6 @@ MYOTACT_INTO_CLONES void add_slopes(const Point<Real>& p, const Slopes<Real>& s,
   if constexpr (kUses.J) add_volume_curvature(p.F, s.first[kJ], out.C);
   if constexpr (kUses.I4) detail::add_rest_matrix(detail::outer(p.fibre, p.fibre), 2.0 * s.first[kI4], out.C);
   if constexpr (kUses.I5) detail::add_I5_curvature(p, q, s.first[kI5], out.C);
-}
-
-/// From slopes against the isochoric invariants J^-p I to those against the invariants and J themselves.
-template <class Real>
-MYOTACT_INTO_CLONES Slopes<Real> from_isochoric(const Slopes<Real>& bar, const Invariants<Real>& bar_values,
-                                                const Real& scale_third, const PositiveRatio<Real>& ratio) {
-  // J^-p with p = 2/3 for I1 and I4, 4/3 for I2 and I5; scale_third = j^(-2/3).
-  constexpr std::array<double, kInvariants> power{2.0 / 3.0, 4.0 / 3.0, 0.0, 2.0 / 3.0, 4.0 / 3.0};
-  const std::array<Real, kInvariants> scale{scale_third, scale_third * scale_third, constant<Real>(1.0), scale_third,
-                                            scale_third * scale_third};
-  Slopes<Real> out;
-  Real slope{}, curvature{};  // against j
-  for (std::size_t a = 0; a < kInvariants; ++a) {
-    if (a == kJ) continue;
-    const Real rate = -power[a] * bar_values[a] / ratio.j;  // of the isochoric invariant against j
-    out.first[a] = bar.first[a] * scale[a];
-    slope += bar.first[a] * rate;
-    curvature += bar.first[a] * (power[a] * (power[a] + 1.0)) * bar_values[a] / (ratio.j * ratio.j);
-    Real with_j = bar.first[a] * (-power[a]) * scale[a] / ratio.j;
-    for (std::size_t b = 0; b < kInvariants; ++b) {
-      if (b == kJ) continue;
-      const Real second = a <= b ? bar.second[a][b] : bar.second[b][a];
-      const Real rate_b = -power[b] * bar_values[b] / ratio.j;
-      if (a <= b) out.second[a][b] = second * scale[a] * scale[b];
-      with_j += second * scale[a] * rate_b;
-      curvature += second * rate * rate_b;
-    }
-    (a < kJ ? out.second[a][kJ] : out.second[kJ][a]) = with_j * ratio.slope;
-  }
-  out.first[kJ] = slope * ratio.slope;
-  out.second[kJ][kJ] = curvature * ratio.slope * ratio.slope + slope * ratio.curvature;
-  return out;
 }
 
 }  // namespace myotact::simulation

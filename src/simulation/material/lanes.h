@@ -3,7 +3,9 @@
 #include <cmath>
 #include <cstddef>
 
-#include "simulation/vector_clones.h"
+/// Put before everything that handles vector registers by value: compiled apart, for another processor than its caller,
+/// it would expect them elsewhere.
+#define MYOTACT_INLINE [[gnu::always_inline]] inline
 
 // The laws and the elements' arithmetic are written once, for a `Real` that is a double or several of them side by
 // side. Everything here works lane by lane with the same operations in the same order, so all give the same bits.
@@ -19,13 +21,13 @@ template <class Real>
 inline constexpr int kWidth = static_cast<int>(sizeof(Real) / sizeof(double));
 
 template <class Real>
-MYOTACT_INTO_CLONES Real constant(double value) {
+MYOTACT_INLINE Real constant(double value) {
   return Real{} + value;
 }
 
 /// Function of one number, applied to each lane.
 template <class Real, class Function>
-MYOTACT_INTO_CLONES Real each(const Real& x, Function&& function) {
+MYOTACT_INLINE Real each(const Real& x, Function&& function) {
   if constexpr (kWidth<Real> == 1) {
     return function(x);
   } else {
@@ -36,7 +38,7 @@ MYOTACT_INTO_CLONES Real each(const Real& x, Function&& function) {
 }
 
 template <class Real>
-MYOTACT_INTO_CLONES double lane_of(const Real& value, int lane) {
+MYOTACT_INLINE double lane_of(const Real& value, int lane) {
   if constexpr (kWidth<Real> == 1) {
     return value;
   } else {
@@ -45,23 +47,23 @@ MYOTACT_INTO_CLONES double lane_of(const Real& value, int lane) {
 }
 
 template <class Real>
-MYOTACT_INTO_CLONES Real larger(const Real& a, const Real& b) {
+MYOTACT_INLINE Real larger(const Real& a, const Real& b) {
   return a > b ? a : b;
 }
 
 /// a where x < y, else b.
 template <class Real>
-MYOTACT_INTO_CLONES Real where_less(const Real& x, const Real& y, const Real& a, const Real& b) {
+MYOTACT_INLINE Real where_less(const Real& x, const Real& y, const Real& a, const Real& b) {
   return x < y ? a : b;
 }
 
 template <class Real>
-MYOTACT_INTO_CLONES Real square_root(const Real& x) {
+MYOTACT_INLINE Real square_root(const Real& x) {
   return each(x, [](double v) { return __builtin_sqrt(v); });
 }
 
 template <class Real>
-MYOTACT_INTO_CLONES Real logarithm(const Real& x) {
+MYOTACT_INLINE Real logarithm(const Real& x) {
   return each(x, [](double v) { return std::log(v); });
 }
 

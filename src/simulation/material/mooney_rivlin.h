@@ -1,27 +1,8 @@
 #pragma once
 
-#include "simulation/material/invariants.h"
+#include "simulation/material/isochoric.h"
 
 namespace myotact::simulation {
-
-/// J^(-2/3) I1, J^(-4/3) I2 ..., and what they were made with.
-template <class Real>
-struct IsochoricValues {
-  PositiveRatio<Real> ratio;
-  Real scale{};  // j^(-2/3)
-  Invariants<Real> values{};
-};
-
-template <class Real>
-MYOTACT_INTO_CLONES IsochoricValues<Real> isochoric_values(const Invariants<Real>& inv) {
-  IsochoricValues<Real> out;
-  out.ratio = positive_ratio(inv[kJ]);
-  const Real root = each(out.ratio.j, [](double j) { return std::cbrt(j); });
-  out.scale = 1.0 / (root * root);
-  const Real squared = out.scale * out.scale;
-  out.values = {out.scale * inv[kI1], squared * inv[kI2], Real{}, out.scale * inv[kI4], squared * inv[kI5]};
-  return out;
-}
 
 /// Uncoupled Mooney-Rivlin law: W = c1 (J^(-2/3) I1 - 3) + c2 (J^(-4/3) I2 - 3) + K/2 (ln J)^2.
 struct MooneyRivlin {
@@ -32,13 +13,13 @@ struct MooneyRivlin {
   static constexpr Uses kUses{.I1 = true, .I2 = true, .J = true};
 
   template <class Real>
-  MYOTACT_INTO_CLONES void add_energy(const Point<Real>& p, Response<Real>& out) const {
+  MYOTACT_INLINE void add_energy(const Point<Real>& p, const Real& /*activation*/, Response<Real>& out) const {
     const IsochoricValues<Real> bar = isochoric_values(invariants_of<Real, kUses>(p));
     out.energy_Pa += c1_Pa * (bar.values[kI1] - 3.0) + c2_Pa * (bar.values[kI2] - 3.0);
   }
 
   template <class Real>
-  MYOTACT_INTO_CLONES void add(const Point<Real>& p, const Real& /*activation*/, Response<Real>& out) const {
+  MYOTACT_INLINE void add(const Point<Real>& p, const Real& /*activation*/, Response<Real>& out) const {
     const IsochoricValues<Real> bar = isochoric_values(invariants_of<Real, kUses>(p));
     Slopes<Real> slopes;
     slopes.first[kI1] = constant<Real>(c1_Pa);
@@ -47,7 +28,7 @@ struct MooneyRivlin {
   }
 
   template <class Real>
-  MYOTACT_INTO_CLONES VolumeTerm<Real> volume(const Real& J) const {
+  MYOTACT_INLINE VolumeTerm<Real> volume(const Real& J) const {
     return logarithmic_volume(bulk_Pa, J);
   }
 };

@@ -10,19 +10,19 @@ struct NeoHookean {
   double lambda_Pa = 0.0;
 
   template <class Real>
-  MYOTACT_INTO_CLONES void add_energy(const Point<Real>& p, Response<Real>& out) const {
+  MYOTACT_INLINE void add_energy(const Point<Real>& p, const Real& /*activation*/, Response<Real>& out) const {
     out.energy_Pa += 0.5 * shear_Pa * (p.I1 - 3.0);
   }
 
   template <class Real>
-  MYOTACT_INTO_CLONES void add(const Point<Real>& p, const Real& /*activation*/, Response<Real>& out) const {
+  MYOTACT_INLINE void add(const Point<Real>& p, const Real& /*activation*/, Response<Real>& out) const {
     const Real scale = constant<Real>(shear_Pa);
     for (std::size_t k = 0; k < 9; ++k) out.P[k] += scale * p.F[k];
     add_unit(scale, out.C);
   }
 
   template <class Real>
-  MYOTACT_INTO_CLONES VolumeTerm<Real> volume(const Real& J) const {
+  MYOTACT_INLINE VolumeTerm<Real> volume(const Real& J) const {
     const PositiveRatio<Real> ratio = positive_ratio(J);
     const Real log_j = logarithm(ratio.j), inverse = 1.0 / ratio.j;
     return through<Real>(ratio, {(0.5 * lambda_Pa * log_j - shear_Pa) * log_j, (lambda_Pa * log_j - shear_Pa) * inverse,

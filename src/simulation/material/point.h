@@ -48,12 +48,12 @@ struct VolumeTerm {
 };
 
 template <class Real>
-MYOTACT_INTO_CLONES Vector3<Real> cross(const Real* a, const Real* b) {
+MYOTACT_INLINE Vector3<Real> cross(const Real* a, const Real* b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
 template <class Real>
-MYOTACT_INTO_CLONES Point<Real> make_point(const Matrix3<Real>& F, const Vector3<Real>& fibre) {
+MYOTACT_INLINE Point<Real> make_point(const Matrix3<Real>& F, const Vector3<Real>& fibre) {
   Point<Real> point;
   point.F = F;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -72,7 +72,7 @@ MYOTACT_INTO_CLONES Point<Real> make_point(const Matrix3<Real>& F, const Vector3
 
 /// C += scale a (x) a.
 template <class Real>
-MYOTACT_INTO_CLONES void add_outer(const Matrix3<Real>& a, const Real& scale, std::array<Real, kPacked>& C) {
+MYOTACT_INLINE void add_outer(const Matrix3<Real>& a, const Real& scale, std::array<Real, kPacked>& C) {
   for (std::size_t r = 0; r < 9; ++r) {
     const Real left = scale * a[r];
     for (std::size_t c = r; c < 9; ++c) C[packed(r, c)] += left * a[c];
@@ -81,7 +81,7 @@ MYOTACT_INTO_CLONES void add_outer(const Matrix3<Real>& a, const Real& scale, st
 
 /// C += scale (a (x) b + b (x) a).
 template <class Real>
-MYOTACT_INTO_CLONES void add_mixed(const Matrix3<Real>& a, const Matrix3<Real>& b, const Real& scale,
+MYOTACT_INLINE void add_mixed(const Matrix3<Real>& a, const Matrix3<Real>& b, const Real& scale,
                                    std::array<Real, kPacked>& C) {
   for (std::size_t r = 0; r < 9; ++r) {
     for (std::size_t c = r; c < 9; ++c) C[packed(r, c)] += scale * (a[r] * b[c] + b[r] * a[c]);
@@ -90,13 +90,13 @@ MYOTACT_INTO_CLONES void add_mixed(const Matrix3<Real>& a, const Matrix3<Real>& 
 
 /// C += scale times the unit matrix.
 template <class Real>
-MYOTACT_INTO_CLONES void add_unit(const Real& scale, std::array<Real, kPacked>& C) {
+MYOTACT_INLINE void add_unit(const Real& scale, std::array<Real, kPacked>& C) {
   for (std::size_t k = 0; k < 9; ++k) C[packed(k, k)] += scale;
 }
 
 /// C += scale d2J/dF2, which holds the entries of F: d2J/dF_iA dF_jB = eps_ijk eps_ABC F_kC.
 template <class Real>
-MYOTACT_INTO_CLONES void add_volume_curvature(const Matrix3<Real>& F, const Real& scale, std::array<Real, kPacked>& C) {
+MYOTACT_INLINE void add_volume_curvature(const Matrix3<Real>& F, const Real& scale, std::array<Real, kPacked>& C) {
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
     for (std::size_t A = 0; A < 3; ++A) {
@@ -110,7 +110,7 @@ MYOTACT_INTO_CLONES void add_volume_curvature(const Matrix3<Real>& F, const Real
 
 /// A term of the volume ratio acts at a point.
 template <class Real>
-MYOTACT_INTO_CLONES void add_volume(const Point<Real>& point, const VolumeTerm<Real>& volume,
+MYOTACT_INLINE void add_volume(const Point<Real>& point, const VolumeTerm<Real>& volume,
                                     Response<Real>& response) {
   response.energy_Pa += volume.energy_Pa;
   for (std::size_t k = 0; k < 9; ++k) response.P[k] += volume.slope_Pa * point.cofactor[k];

@@ -17,7 +17,7 @@ struct StableNeoHookean {
   double rest_ratio() const { return 1.0 + 0.75 * shear_term_Pa() / volume_term_Pa(); }
 
   template <class Real>
-  MYOTACT_INTO_CLONES void add_energy(const Point<Real>& p, Response<Real>& out) const {
+  MYOTACT_INLINE void add_energy(const Point<Real>& p, const Real& /*activation*/, Response<Real>& out) const {
     const double m = shear_term_Pa();
     // Zero at rest together with the volume term, which is not zero there on its own.
     const double rest = 0.5 * volume_term_Pa() * (1.0 - rest_ratio()) * (1.0 - rest_ratio()) - 0.5 * m * std::log(4.0);
@@ -25,7 +25,7 @@ struct StableNeoHookean {
   }
 
   template <class Real>
-  MYOTACT_INTO_CLONES void add(const Point<Real>& p, const Real& /*activation*/, Response<Real>& out) const {
+  MYOTACT_INLINE void add(const Point<Real>& p, const Real& /*activation*/, Response<Real>& out) const {
     const double m = shear_term_Pa();
     const Real inverse = 1.0 / (p.I1 + 1.0);
     const Real scale = m - m * inverse;
@@ -35,7 +35,7 @@ struct StableNeoHookean {
   }
 
   template <class Real>
-  MYOTACT_INTO_CLONES VolumeTerm<Real> volume(const Real& J) const {
+  MYOTACT_INLINE VolumeTerm<Real> volume(const Real& J) const {
     const double L = volume_term_Pa();
     const Real gap = J - rest_ratio();
     return {0.5 * L * gap * gap, L * gap, constant<Real>(L)};

@@ -51,15 +51,7 @@ VolumeTerm<Eight> volume_terms(const std::vector<Law>& laws, const Eight& J) {
 double shape_energy_Pa(const std::vector<Law>& laws, const Point<double>& point, double activation) {
   Response<double> response;
   for (const Law& law : laws) {
-    std::visit(
-        [&](const auto& some_law) {
-          if constexpr (requires { some_law.add_energy(point, activation, response); }) {
-            some_law.add_energy(point, activation, response);
-          } else {
-            some_law.add_energy(point, response);
-          }
-        },
-        law);
+    std::visit([&](const auto& some_law) { some_law.add_energy(point, activation, response); }, law);
   }
   return response.energy_Pa;
 }

@@ -34,7 +34,7 @@ struct SolidInput {
   std::vector<int> patch;     // of each tet, for Patched; empty: found by clustering
 };
 
-/// A body of tets whose nodes are all unknowns. Built once; evaluation allocates nothing.
+/// A body of tets whose nodes are all unknowns. Built once.
 class Solid {
  public:
   /// Throws Error BadData naming `file` and the tet: not positive volume, curved side, missing or non-unit fibre where
@@ -52,9 +52,7 @@ class Solid {
     Eigen::VectorXd force_N;            // slope of the energy at all nodes
     BlockMatrix stiffness;              // slope of the forces, when asked for
     double smallest_J = 1.0;            // over the integration points
-    double largest_volume_error = 0.0;  // |mean J - 1| over the tets
     double force_scale_N = 0.0;         // size of the elements' forces, to judge a residual by
-    std::vector<int> inverted;          // tets with a point of J <= 0 (at most 8 are named)
   };
   Evaluation make_evaluation() const;
 

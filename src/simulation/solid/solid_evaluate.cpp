@@ -7,8 +7,6 @@
 namespace myotact::simulation {
 namespace {
 
-constexpr std::size_t kNamedInverted = 8;
-
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
@@ -24,13 +22,9 @@ Eight mean_ratio(const PointBatch<Tet>& points) {
 }
 
 template <class Tet>
-void note_ratios(const TetBatch<Tet>& batch, const PointBatch<Tet>& points, const Eight& mean, Solid::Evaluation& out) {
+void note_smallest_ratio(const TetBatch<Tet>& batch, const PointBatch<Tet>& points, Solid::Evaluation& out) {
   for (std::size_t lane = 0; lane < at(batch.count); ++lane) {
-    double lowest = points[0].J.lane[lane];
-    for (const Point<Eight>& point : points) lowest = std::min(lowest, point.J.lane[lane]);
-    out.smallest_J = std::min(out.smallest_J, lowest);
-    out.largest_volume_error = std::max(out.largest_volume_error, std::abs(mean.lane[lane] - 1.0));
-    if (!(lowest > 0.0) && out.inverted.size() < kNamedInverted) out.inverted.push_back(batch.tet[lane]);
+    for (const Point<Eight>& point : points) out.smallest_J = std::min(out.smallest_J, point.J.lane[lane]);
   }
 }
 
@@ -122,13 +116,12 @@ void Solid::evaluate_batches(const std::vector<TetBatch<Tet>>& batches, const Ei
     TetNodeVectors<Eight, Tet> position;
     gather(batch, position_m, position);
     deform_batch<Tet>(batch.shapes, position, points);
-    const Eight mean = mean_ratio<Tet>(points);
-    note_ratios<Tet>(batch, points, mean, out);
+    note_smallest_ratio<Tet>(batch, points, out);
     respond_to<Tet>(material, points, activation, responses);
     const bool averaged = Tet::kPoints > 1 && material.fluctuation_Pa >= 0.0;
     MeanVolume<Eight> volume;
     if (averaged) {
-      volume = mean_volume(material, mean);
+      volume = mean_volume(material, mean_ratio<Tet>(points));
       add_volume_of_mean<Tet>(points, volume, responses);
     } else {
       add_own_volume<Tet>(material, points, responses);
@@ -151,7 +144,7 @@ std::vector<double> Solid::patch_ratios(const Eigen::VectorXd& position_m, std::
     TetNodeVectors<Eight, LinearTet> position;
     gather(batch, position_m, position);
     deform_batch<LinearTet>(batch.shapes, position, points[b]);
-    note_ratios<LinearTet>(batch, points[b], points[b][0].J, out);
+    note_smallest_ratio<LinearTet>(batch, points[b], out);
     for (std::size_t lane = 0; lane < at(batch.count); ++lane) {
       const std::size_t patch = at(patch_of_[at(batch.tet[lane])]);
       ratio[patch] += points[b][0].J.lane[lane] * batch.shapes.volume_m3.lane[lane] / patches_[patch].volume_m3;
@@ -216,8 +209,7 @@ void Solid::evaluate_patches(const Eigen::VectorXd& position_m, double activatio
 void Solid::evaluate(const Eigen::VectorXd& position_m, double activation, Tangent tangent, Evaluation& out) const {
   out.force_N.setZero();
   out.smallest_J = 1e300;
-  out.largest_volume_error = out.force_scale_N = 0.0;
-  out.inverted.clear();
+  out.force_scale_N = 0.0;
   if (tangent != Tangent::None) out.stiffness.set_zero();
   if (kind_ == ElementKind::Quadratic) {
     evaluate_batches(quadratic_, position_m, activation, tangent, out);

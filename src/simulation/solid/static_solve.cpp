@@ -88,7 +88,6 @@ class StaticSolver {
       }
       system_.hold(now_.stiffness);
       if (factor_.factor(now_.stiffness) && factor_.positive()) {
-        result_.definite += tangent == Solid::Tangent::Definite ? 1 : 0;
         return true;
       }
       exact_ = false;

@@ -40,7 +40,6 @@ struct StaticResult {
   bool converged = false;
   int load_steps = 0;  // that converged
   int iterations = 0;  // Newton steps in all
-  int definite = 0;    // Newton steps that needed the projected tangent
   double load = 0.0;   // share of the load that is in equilibrium
   double residual_share = 0.0;
   Eigen::VectorXd position_m;  // of the last converged state
