@@ -126,6 +126,7 @@ BlockFactorOf<Scalar>::BlockFactorOf(const BlockMatrix& pattern) {
   for (int& position : order_) position = post[at(position)];
   neighbours = renumbered(neighbours, order_);
   make_fronts(neighbours);
+  for (int node = 0; node < pattern.nodes(); ++node) diagonals_.push_back(slot(node, node));
   place_entries(pattern);
 }
 
@@ -134,7 +135,7 @@ void BlockFactorOf<Scalar>::make_fronts(const std::vector<std::vector<int>>& nei
   const std::vector<int> parent = elimination_tree(neighbours);
   const Lists rows = column_structures(neighbours, parent);
   const int n = static_cast<int>(neighbours.size());
-  std::vector<int> front_of(at(n));
+  front_of_.resize(at(n));
   int zeros = 0;  // stored in the front being grown, in blocks
   for (int j = 0; j < n; ++j) {
     const int below = static_cast<int>(rows[at(j)].size());
@@ -156,190 +157,207 @@ void BlockFactorOf<Scalar>::make_fronts(const std::vector<std::vector<int>>& nei
     front.nodes.push_back(j);
     ++front.own;
     front.nodes.insert(front.nodes.end(), rows[at(j)].begin(), rows[at(j)].end());
-    front_of[at(j)] = static_cast<int>(fronts_.size()) - 1;
+    front_of_[at(j)] = static_cast<int>(fronts_.size()) - 1;
   }
+  std::size_t places = 0;
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
     Front& front = fronts_[f];
     const std::size_t size = 3 * front.nodes.size();
-    values_.emplace_back(3 * at(front.own) * (size + kFrontPadding), Scalar(0));
+    front.start = places;
+    places += 3 * at(front.own) * (size + kFrontPadding);
     largest_front_ = std::max(largest_front_, size);
-    largest_rest_ = std::max(largest_rest_, size - 3 * at(front.own));
     if (at(front.own) == front.nodes.size()) continue;
-    Front& above = fronts_[at(front_of[at(front.nodes[at(front.own)])])];
+    Front& above = fronts_[at(front_of_[at(front.nodes[at(front.own)])])];
     above.children.push_back(static_cast<int>(f));
     for (std::size_t k = at(front.own); k < front.nodes.size(); ++k) {
       const auto found = std::lower_bound(above.nodes.begin(), above.nodes.end(), front.nodes[k]);
-      const int place = static_cast<int>(found - above.nodes.begin());
+      const int place = 3 * static_cast<int>(found - above.nodes.begin());
       const bool goes_on = !front.runs.empty() && front.runs.back().place + front.runs.back().count == place;
       if (!goes_on) front.runs.push_back({0, place});
-      ++front.runs.back().count;
+      front.runs.back().count += 3;
     }
   }
-  std::size_t top = 0;
+  values_.assign(places, Scalar(0));
+  find_depths();
+}
+
+template <class Scalar>
+void BlockFactorOf<Scalar>::find_depths() {
+  for (std::size_t f = fronts_.size(); f-- > 0;) {
+    for (int child : fronts_[f].children) fronts_[at(child)].even = !fronts_[f].even;
+  }
+  Workspace empty;
   for (const Front& front : fronts_) {
-    for (int child : front.children) top -= remainder_places(fronts_[at(child)]);
-    top += remainder_places(front);
-    deepest_stack_ = std::max(deepest_stack_, top);
+    typename Workspace::Stack& stack = empty.stack_of(front);
+    stack.top += remainder_places(front);
+    std::size_t& most = stack_places_[front.even ? 0 : 1];
+    most = std::max(most, stack.top);
+    for (int child : front.children) empty.stack_of(fronts_[at(child)]).top -= remainder_places(fronts_[at(child)]);
   }
 }
 
 template <class Scalar>
 void BlockFactorOf<Scalar>::place_entries(const BlockMatrix& pattern) {
-  std::vector<int> front_of(order_.size());
-  for (std::size_t f = 0; f < fronts_.size(); ++f) {
-    for (int k = 0; k < fronts_[f].own; ++k) front_of[at(fronts_[f].nodes[at(k)])] = static_cast<int>(f);
-  }
-  entries_.resize(fronts_.size());
   const Eigen::SparseMatrix<double>& lower = pattern.lower();
   for (int column = 0; column < pattern.nodes(); ++column) {
     for (int k = lower.outerIndexPtr()[3 * column]; k < lower.outerIndexPtr()[3 * column + 1]; k += 3) {
       const int row = lower.innerIndexPtr()[k] / 3;
-      const int p = order_[at(row)], q = order_[at(column)];
-      const int first = std::min(p, q), second = std::max(p, q);
-      const std::size_t f = at(front_of[at(first)]);
-      const std::vector<int>& nodes = fronts_[f].nodes;
-      const auto place = [&](int node) {
-        return static_cast<int>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
-      };
-      entries_[f].push_back({pattern.slot(row, column), place(second), place(first), p < q});
+      entries_.push_back({pattern.slot(row, column), slot(row, column), is_later(column, row)});
     }
+  }
+  std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) { return a.to.base < b.to.base; });
+}
+
+template <class Scalar>
+void BlockFactorOf<Scalar>::set_zero() {
+  std::fill(values_.begin(), values_.end(), Scalar(0));
+}
+
+template <class Scalar>
+BlockSlot BlockFactorOf<Scalar>::slot(int a, int b) const {
+  const int first = std::min(order_[at(a)], order_[at(b)]), second = std::max(order_[at(a)], order_[at(b)]);
+  const Front& front = fronts_[at(front_of_[at(first)])];
+  const auto place = [&front](int node) {
+    return 3 * static_cast<int>(std::lower_bound(front.nodes.begin(), front.nodes.end(), node) - front.nodes.begin());
+  };
+  const int stride = 3 * static_cast<int>(front.nodes.size()) + kFrontPadding;
+  return {static_cast<int>(front.start) + place(first) * stride + place(second), stride};
+}
+
+template <class Scalar>
+void BlockFactorOf<Scalar>::add(int row, int column, const Mat3& block) {
+  const BlockSlot where = slot(row, column);
+  const bool transposed = is_later(column, row);
+  Scalar* to = values_.data() + where.base;
+  for (int j = 0; j < 3; ++j, to += where.stride) {
+    for (int i = 0; i < 3; ++i) to[i] += static_cast<Scalar>(transposed ? block(j, i) : block(i, j));
   }
 }
 
-/// Places of a front's remainder on the stack: its lower triangle, column after column.
+template <class Scalar>
+void BlockFactorOf<Scalar>::add_diagonal(int node, double value) {
+  const BlockSlot& where = diagonals_[at(node)];
+  for (int i = 0; i < 3; ++i) values_[at(where.base + i * where.stride + i)] += static_cast<Scalar>(value);
+}
+
+/// Places of a front's remainder on a stack.
 template <class Scalar>
 std::size_t BlockFactorOf<Scalar>::remainder_places(const Front& front) {
   const std::size_t below = 3 * (front.nodes.size() - at(front.own));
-  return below * (below + 1) / 2;
+  return below * (below + kFrontPadding);
 }
 
 template <class Scalar>
 void BlockFactorOf<Scalar>::reserve(Workspace& work) const {
-  const std::size_t stride = largest_front_ + kFrontPadding;
-  work.rest.resize(std::max(work.rest.size(), largest_rest_ * stride));
-  work.panel.resize(std::max(work.panel.size(), kFrontPanel * stride));
-  work.stack.resize(std::max(work.stack.size(), deepest_stack_));
-  work.top = 0;
+  work.panel.resize(std::max(work.panel.size(), kFrontPanel * (largest_front_ + kFrontPadding)));
+  for (std::size_t k = 0; k < 2; ++k) {
+    std::vector<Scalar>& places = work.stacks[k].places;
+    places.resize(std::max(places.size(), stack_places_[k] + kFrontPadding));
+    work.stacks[k].top = 0;
+  }
 }
 
 template <class Scalar>
 DenseFront<Scalar> BlockFactorOf<Scalar>::kept(std::size_t f) const {
   const int size = 3 * static_cast<int>(fronts_[f].nodes.size());
   // The values are this object's own; const callers only read them.
-  return {const_cast<Scalar*>(values_[f].data()), nullptr, size + kFrontPadding, size, 3 * fronts_[f].own};
+  return {const_cast<Scalar*>(values_.data() + fronts_[f].start), nullptr, size, 3 * fronts_[f].own};
 }
 
-/// Adds the matrix's own blocks.
+/// The front before its elimination. Its own columns are where solve() finds them, the rest on top of its stack.
 template <class Scalar>
-void BlockFactorOf<Scalar>::add_entries(std::size_t f, const double* values, const DenseFront<Scalar>& to) const {
-  for (const Entry& entry : entries_[f]) {
-    const double* block = values + entry.slot.base;
-    for (int j = 0; j < 3; ++j) {
-      Scalar* column = to.column(3 * entry.column + j) + 3 * entry.row;
-      for (int i = 0; i < 3; ++i) {
-        column[i] +=
-            static_cast<Scalar>(entry.transposed ? block[i * entry.slot.stride + j] : block[j * entry.slot.stride + i]);
-      }
-    }
-  }
-}
-
-/// Adds a child's packed lower triangle, column after column.
-template <class Scalar>
-void BlockFactorOf<Scalar>::add_remainder(const Front& child, const Scalar* remainder, const DenseFront<Scalar>& to) {
-  const auto add_rows = [&remainder](Scalar* rows, int count) {
-    for (int i = 0; i < count; ++i) rows[i] += remainder[i];
-    remainder += count;
-  };
-  for (auto run = child.runs.begin(); run != child.runs.end(); ++run) {
-    for (int j = 0; j < 3 * run->count; ++j) {
-      Scalar* column = to.column(3 * run->place + j);
-      add_rows(column + 3 * run->place + j, 3 * run->count - j);
-      for (auto below = run + 1; below != child.runs.end(); ++below)
-        add_rows(column + 3 * below->place, 3 * below->count);
-    }
-  }
-}
-
-/// The front before its elimination. Its own columns are where solve() finds them, the rest in the workspace.
-template <class Scalar>
-DenseFront<Scalar> BlockFactorOf<Scalar>::assemble_front(std::size_t f, const double* values, Workspace& work) {
+DenseFront<Scalar> BlockFactorOf<Scalar>::assemble_front(std::size_t f, Workspace& work) {
+  const Front& front = fronts_[f];
+  typename Workspace::Stack& stack = work.stack_of(front);
   DenseFront<Scalar> to = kept(f);
-  to.rest_values = work.rest.data();
-  for (int c = 0; c < to.size; ++c) std::fill(to.column(c) + c, to.column(c) + to.size, Scalar(0));
-  add_entries(f, values, to);
-  const std::vector<int>& children = fronts_[f].children;
-  for (auto child = children.rbegin(); child != children.rend(); ++child) {
-    work.top -= remainder_places(fronts_[at(*child)]);
-    add_remainder(fronts_[at(*child)], work.stack.data() + work.top, to);
+  to.rest_values = stack.places.data() + stack.top;
+  zero_remainder(to);
+  stack.top += remainder_places(front);
+  for (auto child = front.children.rbegin(); child != front.children.rend(); ++child) {
+    const Front& below = fronts_[at(*child)];
+    typename Workspace::Stack& from = work.stack_of(below);
+    from.top -= remainder_places(below);
+    add_remainder<Scalar>(from.places.data() + from.top, below.runs, to);
   }
   return to;
 }
 
 template <class Scalar>
-void BlockFactorOf<Scalar>::push_remainder(const Front& front, const DenseFront<Scalar>& dense, Workspace& work) {
-  Scalar* stack = work.stack.data() + work.top;
-  for (int c = dense.own; c < dense.size; ++c) {
-    stack = std::copy(dense.column(c) + c, dense.column(c) + dense.size, stack);
-  }
-  work.top += remainder_places(front);
-}
-
-template <class Scalar>
-bool BlockFactorOf<Scalar>::factor(const BlockMatrix& matrix) {
+bool BlockFactorOf<Scalar>::factor() {
   thread_local Workspace work;
   reserve(work);
   positive_ = true;
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
-    const DenseFront<Scalar> dense = assemble_front(f, matrix.lower().valuePtr(), work);
-    const Pivots pivots = eliminate_front(dense, work.panel.data());
+    const Pivots pivots = eliminate_front(assemble_front(f, work), work.panel.data());
     if (pivots != Pivots::Positive) positive_ = false;
     if (pivots == Pivots::Unusable) return false;
-    push_remainder(fronts_[f], dense, work);
   }
   return true;
 }
 
-/// Four right sides side by side, in elimination order, become the solutions.
 template <class Scalar>
-void BlockFactorOf<Scalar>::solve_four(double* x) const {
-  constexpr std::ptrdiff_t kNode = 4 * 3;  // numbers a node
-  std::vector<double> local(4 * largest_front_);
-  const auto sweep = [&](const Front& front, auto&& solve_front) {
-    double* place = local.data();
-    for (int node : front.nodes) place = std::copy_n(x + kNode * node, kNode, place);
-    solve_front(local.data());
-    const double* from = local.data();
-    for (int node : front.nodes) {
-      std::copy_n(from, kNode, x + kNode * node);
-      from += kNode;
+bool BlockFactorOf<Scalar>::factor(const BlockMatrix& matrix) {
+  set_zero();
+  const double* values = matrix.lower().valuePtr();
+  for (const Entry& entry : entries_) {
+    const double* block = values + entry.from.base;
+    const std::ptrdiff_t down = entry.transposed ? entry.from.stride : 1,
+                         across = entry.transposed ? 1 : entry.from.stride;
+    Scalar* to = values_.data() + entry.to.base;
+    for (int j = 0; j < 3; ++j, to += entry.to.stride) {
+      for (int i = 0; i < 3; ++i) to[i] = static_cast<Scalar>(block[j * across + i * down]);
+    }
+  }
+  return factor();
+}
+
+/// Right sides, one after the other in elimination order, become the solutions.
+template <class Scalar>
+void BlockFactorOf<Scalar>::solve_four(Scalar* x) const {
+  const std::size_t rows = 3 * order_.size();
+  std::vector<Scalar> local(kRightSides * (largest_front_ + kFrontPadding));
+  const auto sweep = [&](std::size_t f, auto&& solve_front) {
+    const std::vector<int>& nodes = fronts_[f].nodes;
+    const std::size_t stride = 3 * nodes.size() + kFrontPadding;
+    for (std::size_t r = 0; r < kRightSides; ++r) {
+      Scalar* place = local.data() + r * stride;
+      for (int node : nodes) place = std::copy_n(x + r * rows + 3 * at(node), 3, place);
+      std::fill_n(place, kFrontPadding, Scalar(0));
+    }
+    solve_front(kept(f), local.data());
+    for (std::size_t r = 0; r < kRightSides; ++r) {
+      const Scalar* from = local.data() + r * stride;
+      for (int node : nodes) {
+        std::copy_n(from, 3, x + r * rows + 3 * at(node));
+        from += 3;
+      }
     }
   };
-  for (std::size_t f = 0; f < fronts_.size(); ++f) {
-    sweep(fronts_[f], [this, f](double* values) { solve_forward(kept(f), values); });
-  }
-  for (std::size_t f = fronts_.size(); f-- > 0;) {
-    sweep(fronts_[f], [this, f](double* values) { solve_backward(kept(f), values); });
-  }
+  for (std::size_t f = 0; f < fronts_.size(); ++f) sweep(f, solve_forward<Scalar>);
+  for (std::size_t f = fronts_.size(); f-- > 0;) sweep(f, solve_backward<Scalar>);
 }
 
 template <class Scalar>
 Eigen::MatrixXd BlockFactorOf<Scalar>::solve(const Eigen::MatrixXd& right) const {
   Eigen::MatrixXd result(right.rows(), right.cols());
-  std::vector<double> four(4 * 3 * order_.size());
-  for (Eigen::Index first = 0; first < right.cols(); first += 4) {
-    const Eigen::Index count = std::min<Eigen::Index>(4, right.cols() - first);
-    std::fill(four.begin(), four.end(), 0.0);
-    const auto place = [&](Eigen::Index row, Eigen::Index column) -> double& {
-      return four[at(4 * (3 * order_[static_cast<std::size_t>(row / 3)] + static_cast<int>(row % 3)) +
-                     static_cast<int>(column))];
-    };
-    for (Eigen::Index c = 0; c < count; ++c) {
-      for (Eigen::Index row = 0; row < right.rows(); ++row) place(row, c) = right(row, first + c);
+  const Eigen::Index nodes = right.rows() / 3;
+  std::vector<Scalar> sides(kRightSides * static_cast<std::size_t>(right.rows()));
+  const auto place = [&](Eigen::Index node, Eigen::Index side) {
+    return sides.data() + side * right.rows() + 3 * order_[static_cast<std::size_t>(node)];
+  };
+  for (Eigen::Index first = 0; first < right.cols(); first += kRightSides) {
+    const Eigen::Index count = std::min<Eigen::Index>(kRightSides, right.cols() - first);
+    std::fill(sides.begin(), sides.end(), Scalar(0));
+    for (Eigen::Index side = 0; side < count; ++side) {
+      for (Eigen::Index node = 0; node < nodes; ++node) {
+        for (int i = 0; i < 3; ++i) place(node, side)[i] = static_cast<Scalar>(right(3 * node + i, first + side));
+      }
     }
-    solve_four(four.data());
-    for (Eigen::Index c = 0; c < count; ++c) {
-      for (Eigen::Index row = 0; row < right.rows(); ++row) result(row, first + c) = place(row, c);
+    solve_four(sides.data());
+    for (Eigen::Index side = 0; side < count; ++side) {
+      for (Eigen::Index node = 0; node < nodes; ++node) {
+        for (int i = 0; i < 3; ++i) result(3 * node + i, first + side) = static_cast<double>(place(node, side)[i]);
+      }
     }
   }
   return result;

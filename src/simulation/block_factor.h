@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <Eigen/Core>
@@ -22,7 +23,20 @@ class BlockFactorOf {
   /// Analyses the pattern.
   explicit BlockFactorOf(const BlockMatrix& pattern);
 
-  /// Factors a matrix of that pattern. False when a pivot is zero or not finite; solve() must not be called then.
+  // The matrix may be added up where it will be factored, block by block after set_zero():
+  void set_zero();
+  Scalar* values() { return values_.data(); }
+  /// Of the stored block of two nodes of the pattern; its rows are those of the node that is eliminated later.
+  BlockSlot slot(int a, int b) const;
+  bool is_later(int a, int b) const {
+    return order_[static_cast<std::size_t>(a)] > order_[static_cast<std::size_t>(b)];
+  }
+  void add(int row, int column, const Mat3& block);
+  void add_diagonal(int node, double value);
+
+  /// Factors what was added. False when a pivot is zero or not finite; solve() must not be called then.
+  bool factor();
+  /// Factors a matrix of that pattern.
   bool factor(const BlockMatrix& matrix);
   /// Every pivot of the last factorisation was positive.
   bool positive() const { return positive_; }
@@ -33,50 +47,51 @@ class BlockFactorOf {
   Eigen::MatrixXd solve_refined(const BlockMatrix& matrix, const Eigen::MatrixXd& right) const;
 
  private:
-  /// Neighbouring nodes that are neighbours in the parent's list too.
-  struct Run {
-    int count = 0;
-    int place = 0;  // of the first one in the parent's list
-  };
   /// A group of neighbouring columns with one dense front: its own nodes first, then the nodes below that it touches.
   struct Front {
     std::vector<int> nodes;  // in elimination order's numbering; the first `own` are eliminated here
     int own = 0;
-    std::vector<int> children;  // fronts whose remainder is added here
-    std::vector<Run> runs;      // where the nodes after the own ones are in the parent's list
+    std::size_t start = 0;       // of its own columns in the values
+    std::vector<int> children;   // fronts whose remainder is added here
+    std::vector<FrontRun> runs;  // where the rows after the own ones are in the parent
+    bool even = false;           // an even number of fronts above it
   };
-  /// A block of the matrix and where it goes.
+  /// A block of a BlockMatrix and where it goes.
   struct Entry {
-    BlockSlot slot;
-    int row = 0, column = 0;  // in the front's list of nodes
+    BlockSlot from, to;
     bool transposed = false;
   };
 
   void make_fronts(const std::vector<std::vector<int>>& neighbours);
   void place_entries(const BlockMatrix& pattern);
-  /// What a factorisation works in: one front's columns that are not its own, its panel, and the remainders that wait
-  /// for their parents. Fronts are met children first, so the waiting remainders are a stack. One a thread, small
-  /// enough to stay in its cache.
+  /// What a factorisation works in: the panel of eliminate_front() and the remainders that wait for their parents.
+  /// Fronts are met children first, so what waits is a stack; two of them, because a front's own remainder is built
+  /// while its children's are still read. One a thread, small enough to stay in its cache.
   struct Workspace {
-    std::vector<Scalar> rest, panel, stack;
-    std::size_t top = 0;
+    struct Stack {
+      std::vector<Scalar> places;
+      std::size_t top = 0;
+    };
+    std::vector<Scalar> panel;
+    std::array<Stack, 2> stacks;  // of fronts with an even number of fronts above them, and the others
+
+    Stack& stack_of(const Front& front) { return stacks[front.even ? 0 : 1]; }
   };
   static std::size_t remainder_places(const Front& front);
+  void find_depths();
   void reserve(Workspace& work) const;
-  DenseFront<Scalar> assemble_front(std::size_t front, const double* values, Workspace& work);
-  void add_entries(std::size_t front, const double* values, const DenseFront<Scalar>& to) const;
-  static void add_remainder(const Front& child, const Scalar* remainder, const DenseFront<Scalar>& to);
-  static void push_remainder(const Front& front, const DenseFront<Scalar>& dense, Workspace& work);
+  DenseFront<Scalar> assemble_front(std::size_t front, Workspace& work);
   DenseFront<Scalar> kept(std::size_t front) const;
-  void solve_four(double* x) const;
+  void solve_four(Scalar* x) const;
 
-  std::vector<int> order_;  // elimination position of each node
+  std::vector<int> order_;            // elimination position of each node
+  std::vector<BlockSlot> diagonals_;  // of each node
   std::vector<Front> fronts_;
-  std::vector<std::vector<Entry>> entries_;  // one list a front
-  std::vector<std::vector<Scalar>> values_;  // own columns of each front after factor(), see dense_front.h
-  std::size_t largest_front_ = 0;            // rows
-  std::size_t largest_rest_ = 0;             // columns that are not a front's own
-  std::size_t deepest_stack_ = 0;            // places
+  std::vector<int> front_of_;      // by elimination position: the front that eliminates it
+  std::vector<Entry> entries_;     // of a whole BlockMatrix
+  std::vector<Scalar> values_;     // own columns of all fronts, see dense_front.h: the matrix, then its factors
+  std::size_t largest_front_ = 0;  // rows
+  std::array<std::size_t, 2> stack_places_{};  // that the stacks of a workspace need
   bool positive_ = false;
 };
 

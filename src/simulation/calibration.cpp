@@ -51,7 +51,7 @@ LineTarget line_target(const anatomy::Specimen& specimen, int index, const Skele
 /// Change of the tension with a joint's angle, the free nodes following in equilibrium [N/rad]. At a settled state.
 double tension_slope(const Skeleton& skeleton, int joint, LimbMuscle& muscle) {
   const TissueLoad load;
-  compute_system(muscle.tissue, skeleton, load, muscle.state, muscle.system);
+  compute_system(skeleton, load, muscle, Accuracy::Refined);
   Eigen::MatrixXd follow;
   const Pivots pivots = factor_system(muscle, muscle.system.coupling_N_rad.col(joint), follow, Accuracy::Refined);
   if (pivots == Pivots::Unusable) return std::nan("");

@@ -12,7 +12,7 @@
 
 namespace myotact::simulation::tiles {
 
-/// Columns [start, start + width), eliminated, with `scaled`: their L D, `stride` places a column.
+/// Columns [start, start + width), eliminated, with `scaled`: their L D, as far apart as the own columns.
 template <class Scalar>
 struct Eliminated {
   int start, width;
@@ -84,31 +84,44 @@ struct Avx512Double {
 };
 #endif
 
-// kColumns columns from j: rows from the diagonal on -= rows factors^T. A macro, because an intrinsic is inlined only
-// into a function that names its target itself.
+// kColumns columns from j: rows from the diagonal on -= rows factors^T, kRegisters of them side by side as long as
+// there are so many. A macro, because an intrinsic is inlined only into a function that names its target itself.
 #define MYOTACT_STRIP(NAME, TARGET)                                                                                \
-  template <class Register, int kColumns, class Scalar>                                                            \
-  TARGET void NAME(const DenseFront<Scalar>& front, const Eliminated<Scalar>& by, int j) {                         \
-    const std::ptrdiff_t stride = front.stride;                                                                    \
-    for (int i = j; i < front.size; i += Register::kRows) {                                                        \
+  template <class Register, int kColumns, int kRegisters, class Scalar>                                            \
+  TARGET int NAME(const DenseFront<Scalar>& front, const Eliminated<Scalar>& by, int j, int first_row) {           \
+    constexpr int kRows = kRegisters * Register::kRows;                                                            \
+    const std::ptrdiff_t stride = front.stride(by.start), to_stride = front.stride(j);                             \
+    int i = first_row;                                                                                             \
+    for (; i + kRows - Register::kRows < front.size; i += kRows) {                                                 \
       const Scalar *row = by.scaled + i, *factor = front.column(by.start) + j;                                     \
-      typename Register::Value sum[kColumns];                                                                      \
-      for (int c = 0; c < kColumns; ++c) sum[c] = Register::zero();                                                \
+      typename Register::Value sum[kRegisters][kColumns];                                                          \
+      for (int r = 0; r < kRegisters; ++r) {                                                                       \
+        for (int c = 0; c < kColumns; ++c) sum[r][c] = Register::zero();                                           \
+      }                                                                                                            \
       for (int k = 0; k < by.width; ++k, row += stride, factor += stride) {                                        \
-        const typename Register::Value rows = Register::load(row);                                                 \
-        for (int c = 0; c < kColumns; ++c) sum[c] = Register::multiply_add(rows, factor[c], sum[c]);               \
+        for (int r = 0; r < kRegisters; ++r) {                                                                     \
+          const typename Register::Value rows = Register::load(row + r * Register::kRows);                         \
+          for (int c = 0; c < kColumns; ++c) sum[r][c] = Register::multiply_add(rows, factor[c], sum[r][c]);       \
+        }                                                                                                          \
       }                                                                                                            \
       Scalar* to = front.column(j) + i;                                                                            \
-      for (int c = 0; c < kColumns; ++c, to += stride) {                                                           \
-        Register::store(to, Register::subtract(Register::load(to), sum[c]));                                       \
+      for (int c = 0; c < kColumns; ++c, to += to_stride) {                                                        \
+        for (int r = 0; r < kRegisters; ++r) {                                                                     \
+          Scalar* here = to + r * Register::kRows;                                                                 \
+          Register::store(here, Register::subtract(Register::load(here), sum[r][c]));                              \
+        }                                                                                                          \
       }                                                                                                            \
     }                                                                                                              \
+    return i;                                                                                                      \
   }                                                                                                                \
   template <class Register, class Scalar>                                                                          \
   TARGET void NAME##_columns(const DenseFront<Scalar>& front, const Eliminated<Scalar>& by, int first, int last) { \
     int j = first;                                                                                                 \
-    for (; j + 6 <= last; j += 6) NAME<Register, 6>(front, by, j);                                                 \
-    if (j < last) NAME<Register, 3>(front, by, j);                                                                 \
+    for (; j + 6 <= last; j += 6) {                                                                                \
+      const int i = NAME<Register, 6, 2>(front, by, j, j);                                                         \
+      NAME<Register, 6, 1>(front, by, j, i);                                                                       \
+    }                                                                                                              \
+    if (j < last) NAME<Register, 3, 1>(front, by, j, j);                                                           \
   }
 
 MYOTACT_STRIP(plain, )

@@ -22,7 +22,7 @@ Limb::Limb(const anatomy::Specimen& specimen) : skeleton(specimen) {
     muscle.tissue = build_muscle_tissue(specimen, m);
     muscle.state = make_state(muscle.tissue);
     muscle.system = make_system(muscle.tissue, skeleton);
-    muscle.factor = BlockFactor(muscle.tissue.pattern);
+    muscle.factor = make_factor(muscle.tissue);
     muscle.stiffness_Nm_rad = muscle.readout.torque_Nm = Eigen::VectorXd::Zero(skeleton.joint_count());
     muscles.push_back(std::move(muscle));
   }
@@ -90,25 +90,32 @@ void read_out(Limb& limb) {
   limb.loads.compute(limb.skeleton, {limb.gravity_m_s2, span(limb.now.velocity_rad_s), span(limb.external_torque_Nm)});
 }
 
+void compute_system(const Skeleton& skeleton, const TissueLoad& load, LimbMuscle& muscle, Accuracy accuracy) {
+  if (accuracy == Accuracy::Single)
+    compute_system(muscle.tissue, skeleton, load, muscle.state, muscle.system, muscle.factor);
+  else
+    compute_system(muscle.tissue, skeleton, load, muscle.state, muscle.system);
+}
+
 Pivots factor_system(LimbMuscle& muscle, const Eigen::MatrixXd& right, Eigen::MatrixXd& solution, Accuracy accuracy) {
-  if (!muscle.factor.factor(muscle.system.matrix)) return Pivots::Unusable;
+  BlockFactor& factor = muscle.factor.matrix;
+  const bool refined = accuracy == Accuracy::Refined;
+  if (!(refined ? factor.factor(muscle.system.matrix) : factor.factor())) return Pivots::Unusable;
   const MeanTerm& mean = muscle.system.mean;
   Eigen::MatrixXd sides(right.rows(), right.cols() + 1);
   sides << mean.gradient, right;
-  const Eigen::MatrixXd solved = accuracy == Accuracy::Refined
-                                     ? muscle.factor.solve_refined(muscle.system.matrix, sides)
-                                     : muscle.factor.solve(sides);
+  const Eigen::MatrixXd solved = refined ? factor.solve_refined(muscle.system.matrix, sides) : factor.solve(sides);
   muscle.mean_solution = solved.col(0);
   const double pivot = 1.0 + mean.factor_Nm * mean.gradient.dot(muscle.mean_solution);
   if (!std::isfinite(pivot) || pivot == 0.0) return Pivots::Unusable;
   muscle.mean_share_Nm = mean.factor_Nm / pivot;
   solution = solved.rightCols(right.cols());
   add_mean_term(muscle, solution);
-  return muscle.factor.positive() && pivot > 0.0 ? Pivots::Positive : Pivots::Mixed;
+  return factor.positive() && pivot > 0.0 ? Pivots::Positive : Pivots::Mixed;
 }
 
 Eigen::MatrixXd solve(const LimbMuscle& muscle, const Eigen::MatrixXd& right) {
-  Eigen::MatrixXd solution = muscle.factor.solve(right);
+  Eigen::MatrixXd solution = muscle.factor.matrix.solve(right);
   add_mean_term(muscle, solution);
   return solution;
 }

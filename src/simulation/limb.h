@@ -35,7 +35,7 @@ struct LimbMuscle {
   bool rigid = false;  // follows the bones, exerts nothing
   TissueState state;
   TissueSystem system;
-  BlockFactor factor;                 // of the system's sparse matrix
+  TissueFactor factor;                // of the system's sparse matrix
   Eigen::VectorXd mean_solution;      // factor^-1 mean gradient
   double mean_share_Nm = 0.0;         // by which the mean term changes a solution, see solve()
   Eigen::VectorXd free_solution;      // matrix^-1 residual
@@ -94,8 +94,11 @@ void read_out(Limb& limb);
 
 /// Single: for a Newton step, whose residual tells what is left. Refined: for a solution that is read out itself.
 enum class Accuracy { Single, Refined };
-/// Factors the system, its mean term included, and solves it for `right`. Unusable: neither the solution nor solve()
-/// may be used.
+/// Tangent and residual of the present iterate, for factor_system() of the same accuracy.
+void compute_system(const Skeleton& skeleton, const TissueLoad& load, LimbMuscle& muscle,
+                    Accuracy accuracy = Accuracy::Single);
+/// Factors the system, its mean term included, and solves it for `right`. Once after compute_system(). Unusable:
+/// neither the solution nor solve() may be used.
 Pivots factor_system(LimbMuscle& muscle, const Eigen::MatrixXd& right, Eigen::MatrixXd& solution,
                      Accuracy accuracy = Accuracy::Single);
 /// (matrix + mean term)^-1 right with the last factors.

@@ -101,7 +101,6 @@ void add_clamps(const anatomy::Muscle& muscle, const std::vector<std::array<int,
 
 /// Elements of one material, eight at a time.
 void add_batches(bool sheath, MuscleTissue& tissue) {
-  const auto free_node = [&](int node) { return tissue.free_index[at(node)]; };
   bool open = false;  // the last batch takes more
   for (std::size_t t = 0; t < tissue.elements.size(); ++t) {
     const TissueElement& element = tissue.elements[t];
@@ -111,13 +110,7 @@ void add_batches(bool sheath, MuscleTissue& tissue) {
     const std::size_t lane = at(batch.tets.count++);
     set_lane(batch.tets, lane, static_cast<int>(t), element.shape, element.nodes);
     batch.peak_Pa.lane[lane] = element.peak_Pa;
-    std::size_t pair = 0;
-    for (std::size_t a = 0; a < kTetNodes; ++a) {
-      for (std::size_t b = a; b < kTetNodes; ++b, ++pair) {
-        batch.tets.slots[lane][pair] =
-            pair_slot(tissue.pattern, free_node(element.nodes[a]), free_node(element.nodes[b]));
-      }
-    }
+    set_slots<QuadraticTet>(tissue.pattern, free_nodes(tissue, element.nodes), lane, batch.tets.slots);
     open = batch.tets.count < kBatch;
   }
 }

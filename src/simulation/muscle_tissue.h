@@ -68,6 +68,13 @@ struct MuscleTissue {
   Vec3 before_insertion_rest_m = Vec3::Zero();
 };
 
+/// Numbers of an element's nodes among the free ones; -1 for the clamped.
+inline std::array<int, kTetNodes> free_nodes(const MuscleTissue& tissue, const std::array<int, kTetNodes>& nodes) {
+  std::array<int, kTetNodes> free{};
+  for (std::size_t a = 0; a < kTetNodes; ++a) free[a] = tissue.free_index[static_cast<std::size_t>(nodes[a])];
+  return free;
+}
+
 /// Throws Error BadData naming the muscle when it cannot be simulated: no tets, nothing clamped, a tet of no volume.
 MuscleTissue build_muscle_tissue(const anatomy::Specimen& specimen, int muscle);
 

@@ -39,11 +39,11 @@ bool find_direction(const Skeleton& skeleton, TissueLoad load, double time_s, Li
   muscle.state.last.position_m = muscle.state.now.position_m;
   load.rule = backward_euler(time_s);
   load.force_velocity = false;
-  compute_system(muscle.tissue, skeleton, load, muscle.state, muscle.system);
+  compute_system(skeleton, load, muscle);
   Pivots pivots = factor_system(muscle, -muscle.system.residual_N, direction);
   if (pivots != Pivots::Positive) {
     load.definite = true;
-    compute_system(muscle.tissue, skeleton, load, muscle.state, muscle.system);
+    compute_system(skeleton, load, muscle);
     pivots = factor_system(muscle, -muscle.system.residual_N, direction);
   }
   return pivots == Pivots::Positive && direction.allFinite();
@@ -157,7 +157,7 @@ bool settle_limb(Limb& limb, std::span<const double> angles_rad, WorkerPool& wor
 
 void refresh_muscle_stiffness(const Limb& limb, LimbMuscle& muscle) {
   if (muscle.rigid) return;
-  compute_system(muscle.tissue, limb.skeleton, static_load(limb.gravity_m_s2), muscle.state, muscle.system);
+  compute_system(limb.skeleton, static_load(limb.gravity_m_s2), muscle, Accuracy::Refined);
   Eigen::MatrixXd solution;
   const Pivots pivots = factor_system(muscle, muscle.system.coupling_N_rad, solution, Accuracy::Refined);
   if (pivots == Pivots::Unusable) return;

@@ -74,7 +74,7 @@ void Skeleton::order_joints() {
     int above = carrier[index(b)];
     for (int climbed = 0; above >= 0; ++climbed) {
       if (climbed > joint_count()) throw joint_error(joints_[index(above)], "the joints form a loop; cut it");
-      distal_[index(b) * joints_.size() + index(above)] = 1;
+      distal_[index(b) * joints_.size() + index(above)] = joints_[index(above)].type == anatomy::JointType::Hinge;
       if (carrier[index(b)] != above) ++joints_above[index(carrier[index(b)])];
       above = carrier[index(joints_[index(above)].parent)];
     }

@@ -37,7 +37,7 @@ class Skeleton {
   const Pose& body_pose(int body) const { return poses_[index(body)]; }
   Vec3 axis_W(int joint) const { return axes_W_[index(joint)]; }  // unit; 0 for a weld
   Vec3 centre_W(int joint) const { return centres_W_[index(joint)]; }
-  /// True when turning `joint` moves `body` (locked or not).
+  /// True when turning `joint` moves `body` (locked or not); never of a weld.
   bool is_distal(int body, int joint) const { return distal_[index(body) * joints_.size() + index(joint)]; }
 
   /// dp/dq_joint [m/rad] of the point of `body` that is at p_W now.

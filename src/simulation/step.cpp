@@ -70,7 +70,7 @@ Eigen::Index fill_borders(const Limb& limb, const SmallSystem& small, int index,
 /// Tangent, factor, and the solutions for the residual and the borders.
 Pivots factor_muscle(const Limb& limb, const SmallSystem& small, const TissueLoad& load, int index,
                      LimbMuscle& muscle) {
-  compute_system(muscle.tissue, limb.skeleton, load, muscle.state, muscle.system);
+  compute_system(limb.skeleton, load, muscle);
   const Eigen::Index used = fill_borders(limb, small, index, muscle);
   Eigen::MatrixXd sides(muscle.borders.rows(), 1 + used), solution;
   sides << muscle.system.residual_N, muscle.borders.leftCols(used);

@@ -24,7 +24,17 @@ struct Pass {
   TissueState& state;
   TissueSystem& system;
   bool tangent;
+  TissueFactor* factor = nullptr;  // takes the sparse part of the tangent; else the system does
 };
+
+/// Calls action(matrix) with where the sparse part of the tangent goes.
+template <class Action>
+void with_matrix(const Pass& pass, const Action& action) {
+  if (pass.factor != nullptr)
+    action(pass.factor->matrix);
+  else
+    action(pass.system.matrix);
+}
 
 using Nodes = TetNodeVectors<Eight, QuadraticTet>;
 using Blocks = TetBlocks<Eight, QuadraticTet>;
@@ -147,7 +157,12 @@ void add_forces(const Pass& pass, const TissueBatch& batch, const MuscleBatch& m
 void add_stiffness(const Pass& pass, const TissueBatch& batch, const MuscleBatch& muscle) {
   Blocks blocks;
   muscle_stiffness(muscle, pass.load.definite, blocks);
-  scatter(batch.tets, blocks, pass.system.matrix.values());
+  if (pass.factor != nullptr) {
+    const auto index = static_cast<std::size_t>(&batch - pass.tissue.batches.data());
+    scatter<QuadraticTet>(pass.factor->slots[index], batch.tets.count, blocks, pass.factor->matrix.values());
+  } else {
+    scatter<QuadraticTet>(batch.tets.slots, batch.tets.count, blocks, pass.system.matrix.values());
+  }
   Nodes mean_parts;
   fibre_stretch_slopes(muscle.shapes, muscle.points, mean_parts);
   for (std::size_t lane = 0; lane < at(batch.tets.count); ++lane) {
@@ -218,7 +233,8 @@ void add_strand(const Pass& pass, const TendonStrand& strand) {
     for (std::size_t m = 0; m < strand.nodes.size(); ++m) {
       const int column = pass.tissue.free_index[at(strand.nodes[m])];
       if (column > row) continue;
-      pass.system.matrix.add(row, column, strand.weights[k] * strand.weights[m] * state.stiffness_N_m);
+      const Mat3 block = strand.weights[k] * strand.weights[m] * state.stiffness_N_m;
+      with_matrix(pass, [&](auto& matrix) { matrix.add(row, column, block); });
     }
   }
   pass.system.joint_stiffness_Nm_rad += state.stiffness_Nm_rad;
@@ -262,7 +278,7 @@ void add_nodes(const Pass& pass) {
       continue;
     }
     pass.system.residual_N.segment<3>(3 * f) = force;
-    if (pass.tangent) pass.system.matrix.add_diagonal(f, mass_rate);
+    if (pass.tangent) with_matrix(pass, [&](auto& matrix) { matrix.add_diagonal(f, mass_rate); });
   }
 }
 
@@ -285,7 +301,7 @@ void run(const Pass& pass) {
   system.tension_N = system.force_scale_N = 0.0;
   system.smallest_J = 1e300;
   if (pass.tangent) {
-    system.matrix.set_zero();
+    with_matrix(pass, [](auto& matrix) { matrix.set_zero(); });
     system.coupling_N_rad.setZero();
     system.joint_stiffness_Nm_rad.setZero();
     system.mean.gradient.setZero();
@@ -321,6 +337,17 @@ void place_clamped(const MuscleTissue& tissue, const Skeleton& skeleton, TissueS
   }
 }
 
+TissueFactor make_factor(const MuscleTissue& tissue) {
+  TissueFactor factor{BlockFactor(tissue.pattern), std::vector<TetSlots<QuadraticTet>>(tissue.batches.size())};
+  for (std::size_t b = 0; b < tissue.batches.size(); ++b) {
+    const TetBatch<QuadraticTet>& tets = tissue.batches[b].tets;
+    for (std::size_t lane = 0; lane < at(tets.count); ++lane) {
+      set_slots<QuadraticTet>(factor.matrix, free_nodes(tissue, tets.nodes[lane]), lane, factor.slots[b]);
+    }
+  }
+  return factor;
+}
+
 TissueSystem make_system(const MuscleTissue& tissue, const Skeleton& skeleton) {
   const Eigen::Index joints = skeleton.joint_count();
   TissueSystem system;
@@ -344,6 +371,11 @@ void compute_forces(const MuscleTissue& tissue, const Skeleton& skeleton, const 
 void compute_system(const MuscleTissue& tissue, const Skeleton& skeleton, const TissueLoad& load, TissueState& state,
                     TissueSystem& system) {
   run({tissue, skeleton, load, state, system, true});
+}
+
+void compute_system(const MuscleTissue& tissue, const Skeleton& skeleton, const TissueLoad& load, TissueState& state,
+                    TissueSystem& system, TissueFactor& factor) {
+  run({tissue, skeleton, load, state, system, true, &factor});
 }
 
 }  // namespace myotact::simulation

@@ -74,14 +74,23 @@ struct TissueSystem {
   double volume_ratio = 1.0;         // of the whole muscle, now over rest
 };
 
+/// Factor of a muscle's sparse matrix.
+struct TissueFactor {
+  BlockFactor matrix;
+  std::vector<TetSlots<QuadraticTet>> slots;  // one a batch of elements
+};
+
+TissueFactor make_factor(const MuscleTissue& tissue);
 TissueSystem make_system(const MuscleTissue& tissue, const Skeleton& skeleton);
 
 /// Forces, residual and torques of the present iterate; stores its stretches in `state.now`, and its velocities unless
 /// the load is static.
 void compute_forces(const MuscleTissue& tissue, const Skeleton& skeleton, const TissueLoad& load, TissueState& state,
                     TissueSystem& system);
-/// The same and the tangent.
+/// The same and the tangent. Its sparse part goes into `system.matrix`, or instead, where it will be factored.
 void compute_system(const MuscleTissue& tissue, const Skeleton& skeleton, const TissueLoad& load, TissueState& state,
                     TissueSystem& system);
+void compute_system(const MuscleTissue& tissue, const Skeleton& skeleton, const TissueLoad& load, TissueState& state,
+                    TissueSystem& system, TissueFactor& factor);
 
 }  // namespace myotact::simulation

@@ -53,7 +53,7 @@ void time_parts(const anatomy::Specimen& specimen) {
     for (std::size_t m = 0; m < peers.size(); ++m) peers[m].factorize(limb.muscles[m].system.matrix.lower());
   });
   print("Eigen SimplicialLDLT, numeric factorisation", reference_ms, reference_ms);
-  print("factor", for_all([](LimbMuscle& m) { m.factor.factor(m.system.matrix); }), reference_ms);
+  print("factor", for_all([](LimbMuscle& m) { m.factor.matrix.factor(m.system.matrix); }), reference_ms);
   print("forces", for_all([&](LimbMuscle& m) { compute_forces(m.tissue, limb.skeleton, load, m.state, m.system); }),
         reference_ms);
   print("forces and tangent",
@@ -65,7 +65,7 @@ void time_parts(const anatomy::Specimen& specimen) {
       right.push_back(Eigen::MatrixXd::Ones(m.system.residual_N.size(), columns));
     }
     const double ms = median_ms([&] {
-      for (std::size_t m = 0; m < right.size(); ++m) limb.muscles[m].factor.solve(right[m]);
+      for (std::size_t m = 0; m < right.size(); ++m) limb.muscles[m].factor.matrix.solve(right[m]);
     });
     print(columns == 1 ? "solve, 1 right side" : "solve, 4 right sides", ms, reference_ms);
   }

@@ -87,19 +87,24 @@ void run_batch(const Kernel& kernel) {
 #if defined(__x86_64__)
 namespace detail {
 template <class Body>
-[[gnu::target("avx2")]] void run_plain_avx2(const Body& body) {
-  body();
+[[gnu::target("avx512f,avx512dq,avx512vl")]] void run_with_64_bytes(const Body& body) {
+  body(std::integral_constant<int, 64>{});
+}
+template <class Body>
+[[gnu::target("avx2")]] void run_with_32_bytes(const Body& body) {
+  body(std::integral_constant<int, 32>{});
 }
 }  // namespace detail
 #endif
 
-/// Calls body(), a lambda of plain loops marked always_inline, compiled for AVX2 where the processor has it.
+/// Calls body(integral_constant<int, kBytes>), a generic lambda marked always_inline, for registers of so many bytes.
 template <class Body>
 void run_for_processor(const Body& body) {
 #if defined(__x86_64__)
-  if (vector_unit() != VectorUnit::Sse2) return detail::run_plain_avx2(body);
+  if (vector_unit() == VectorUnit::Avx512) return detail::run_with_64_bytes(body);
+  if (vector_unit() == VectorUnit::Avx2) return detail::run_with_32_bytes(body);
 #endif
-  body();
+  body(std::integral_constant<int, 16>{});
 }
 
 }  // namespace myotact::simulation

@@ -46,7 +46,7 @@ MYOTACT_INLINE Real shear_at(const StableNeoHookean& matrix, const Point<Real>& 
 
 template <class Real>
 MYOTACT_INLINE void add_fibre_tangent(const Point<Real>& point, const Real& across, const Real& along,
-                                           std::array<Real, kPacked>& C) {
+                                      std::array<Real, kPacked>& C) {
   Matrix3<Real> direction;
   for (std::size_t k = 0; k < 9; ++k) direction[k] = point.f[k / 3] * point.fibre[k % 3];
   add_outer(direction, along, C);
@@ -60,7 +60,7 @@ MYOTACT_INLINE void add_fibre_tangent(const Point<Real>& point, const Real& acro
 
 template <class Real>
 MYOTACT_INLINE void muscle_tangent(const StableNeoHookean& matrix, const MuscleTets<Real>& tets, std::size_t p,
-                                        bool definite, std::array<Real, kPacked>& C) {
+                                   bool definite, std::array<Real, kPacked>& C) {
   const Point<Real>& point = tets.points[p];
   const Real pressure = pressure_at(tets, p);
   Real identity = shear_at(matrix, point);

@@ -37,12 +37,14 @@ void push_batch(const TetShapes& shapes, const MatrixAt& matrix, TetNodeVectors<
 
 template <class Tet>
 void batch_forces(const TetShapes& shapes, const ResponseBatch<Tet>& responses, TetNodeVectors<Eight, Tet>& force_N) {
-  push_batch<Tet>(shapes, [&](std::size_t p) -> const Matrix3<Eight>& { return responses[p].P; }, force_N);
+  push_batch<Tet>(
+      shapes, [&](std::size_t p) -> const Matrix3<Eight>& { return responses[p].P; }, force_N);
 }
 
 template <class Tet>
 void batch_volume_slopes(const TetShapes& shapes, const PointBatch<Tet>& points, TetNodeVectors<Eight, Tet>& slope_m2) {
-  push_batch<Tet>(shapes, [&](std::size_t p) -> const Matrix3<Eight>& { return points[p].cofactor; }, slope_m2);
+  push_batch<Tet>(
+      shapes, [&](std::size_t p) -> const Matrix3<Eight>& { return points[p].cofactor; }, slope_m2);
 }
 
 template <class Tet>

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 
 #include "core/vector.h"
-#include "simulation/block_matrix.h"
+#include "simulation/block_factor.h"
 #include "simulation/element/tet_batch.h"
 
 // Tets, eight at a time, and how they meet the nodes.
@@ -19,13 +19,16 @@ struct PairSlot {
 };
 
 template <class Tet>
+using TetSlots = std::array<std::array<PairSlot, kBatch>, kPairs<Tet>>;
+
+template <class Tet>
 struct TetBatch {
   TetShapes shapes;
   int count = 0;  // tets in use; the other lanes repeat the last one and count for nothing
   std::size_t material = 0;
   std::array<int, kBatch> tet{};
   std::array<std::array<int, Tet::kNodes>, kBatch> nodes{};
-  std::array<std::array<PairSlot, kPairs<Tet>>, kBatch> slots{};
+  TetSlots<Tet> slots{};  // in the matrix of all unknowns
 };
 
 template <class Tet>
@@ -48,21 +51,22 @@ void scatter(const TetBatch<Tet>& batch, const TetNodeVectors<Eight, Tet>& value
   }
 }
 
-template <class Tet>
-void scatter(const TetBatch<Tet>& batch, const TetBlocks<Eight, Tet>& blocks, double* values) {
-  for (std::size_t lane = 0; lane < static_cast<std::size_t>(batch.count); ++lane) {
-    for (std::size_t pair = 0; pair < kPairs<Tet>; ++pair) {
-      const PairSlot& slot = batch.slots[lane][pair];
+/// Adds the first `count` lanes of the blocks to the values of the matrix that the slots belong to.
+template <class Tet, class Scalar>
+void scatter(const TetSlots<Tet>& slots, int count, const TetBlocks<Eight, Tet>& blocks, Scalar* values) {
+  for (std::size_t pair = 0; pair < kPairs<Tet>; ++pair) {
+    const Matrix3<Eight>& block = blocks[pair];
+    for (std::size_t lane = 0; lane < static_cast<std::size_t>(count); ++lane) {
+      const PairSlot& slot = slots[pair][lane];
       if (slot.block.base < 0) continue;
-      const Matrix3<Eight>& block = blocks[pair];
-      double* first = values + slot.block.base;
-      double* second = first + slot.block.stride;
-      double* third = second + slot.block.stride;
+      Scalar* first = values + slot.block.base;
+      Scalar* second = first + slot.block.stride;
+      Scalar* third = second + slot.block.stride;
       const std::size_t down = slot.in_order ? 3 : 1, across = slot.in_order ? 1 : 3;
       for (std::size_t i = 0; i < 3; ++i) {
-        first[i] += block[i * down].lane[lane];
-        second[i] += block[i * down + across].lane[lane];
-        third[i] += block[i * down + 2 * across].lane[lane];
+        first[i] += static_cast<Scalar>(block[i * down].lane[lane]);
+        second[i] += static_cast<Scalar>(block[i * down + across].lane[lane]);
+        third[i] += static_cast<Scalar>(block[i * down + 2 * across].lane[lane]);
       }
     }
   }
@@ -84,6 +88,21 @@ void set_lane(TetBatch<Tet>& batch, std::size_t lane, int tet, const TetShape<do
 inline PairSlot pair_slot(const BlockMatrix& pattern, int a, int b) {
   if (a < 0 || b < 0) return {};
   return {pattern.slot(a > b ? a : b, a > b ? b : a), a >= b};
+}
+
+inline PairSlot pair_slot(const BlockFactor& factor, int a, int b) {
+  if (a < 0 || b < 0) return {};
+  return {factor.slot(a, b), !factor.is_later(b, a)};
+}
+
+/// Slots of a tet's pairs a <= b in a BlockMatrix or a BlockFactor; nodes below 0 are no unknowns.
+template <class Tet, class Matrix>
+void set_slots(const Matrix& matrix, const std::array<int, Tet::kNodes>& nodes, std::size_t lane,
+               TetSlots<Tet>& slots) {
+  std::size_t pair = 0;
+  for (std::size_t a = 0; a < Tet::kNodes; ++a) {
+    for (std::size_t b = a; b < Tet::kNodes; ++b, ++pair) slots[pair][lane] = pair_slot(matrix, nodes[a], nodes[b]);
+  }
 }
 
 /// Slots of all pairs a <= b of a list of nodes, row by row.

@@ -148,8 +148,7 @@ void Solid::add_batches(std::vector<TetBatch<Tet>>& batches) {
       const std::size_t lane = at(batch.count++);
       const std::array<int, Tet::kNodes> nodes = nodes_of<Tet>(mesh_, t);
       set_lane(batch, lane, static_cast<int>(t), shapes_[t], nodes);
-      const std::vector<PairSlot> slots = pair_slots(pattern_, nodes);
-      std::copy(slots.begin(), slots.end(), batch.slots[lane].begin());
+      set_slots<Tet>(pattern_, nodes, lane, batch.slots);
     }
   }
 }

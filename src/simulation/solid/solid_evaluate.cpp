@@ -131,7 +131,7 @@ void Solid::evaluate_batches(const std::vector<TetBatch<Tet>>& batches, const Ei
     if (tangent == Tangent::Definite) make_points_definite<Tet>(responses);
     batch_stiffness<Tet>(batch.shapes, responses, blocks);
     if (averaged) add_mean_stiffness<Tet>(batch, points, volume, tangent, blocks);
-    scatter(batch, blocks, out.stiffness.values());
+    scatter<Tet>(batch.slots, batch.count, blocks, out.stiffness.values());
   }
 }
 
@@ -195,7 +195,7 @@ void Solid::evaluate_patches(const Eigen::VectorXd& position_m, double activatio
     if (tangent == Tangent::None) continue;
     if (tangent == Tangent::Definite) make_points_definite<Tet>(responses);
     batch_stiffness<Tet>(batch.shapes, responses, blocks);
-    scatter(batch, blocks, out.stiffness.values());
+    scatter<LinearTet>(batch.slots, batch.count, blocks, out.stiffness.values());
     add_volume_slopes(batch, points[b], slopes_m2);
   }
   if (tangent == Tangent::None) return;
