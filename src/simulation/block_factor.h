@@ -26,6 +26,7 @@ class BlockFactorOf {
   // The matrix may be added up where it will be factored, block by block after set_zero():
   void set_zero();
   Scalar* values() { return values_.data(); }
+  std::size_t places() const { return values_.size(); }
   /// Of the stored block of two nodes of the pattern; its rows are those of the node that is eliminated later.
   BlockSlot slot(int a, int b) const;
   bool is_later(int a, int b) const {
