@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "measure/case_materials.h"
+#include "measure/case_laws.h"
 #include "measure/case_outputs.h"
 #include "simulation/solid/solid_motion.h"
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "measure/case_example.h"
-#include "measure/case_materials.h"
+#include "measure/case_laws.h"
 
 namespace myotact::measure {
 namespace {
