@@ -31,29 +31,40 @@ constexpr const char* kFailColour = "#D55E00";
 /// Error over tolerance. A bound, or an exact value, is either kept (0) or not (the longest bar).
 double used_share(const CheckResult& result) {
   constexpr double kMost = kLongest_px / kTolerance_px;
-  if (!result.passed && !(result.check.tolerance > 0.0)) return kMost;
+  if (result.verdict == Verdict::Fail && !(result.check.tolerance > 0.0)) return kMost;
   if (!(result.check.tolerance > 0.0)) return 0.0;
   const double share = result.error / result.check.tolerance;
   return std::isfinite(share) ? std::min(share, kMost) : kMost;
 }
 
+/// A check's name, and beside it its bar.
+std::string bar_of(const CheckResult& result, double top_px) {
+  std::string svg = fmt::format(R"(<text x="{}" y="{}" text-anchor="end">{}</text>)", kLabel_px - 8.0, top_px + 13.0,
+                                escape_markup(result.check.quantity));
+  const bool failed = result.verdict == Verdict::Fail;
+  return svg + fmt::format(R"(<rect x="{}" y="{}" width="{:.1f}" height="{}" fill="{}"/>)", kLabel_px, top_px + 3.0,
+                           std::max(1.0, used_share(result) * kTolerance_px), kRow_px - 6.0,
+                           failed ? kFailColour : kPassColour);
+}
+
+/// One row a check that is judged.
 std::string bars_svg(const CaseResult& result) {
-  const double height = kRow_px * static_cast<double>(result.checks.size()) + 8.0;
-  std::string svg = fmt::format(
-      R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="{1}" viewBox="0 0 {0} {1}" font-size="12">)",
-      kLabel_px + kLongest_px + 10.0, height);
-  for (std::size_t i = 0; i < result.checks.size(); ++i) {
-    const CheckResult& check = result.checks[i];
-    const double top = 4.0 + kRow_px * static_cast<double>(i);
-    svg += fmt::format(R"(<text x="{}" y="{}" text-anchor="end">{}</text>)", kLabel_px - 8.0, top + 13.0,
-                       escape_markup(check.check.quantity));
-    svg += fmt::format(R"(<rect x="{}" y="{}" width="{:.1f}" height="{}" fill="{}"/>)", kLabel_px, top + 3.0,
-                       std::max(1.0, used_share(check) * kTolerance_px), kRow_px - 6.0,
-                       check.passed ? kPassColour : kFailColour);
+  std::string bars;
+  double top_px = 4.0;
+  for (const CheckResult& check : result.checks) {
+    if (check.verdict == Verdict::Reported) continue;
+    bars += bar_of(check, top_px);
+    top_px += kRow_px;
   }
-  svg += fmt::format(R"(<line x1="{0}" y1="0" x2="{0}" y2="{1}" stroke="#222222" stroke-dasharray="3 3"/>)",
-                     kLabel_px + kTolerance_px, height);
-  return svg + "</svg>\n";
+  const double width_px = kLabel_px + kLongest_px + 10.0;
+  const double height_px = top_px + 4.0;
+  const std::string head = fmt::format(
+      R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="{1}" viewBox="0 0 {0} {1}" font-size="12">)",
+      width_px, height_px);
+  const std::string tolerance =
+      fmt::format(R"(<line x1="{0}" y1="0" x2="{0}" y2="{1}" stroke="#222222" stroke-dasharray="3 3"/>)",
+                  kLabel_px + kTolerance_px, height_px);
+  return head + bars + tolerance + "</svg>\n";
 }
 
 std::string case_table(const CaseResult& result) {
@@ -61,13 +72,13 @@ std::string case_table(const CaseResult& result) {
       "<table><tr><th>quantity</th><th>expected</th><th>obtained</th><th>error</th><th>tolerance</th><th>result</th>"
       "<th>source</th></tr>\n";
   for (const CheckResult& c : result.checks) {
-    const bool has_tolerance = c.check.expectation == Expectation::Value;
-    html += fmt::format(
-        R"(<tr><td>{}</td><td class="number">{}</td><td class="number">{:.7g}</td><td class="number">{:.2g}</td>)",
-        escape_markup(c.check.quantity), escape_markup(expected_text(c.check)), c.obtained, c.error);
-    html += fmt::format(R"(<td class="number">{}</td>{}<td>{}</td></tr>)",
-                        has_tolerance ? fmt::format("{:.2g}", c.check.tolerance) : "",
-                        c.passed ? "<td>pass</td>" : R"(<td class="fail">FAIL</td>)", escape_markup(c.check.source));
+    html += fmt::format("<tr><td>{}</td>", escape_markup(c.check.quantity));
+    for (const std::string& number :
+         {expected_text(c.check), fmt::format("{:.7g}", c.obtained), error_text(c), tolerance_text(c.check)}) {
+      html += fmt::format(R"(<td class="number">{}</td>)", escape_markup(number));
+    }
+    html += fmt::format(R"(<td{}>{}</td><td>{}</td></tr>)", c.verdict == Verdict::Fail ? R"( class="fail")" : "",
+                        verdict_text(c.verdict), escape_markup(c.check.source));
     html += '\n';
   }
   return html + "</table>\n";
