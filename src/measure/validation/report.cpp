@@ -17,12 +17,20 @@ std::string short_number(double value) {
   return fmt::format("{:.7g}", value);
 }
 
+/// The beginning of a source, so that a line of the table stays one; the page and the JSON have the whole.
+std::string short_source(const std::string& source) {
+  constexpr std::size_t kLongest = 60;  // bytes
+  if (source.size() <= kLongest) return source;
+  const std::size_t blank = source.rfind(' ', kLongest);
+  return source.substr(0, blank == std::string::npos ? 0 : blank) + " ...";
+}
+
 std::vector<Row> rows_of(const std::vector<CaseResult>& results) {
   std::vector<Row> rows = {{"case", "quantity", "expected", "obtained", "error", "tolerance", "result", "source"}};
   for (const CaseResult& result : results) {
     for (const CheckResult& c : result.checks) {
       rows.push_back({result.name, c.check.quantity, expected_text(c.check), short_number(c.obtained), error_text(c),
-                      tolerance_text(c.check), verdict_text(c.verdict), c.check.source});
+                      tolerance_text(c.check), verdict_text(c.verdict), short_source(c.check.source)});
     }
   }
   return rows;
@@ -104,7 +112,7 @@ std::ptrdiff_t count_of(Verdict verdict, const std::vector<CaseResult>& results)
 
 std::string validation_table(const std::vector<CaseResult>& results) {
   const std::vector<Row> rows = rows_of(results);
-  constexpr std::size_t last = kColumns - 1;  // the source may be long
+  constexpr std::size_t last = kColumns - 1;
   std::array<std::size_t, last> widths{};
   for (const Row& row : rows) {
     for (std::size_t c = 0; c < last; ++c) widths[c] = std::max(widths[c], row[c].size());

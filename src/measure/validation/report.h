@@ -7,7 +7,8 @@
 
 namespace myotact::measure {
 
-/// One line a check: case, quantity, expected, obtained, error, tolerance, result, source; then the counts.
+/// One line a check: case, quantity, expected, obtained, error, tolerance, result, the source's beginning; then the
+/// counts.
 std::string validation_table(const std::vector<CaseResult>& results);
 
 /// {schema, passed, cases: [{name, title, passed, checks: [...]}]}; a number that is not finite becomes null, and so

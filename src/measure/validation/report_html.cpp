@@ -15,6 +15,7 @@ body { font: 14px sans-serif; color: #222222; margin: 2em; }
 table { border-collapse: collapse; margin: 0.5em 0; }
 th, td { border-bottom: 1px solid #dddddd; padding: 2px 10px; text-align: left; vertical-align: top; }
 td.number { text-align: right; font-variant-numeric: tabular-nums; }
+td.source, p.source { color: #555555; font-size: 12px; max-width: 60em; }
 .fail { color: #a02c00; font-weight: bold; }
 </style></head><body>
 )";
@@ -28,7 +29,7 @@ constexpr double kLabel_px = 260.0;
 constexpr const char* kPassColour = "#0072B2";
 constexpr const char* kFailColour = "#D55E00";
 
-/// Error over tolerance. A bound, or an exact value, is either kept (0) or not (the longest bar).
+/// Error over tolerance. Without a tolerance it is either kept (0) or not (the longest bar).
 double used_share(const CheckResult& result) {
   constexpr double kMost = kLongest_px / kTolerance_px;
   if (result.verdict == Verdict::Fail && !(result.check.tolerance > 0.0)) return kMost;
@@ -37,11 +38,14 @@ double used_share(const CheckResult& result) {
   return std::isfinite(share) ? std::min(share, kMost) : kMost;
 }
 
-/// A check's name, and beside it its bar.
+/// A check's name, and beside it its bar, or the word for what has none.
 std::string bar_of(const CheckResult& result, double top_px) {
   std::string svg = fmt::format(R"(<text x="{}" y="{}" text-anchor="end">{}</text>)", kLabel_px - 8.0, top_px + 13.0,
                                 escape_markup(result.check.quantity));
   const bool failed = result.verdict == Verdict::Fail;
+  if (!failed && !(result.check.tolerance > 0.0)) {
+    return svg + fmt::format(R"(<text x="{}" y="{}" fill="{}">kept</text>)", kLabel_px, top_px + 13.0, kPassColour);
+  }
   return svg + fmt::format(R"(<rect x="{}" y="{}" width="{:.1f}" height="{}" fill="{}"/>)", kLabel_px, top_px + 3.0,
                            std::max(1.0, used_share(result) * kTolerance_px), kRow_px - 6.0,
                            failed ? kFailColour : kPassColour);
@@ -77,8 +81,10 @@ std::string case_table(const CaseResult& result) {
          {expected_text(c.check), fmt::format("{:.7g}", c.obtained), error_text(c), tolerance_text(c.check)}) {
       html += fmt::format(R"(<td class="number">{}</td>)", escape_markup(number));
     }
-    html += fmt::format(R"(<td{}>{}</td><td>{}</td></tr>)", c.verdict == Verdict::Fail ? R"( class="fail")" : "",
-                        verdict_text(c.verdict), escape_markup(c.check.source));
+    const std::string own_source = c.check.source == result.source ? "" : c.check.source;
+    html += fmt::format(R"(<td{}>{}</td><td class="source">{}</td></tr>)",
+                        c.verdict == Verdict::Fail ? R"( class="fail")" : "", verdict_text(c.verdict),
+                        escape_markup(own_source));
     html += '\n';
   }
   return html + "</table>\n";
@@ -87,15 +93,21 @@ std::string case_table(const CaseResult& result) {
 }  // namespace
 
 std::string validation_html(const std::vector<CaseResult>& results) {
-  const auto passed = std::count_if(results.begin(), results.end(), [](const auto& r) { return r.passed(); });
+  std::vector<std::string> failed;
+  for (const CaseResult& result : results) {
+    if (!result.passed()) failed.push_back(result.name);
+  }
   std::string html = kHead;
-  html += fmt::format(
-      "<h1>Myotact: validation</h1>\n<p>{} of {} cases pass. Bars show errors; the dashed line is the "
-      "tolerance.</p>\n",
-      passed, results.size());
+  html += fmt::format("<h1>Myotact: validation</h1>\n<p>{} of {} cases pass.", results.size() - failed.size(),
+                      results.size());
+  if (!failed.empty()) html += fmt::format(R"( <span class="fail">FAIL: {}</span>)", escape_markup(join(failed)));
+  html +=
+      "</p>\n<p>Bars show errors; the dashed line is the tolerance. Bounds have no tolerance: \"kept\", or the longest "
+      "bar. What is only reported has a line in the table and is not judged.</p>\n";
   for (const CaseResult& result : results) {
     html += fmt::format("<h2{}>{}: {}</h2>\n<p>{}</p>\n", result.passed() ? "" : R"( class="fail")",
                         escape_markup(result.name), result.passed() ? "pass" : "FAIL", escape_markup(result.title));
+    html += fmt::format("<p class=\"source\">{}</p>\n", escape_markup(result.source));
     html += bars_svg(result) + case_table(result);
   }
   return html + "</body></html>\n";

@@ -174,7 +174,7 @@ CaseResult run_case(const ValidationCase& validation_case) {
   read_case(object);  // asks for the common keys once more, so that finish() knows them
   const Quantities quantities = read_kind(object).run(object);
   object.finish();
-  CaseResult result{validation_case.name, validation_case.title, {}};
+  CaseResult result{validation_case.name, validation_case.title, validation_case.source, {}};
   const auto places = object.at("checks").elements();
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Check& check = validation_case.checks[i];

@@ -41,7 +41,7 @@ struct CheckResult {
 };
 
 struct CaseResult {
-  std::string name, title;
+  std::string name, title, source;
   std::vector<CheckResult> checks;
   bool passed() const;  // nothing failed
 };
