@@ -51,10 +51,10 @@ void check_tets(const JsonValue& value, const SolveCase& out) {
     const auto& laws = out.materials[static_cast<std::size_t>(out.material_of_tet[tet])].laws;
     if (std::none_of(laws.begin(), laws.end(), follows_fibre)) continue;
     if (!out.mesh.fibres.empty() && out.mesh.fibres[tet].norm() > 0.5) continue;
-    throw value.error(
-        fmt::format("tet {} of region {} has no fibre and a law needs one; give \"fibre\" a direction, or "
-                    "the mesh {} unit cell vectors \"fibre\"",
-                    tet, out.mesh.regions[tet], out.mesh.file));
+    const bool of_file = out.mesh.file != value.file();  // not a box, which has no cell vectors
+    throw value.error(fmt::format("tet {} of region {} has no fibre and a law needs one; give \"fibre\" a direction{}",
+                                  tet, out.mesh.regions[tet],
+                                  of_file ? ", or the mesh " + out.mesh.file + " unit cell vectors \"fibre\"" : ""));
   }
 }
 
