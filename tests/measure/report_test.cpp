@@ -32,7 +32,7 @@ TEST(ValidationReport, TableHasALineACheck) {
   EXPECT_THAT(table, HasSubstr("bad   order     >= 2      1.5       0.5    -          FAIL      a & b\n"));
   EXPECT_THAT(table, HasSubstr("bad   gain      <= 1e-12  nan"));
   EXPECT_THAT(table, HasSubstr("good  coarse_s  -         2.5       -      -          reported  to compare\n"));
-  EXPECT_THAT(table, HasSubstr("3 checks in 2 cases, 2 failed; 1 figures reported only\n"));
+  EXPECT_THAT(table, HasSubstr("3 checks in 2 cases, 2 failed; 1 reported only\n"));
 }
 
 TEST(ValidationReport, TheTableHasOnlyTheBeginningOfALongSource) {

@@ -126,7 +126,7 @@ std::string validation_table(const std::vector<CaseResult>& results) {
   table += fmt::format("{} checks in {} cases, {} failed", count_of(Verdict::Pass, results) + failed, results.size(),
                        failed);
   if (const auto reported = count_of(Verdict::Reported, results); reported > 0) {
-    table += fmt::format("; {} figures reported only", reported);
+    table += fmt::format("; {} reported only", reported);
   }
   table += '\n';
   return table;

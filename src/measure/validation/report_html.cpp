@@ -14,7 +14,7 @@ constexpr const char* kHead = R"(<!DOCTYPE html>
 body { font: 14px sans-serif; color: #222222; margin: 2em; }
 table { border-collapse: collapse; margin: 0.5em 0; }
 th, td { border-bottom: 1px solid #dddddd; padding: 2px 10px; text-align: left; vertical-align: top; }
-td.number { text-align: right; font-variant-numeric: tabular-nums; }
+th.number, td.number { text-align: right; font-variant-numeric: tabular-nums; }
 td.source, p.source { color: #555555; font-size: 12px; max-width: 60em; }
 .fail { color: #a02c00; font-weight: bold; }
 </style></head><body>
@@ -73,8 +73,9 @@ std::string bars_svg(const CaseResult& result) {
 
 std::string case_table(const CaseResult& result) {
   std::string html =
-      "<table><tr><th>quantity</th><th>expected</th><th>obtained</th><th>error</th><th>tolerance</th><th>result</th>"
-      "<th>source</th></tr>\n";
+      R"(<table><tr><th>quantity</th><th class="number">expected</th><th class="number">obtained</th>)"
+      R"(<th class="number">error</th><th class="number">tolerance</th><th>result</th><th>source</th></tr>)";
+  html += '\n';
   for (const CheckResult& c : result.checks) {
     html += fmt::format("<tr><td>{}</td>", escape_markup(c.check.quantity));
     for (const std::string& number :
