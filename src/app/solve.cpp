@@ -59,6 +59,25 @@ measure::SolveAnswer solve_watched(const measure::SolveCase& input) {
   });
 }
 
+std::string what_stopped(const measure::SolveCase& input, const measure::SolveAnswer& answer) {
+  const bool is_static = input.dynamics == measure::Dynamics::Static;
+  const std::string remedy = is_static ? "load less, give \"ramp\" more steps, or mesh finer where it folds"
+                                       : "load less, or give a smaller dt_s";
+  if (answer.steps == 0) {
+    return fmt::format(
+        "no equilibrium under the first part of the {}: the answer is the body at rest; see whether loads "
+        "and stiffnesses are in Pa, {}",
+        is_static ? "load" : "motion", remedy);
+  }
+  std::string inside_out;
+  if (!(answer.least_volume_ratio > 0.0)) {
+    inside_out = fmt::format(", with tet {} inside out (volume ratio {}; must be > 0)", answer.most_crushed_tet,
+                             to_text(answer.least_volume_ratio));
+  }
+  return fmt::format("the answer is the last state in equilibrium, at {} of the {}{}; {}", to_text(answer.reached),
+                     is_static ? "load" : "time", inside_out, remedy);
+}
+
 }  // namespace
 
 int solve(const Options& options) {
@@ -67,15 +86,13 @@ int solve(const Options& options) {
     const measure::SolveCase input = measure::load_case(options.file);
     // Before a solve that may be long, not after it.
     if (options.vtk && options.vtk->has_parent_path()) make_writable_folder(options.vtk->parent_path());
+    if (options.vtk) require_writable(*options.vtk);
     const measure::SolveAnswer answer = solve_watched(input);
     if (const int status = interruption(); status != 0) return status;
     if (options.vtk) geometry::write_vtk(answer.deformed, answer.results, *options.vtk);
     std::cout << measure::answer_json(answer) << std::flush;
     if (answer.converged) return static_cast<int>(ExitStatus::Done);
-    spdlog::error(
-        "{}: did not converge: the answer is the last state in equilibrium, at {} of the {}; load less, give "
-        "\"ramp\" more steps, or mesh finer where it folds",
-        options.file.string(), to_text(answer.reached), input.dynamics == measure::Dynamics::Static ? "load" : "time");
+    spdlog::error("{}: did not converge: {}", options.file.string(), what_stopped(input, answer));
     return static_cast<int>(ExitStatus::CheckFailed);
   } catch (const Stopped& stopped) {
     return stopped.status;

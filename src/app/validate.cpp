@@ -13,6 +13,7 @@ namespace myotact::app {
 
 int validate(const Options& options) {
   const auto cases = measure::select_cases(measure::load_cases(measure::validation_folder()), options.filter);
+  if (options.report) require_writable(*options.report);  // before cases that may be long
   std::vector<measure::CaseResult> results;
   for (const auto& next : cases) {
     if (next.slow) spdlog::info("{} takes a while ({} of {})", next.name, results.size() + 1, cases.size());

@@ -47,6 +47,25 @@ bool write_all(int fd, std::string_view bytes) {
   return true;
 }
 
+void probe_folder(const std::filesystem::path& folder) {
+  std::string probe = (folder / ".writable.XXXXXX").string();
+  const Descriptor file(::mkostemp(probe.data(), O_CLOEXEC));
+  if (file.get() < 0) throw io_error(folder, "cannot be written to");
+  ::unlink(probe.c_str());
+}
+
+/// The rename at the end of a write would put a file in the place of a device.
+void refuse_special(const std::filesystem::path& path) {
+  if (!path.has_filename()) {
+    throw Error(ExitStatus::InputOutput, fmt::format("\"{}\": names no file; give the name of one", path.string()));
+  }
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode)) return;
+  throw Error(ExitStatus::InputOutput,
+              fmt::format("{}: cannot be written: it is a {}, not a file; give another name", path.string(),
+                          S_ISDIR(status.st_mode) ? "folder" : "device or pipe"));
+}
+
 }  // namespace
 
 std::string read_file(const std::filesystem::path& path) {
@@ -77,6 +96,7 @@ std::string read_file(const std::filesystem::path& path) {
 }
 
 void write_file(const std::filesystem::path& path, std::string_view bytes) {
+  refuse_special(path);
   std::string temporary = path.string() + ".XXXXXX";
   const Descriptor file(::mkostemp(temporary.data(), O_CLOEXEC));
   if (file.get() < 0) throw io_error(path, "cannot be written");
@@ -97,10 +117,12 @@ void make_writable_folder(const std::filesystem::path& folder) {
     errno = failure.value();
     throw io_error(folder, "cannot be made");
   }
-  std::string probe = (folder / ".writable.XXXXXX").string();
-  const Descriptor file(::mkostemp(probe.data(), O_CLOEXEC));
-  if (file.get() < 0) throw io_error(folder, "cannot be written to");
-  ::unlink(probe.c_str());
+  probe_folder(folder);
+}
+
+void require_writable(const std::filesystem::path& path) {
+  refuse_special(path);
+  probe_folder(path.has_parent_path() ? path.parent_path() : ".");
 }
 
 std::string sha256(std::string_view bytes) {

@@ -1,6 +1,7 @@
 #include "core/json_reader.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -53,6 +54,20 @@ std::string reason(const std::string& message) {
   return position == std::string::npos ? message : message.substr(position + 2);
 }
 
+/// Whether the word at a place of the text is one of those that programs write for what is no number.
+bool is_no_number(const std::string& text, std::size_t byte) {
+  const auto in_word = [&](std::size_t place) {
+    return place < text.size() && std::isalpha(static_cast<unsigned char>(text[place])) != 0;
+  };
+  std::size_t start = byte == 0 ? 0 : byte - 1;
+  while (start > 0 && in_word(start - 1)) --start;
+  std::string word;
+  for (std::size_t place = start; in_word(place) && word.size() < 9; ++place) {
+    word += static_cast<char>(std::tolower(static_cast<unsigned char>(text[place])));
+  }
+  return word == "nan" || word == "inf" || word == "infinity";
+}
+
 }  // namespace
 
 nlohmann::json parse_json(const std::string& text, const std::string& file) {
@@ -67,6 +82,9 @@ nlohmann::json parse_json(const std::string& text, const std::string& file) {
   try {
     return nlohmann::json::parse(text, refuse_depth, true, true);
   } catch (const nlohmann::json::parse_error& failure) {
+    if (is_no_number(text, failure.byte)) {
+      throw bad_data(file, line_and_column(text, failure.byte), "NaN and infinity are no numbers; write a finite one");
+    }
     throw bad_data(file, line_and_column(text, failure.byte), reason(failure.what()));
   } catch (const nlohmann::json::exception& failure) {  // a number beyond the range of a double
     throw bad_data(file, place_of_number(text, failure.what()), "holds a number beyond 1.8e308; write a smaller one");
@@ -130,6 +148,7 @@ std::vector<JsonValue> JsonValue::elements() const {
 }
 
 std::vector<JsonValue> JsonValue::elements(std::size_t count) const {
+  if (!value_->is_array()) throw error(fmt::format("is {}; must be a list of {}", shown(*value_), count));
   auto parts = elements();
   if (parts.size() != count) throw error(fmt::format("has {} elements; must have {}", parts.size(), count));
   return parts;

@@ -1,6 +1,7 @@
 #include "geometry/tet_topology.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 namespace myotact::geometry {
@@ -50,14 +51,28 @@ BoundaryTriangle triangle_of(const TetMesh& mesh, const Face& face) {
   return triangle;
 }
 
-/// The representative of a node's set; halves the path on the way.
-int root_of(std::vector<int>& parent, int node) {
-  while (parent[static_cast<std::size_t>(node)] != node) {
-    int& above = parent[static_cast<std::size_t>(node)];
+/// The representative of an entry's set; halves the path on the way.
+int root_of(std::vector<int>& parent, int entry) {
+  while (parent[static_cast<std::size_t>(entry)] != entry) {
+    int& above = parent[static_cast<std::size_t>(entry)];
     above = parent[static_cast<std::size_t>(above)];
-    node = above;
+    entry = above;
   }
-  return node;
+  return entry;
+}
+
+void join(std::vector<int>& parent, int a, int b) {
+  const int root = root_of(parent, a);
+  parent[static_cast<std::size_t>(root_of(parent, b))] = root;
+}
+
+/// Sets counted from 0 in the order in which they first appear.
+std::vector<int> numbered_in_order(const std::vector<int>& set_of_tet) {
+  std::map<int, int> number;
+  std::vector<int> numbers;
+  for (const int set : set_of_tet)
+    numbers.push_back(number.emplace(set, static_cast<int>(number.size())).first->second);
+  return numbers;
 }
 
 }  // namespace
@@ -83,18 +98,25 @@ std::vector<int> connected_parts(const TetMesh& mesh) {
   std::vector<int> parent(mesh.nodes_m.size());
   std::iota(parent.begin(), parent.end(), 0);
   for (const auto& corners : mesh.corners) {
-    const int root = root_of(parent, corners[0]);
-    for (const int node : corners) parent[static_cast<std::size_t>(root_of(parent, node))] = root;
+    for (const int node : corners) join(parent, corners[0], node);
   }
-  std::vector<int> part_of_root(mesh.nodes_m.size(), -1);
-  std::vector<int> parts;
-  int found = 0;
-  for (const auto& corners : mesh.corners) {
-    int& part = part_of_root[static_cast<std::size_t>(root_of(parent, corners[0]))];
-    if (part < 0) part = found++;
-    parts.push_back(part);
+  std::vector<int> set_of_tet;
+  for (const auto& corners : mesh.corners) set_of_tet.push_back(root_of(parent, corners[0]));
+  return numbered_in_order(set_of_tet);
+}
+
+std::vector<int> face_connected_blocks(const TetMesh& mesh) {
+  std::vector<Face> faces = all_faces(mesh);
+  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.sorted < b.sorted; });
+  std::vector<int> parent(mesh.corners.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  for (std::size_t i = 1; i < faces.size(); ++i) {
+    if (faces[i].sorted != faces[i - 1].sorted) continue;
+    join(parent, static_cast<int>(faces[i - 1].tet), static_cast<int>(faces[i].tet));
   }
-  return parts;
+  std::vector<int> set_of_tet;
+  for (std::size_t tet = 0; tet < parent.size(); ++tet) set_of_tet.push_back(root_of(parent, static_cast<int>(tet)));
+  return numbered_in_order(set_of_tet);
 }
 
 }  // namespace myotact::geometry

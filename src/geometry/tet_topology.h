@@ -19,5 +19,8 @@ std::vector<BoundaryTriangle> boundary_triangles(const TetMesh& mesh);
 /// The part that each tet belongs to, counted from 0 in the order of their first tets. Tets that share a node belong
 /// together.
 std::vector<int> connected_parts(const TetMesh& mesh);
+/// The same of tets that share a face: what hangs on the rest by a node or an edge only is a block of its own, and can
+/// swing there.
+std::vector<int> face_connected_blocks(const TetMesh& mesh);
 
 }  // namespace myotact::geometry

@@ -19,7 +19,9 @@ constexpr int kLinearTet = 10, kQuadraticTet = 24;  // VTK cell types
 void read_points(Words& words, TetMesh& mesh) {
   const int count = words.integer(0, kMostMeshElements);
   const std::string_view type = words.next();
-  if (type != "double" && type != "float") throw words.error("points must be double or float");
+  if (type != "double" && type != "float") {
+    throw words.error(fmt::format("points are of the type \"{}\"; must be double or float", shown(type)));
+  }
   for (int i = 0; i < count; ++i) {
     const double x = words.number();
     const double y = words.number();

@@ -11,6 +11,8 @@ namespace myotact::geometry {
 
 namespace {
 
+constexpr const char* kCutShort = "the file ends early; it was cut short: write or copy it again";
+
 bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\n' || c == '\r';
 }
@@ -28,7 +30,7 @@ std::string_view Words::next() {
   word_line_ = line_;
   while (position_ < text_.size() && !is_blank(text_[position_]) && !(comment_ != '\0' && text_[position_] == comment_))
     ++position_;
-  if (start == position_) throw error("the file ends early");
+  if (start == position_) throw error(kCutShort);
   return text_.substr(start, position_ - start);
 }
 
@@ -48,7 +50,7 @@ std::string_view Words::rest_of_line() {
 }
 
 std::vector<std::string_view> Words::next_line() {
-  if (at_end()) throw error("the file ends early");
+  if (at_end()) throw error(kCutShort);
   return words_of(rest_of_line());
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
@@ -183,83 +182,12 @@ void ConditionReader::finish() {
   });
 }
 
-using Gram = Eigen::Matrix<double, 6, 6>;
-
-/// How many of the six rigid motions the held components of one part resist.
-int held_motions(const Gram& gram) {
-  constexpr double kWeakest = 1e-10;  // of the strongest: round-off leaves 1e-16
-  const Eigen::SelfAdjointEigenSolver<Gram> solver(gram, Eigen::EigenvaluesOnly);
-  const auto& values = solver.eigenvalues();
-  return static_cast<int>((values.array() > kWeakest * std::max(values[5], 1e-300)).count());
-}
-
-struct Part {
-  int first_tet = -1;
-  int tets = 0;
-  std::vector<int> nodes;
-  Gram gram = Gram::Zero();
-};
-
-std::vector<Part> parts_of(const geometry::TetMesh& mesh, std::vector<int>& part_of_node) {
-  const std::vector<int> part_of_tet = geometry::connected_parts(mesh);
-  std::vector<Part> parts(static_cast<std::size_t>(*std::max_element(part_of_tet.begin(), part_of_tet.end())) + 1);
-  part_of_node.assign(mesh.nodes_m.size(), -1);
-  for (std::size_t tet = 0; tet < part_of_tet.size(); ++tet) {
-    Part& part = parts[static_cast<std::size_t>(part_of_tet[tet])];
-    if (part.first_tet < 0) part.first_tet = static_cast<int>(tet);
-    ++part.tets;
-    const auto claim = [&](int node) {
-      int& owner = part_of_node[static_cast<std::size_t>(node)];
-      if (owner < 0) part.nodes.push_back(node);
-      owner = part_of_tet[tet];
-    };
-    for (const int node : mesh.corners[tet]) claim(node);
-    if (!mesh.quadratic()) continue;
-    for (const int node : mesh.midsides[tet]) claim(node);
-  }
-  return parts;
-}
-
 }  // namespace
 
 void read_conditions(const JsonValue& value, const NodeSets& sets, SolveCase& out) {
   ConditionReader reader(sets, out);
   for (const JsonValue& entry : value.elements()) reader.read(entry);
   reader.finish();
-}
-
-void check_held(const SolveCase& solve_case) {
-  const geometry::TetMesh& mesh = solve_case.mesh.mesh;
-  std::vector<int> part_of_node;
-  std::vector<Part> parts = parts_of(mesh, part_of_node);
-  std::vector<Vec3> centre_m;
-  std::vector<double> size_m;
-  for (const Part& part : parts) {
-    Vec3 sum = Vec3::Zero();
-    for (const int node : part.nodes) sum += mesh.nodes_m[static_cast<std::size_t>(node)];
-    centre_m.push_back(sum / static_cast<double>(part.nodes.size()));
-    double largest = 0.0;
-    for (const int node : part.nodes) {
-      largest = std::max(largest, (mesh.nodes_m[static_cast<std::size_t>(node)] - centre_m.back()).norm());
-    }
-    size_m.push_back(largest);
-  }
-  for (const auto& held : solve_case.loads.held) {
-    const auto index = static_cast<std::size_t>(part_of_node[static_cast<std::size_t>(held.node)]);
-    const Vec3 arm = (mesh.nodes_m[static_cast<std::size_t>(held.node)] - centre_m[index]) / size_m[index];
-    const Vec3 direction = Vec3::Unit(held.component);
-    Eigen::Matrix<double, 6, 1> row;
-    row << direction, arm.cross(direction);
-    parts[index].gram += row * row.transpose();
-  }
-  for (const Part& part : parts) {
-    const int motions = held_motions(part.gram);
-    if (motions == 6) continue;
-    throw bad_data(solve_case.mesh.file, fmt::format("tet {}", part.first_tet),
-                   fmt::format("the part of {} tets that begins with it can move as a rigid body: {} of 6 motions are "
-                               "held, all must be; hold it with fix, symmetry or displace",
-                               part.tets, motions));
-  }
 }
 
 }  // namespace myotact::measure

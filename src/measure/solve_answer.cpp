@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "measure/case_materials.h"
+#include "measure/case_laws.h"
 #include "measure/case_outputs.h"
 #include "simulation/solid/solid_motion.h"
 
@@ -102,19 +102,21 @@ Outcome solve_motion(const SolveCase& input, const Solid& solid, const Progress&
   const int steps = std::max(1, static_cast<int>(std::lround(input.t_end_s / input.dt_s)));
   Outcome out;
   out.converged = true;
+  out.position_m = solid.rest_m();
   for (int step = 1; step <= steps && out.converged; ++step) {
     const double t_s = step * input.dt_s;
     const double grown = input.activation_ramp_s > 0.0 ? std::min(1.0, t_s / input.activation_ramp_s) : 1.0;
     motion.set_activation(grown * input.loads.activation);
-    out.converged = motion.step();
+    // One Newton step may leap past the point where a tet has no volume left; nothing real follows from there.
+    out.converged = motion.step() && motion.smallest_J() > 0.0;
     out.iterations += options.newton_steps;
     if (!out.converged) break;
+    out.position_m = motion.position_m();
     out.activation = grown * input.loads.activation;
     out.steps = step;
     out.reached = static_cast<double>(step) / steps;
     progress({out.reached, motion.residual_share(), out.iterations});
   }
-  out.position_m = motion.position_m();
   out.reaction_N = held_reactions_N(input, solid, out);
   return out;
 }
@@ -161,7 +163,11 @@ SolveAnswer solve_case(const SolveCase& input, const Progress& progress) {
   const SolvedState state = state_of(input, solid, outcome);
   SolveAnswer answer;
   answer.name = input.name;
-  answer.converged = outcome.converged;
+  const auto crushed = std::min_element(state.volume_ratio.begin(), state.volume_ratio.end());
+  answer.most_crushed_tet = static_cast<std::size_t>(crushed - state.volume_ratio.begin());
+  answer.least_volume_ratio = *crushed;
+  // The laws go on below volume 0, so that a search may pass there; forces balance there too, but nothing real does.
+  answer.converged = outcome.converged && answer.least_volume_ratio > 0.0;
   answer.steps = outcome.steps;
   answer.iterations = outcome.iterations;
   answer.reached = outcome.reached;

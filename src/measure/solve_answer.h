@@ -25,6 +25,8 @@ struct SolveAnswer {
   int iterations = 0;  // Newton steps
   double wall_s = 0.0;
   double reached = 0.0;  // share of the load or of the time
+  std::size_t most_crushed_tet = 0;
+  double least_volume_ratio = 1.0;  // of that tet, the mean over it; not above 0: inside out, and not converged
   std::vector<std::pair<CaseOutput, std::vector<double>>> outputs;
   geometry::TetFile deformed;  // the mesh in the last converged state
   geometry::TetResults results;

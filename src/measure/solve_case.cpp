@@ -12,6 +12,7 @@
 #include "measure/case_mesh.h"
 #include "measure/case_outputs.h"
 #include "measure/case_sets.h"
+#include "measure/case_supports.h"
 
 namespace myotact::measure {
 
@@ -76,7 +77,7 @@ SolveCase load_case(const std::filesystem::path& path) {
   const NodeSets sets = read_sets(sets_value, out.mesh);
   read_conditions(conditions, sets, out);
   require_density(materials, out);
-  if (out.dynamics == Dynamics::Static) check_held(out);
+  if (out.dynamics == Dynamics::Static) check_supports(out);
   out.outputs = read_outputs(outputs, sets, out);
   return out;
 }

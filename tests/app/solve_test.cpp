@@ -78,7 +78,13 @@ TEST_F(Solve, MissingFilesAreNoInputAndAFolderThatCannotBeIsInputOutput) {
   EXPECT_EQ(run_program("solve " + (folder_.path() / "nothing.json").string()).status, 66);
   example_["mesh"] = "nothing.vtk";
   EXPECT_EQ(solve(example_).status, 66);
-  EXPECT_EQ(run_program("solve " + kExample + " --vtk /proc/nowhere/m.vtk").status, 74);
+  // Known before the solve, which has answered nothing.
+  for (const std::string& vtk : {std::string("/proc/nowhere/m.vtk"), std::string("/proc/m.vtk"),
+                                 folder_.path().string(), file("taken", "") + "/m.vtk", std::string("''")}) {
+    const Outcome outcome = run_program("solve " + kExample + " --vtk " + vtk);
+    EXPECT_EQ(outcome.status, 74) << vtk;
+    EXPECT_THAT(outcome.output, ::testing::Not(HasSubstr("outputs"))) << vtk;
+  }
   EXPECT_EQ(run_program("solve").status, 2);
 }
 
@@ -90,6 +96,51 @@ TEST_F(Solve, WhatDoesNotConvergeSaysSoAndKeepsTheLastState) {
   const Outcome outcome = solve(example_);
   EXPECT_EQ(outcome.status, 1) << outcome.output;
   EXPECT_THAT(outcome.output, AllOf(HasSubstr("\"converged\": false"), HasSubstr("did not converge")));
+}
+
+TEST_F(Solve, AMeshFileCutShortIsRefusedWithItsLine) {
+  const std::string whole =
+      "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
+      "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n";
+  file("cut.vtk", whole.substr(0, whole.find("2 3\nCELL_TYPES")));
+  EXPECT_THAT(problem("/mesh", "cut.vtk"), AllOf(HasSubstr("cut.vtk: line 11"), HasSubstr("cut short")));
+  file("cut.vtk", whole.substr(0, whole.find("uble")));
+  EXPECT_THAT(problem("/mesh", "cut.vtk"), HasSubstr("line 5: points are of the type \"do\"; must be double or float"));
+}
+
+TEST_F(Solve, ALoadFarBeyondTheStiffnessAsksForUnits) {
+  example_["mesh"]["box"]["cells"] = {2, 1, 1};
+  example_["element"] = "T4";
+  example_["conditions"][1]["value"] = {-1e15, 0, 0};
+  const Outcome outcome = solve(example_);
+  EXPECT_EQ(outcome.status, 1) << outcome.output;
+  EXPECT_THAT(outcome.output,
+              AllOf(HasSubstr("\"steps\": 0"), HasSubstr("the answer is the body at rest"), HasSubstr("in Pa")));
+}
+
+TEST_F(Solve, AnEquilibriumInsideOutIsNoAnswer) {
+  example_["mesh"]["box"] = {{"size_m", {2, 1, 1}}, {"cells", {2, 1, 1}}};
+  example_["element"] = "T4";
+  example_["materials"][0] = {{"law", "neo_hookean"}, {"parameters", {{"shear_Pa", 1e4}, {"lambda_Pa", 4e4}}}};
+  example_["sets"]["tip"]["plane"]["value"] = 2;
+  // The far face is taken through the held one: forces balance on the other side of volume 0, too.
+  example_["conditions"][1] = {{"set", "tip"}, {"kind", "displace"}, {"value", {-2.09, 0, 0}}};
+  const Outcome outcome = solve(example_);
+  EXPECT_EQ(outcome.status, 1) << outcome.output;
+  EXPECT_THAT(outcome.output, AllOf(HasSubstr("\"converged\": false"), HasSubstr("inside out (volume ratio -")));
+}
+
+TEST_F(Solve, AMotionThatTurnsTetsInsideOutDoesNotConverge) {
+  example_["mesh"]["box"]["cells"] = {4, 1, 1};
+  example_["element"] = "T4";
+  example_["dynamics"] = "bdf2";
+  example_["dt_s"] = 1e-3;
+  example_["t_end_s"] = 0.01;
+  example_["materials"][0]["parameters"]["density_kg_m3"] = 1000;
+  example_["conditions"][1] = {{"set", "tip"}, {"kind", "displace"}, {"value", {-0.15, 0, 0}}};
+  const Outcome outcome = solve(example_);
+  EXPECT_EQ(outcome.status, 1) << outcome.output;
+  EXPECT_THAT(outcome.output, AllOf(HasSubstr("\"converged\": false"), HasSubstr("smaller dt_s")));
 }
 
 TEST_F(Solve, ASignalEndsItWithNothingWritten) {

@@ -57,6 +57,25 @@ TEST(File, AFailedWriteLeavesNothingBehind) {
   EXPECT_EQ(entries_of(folder.path()), 1u);
 }
 
+TEST(File, ADeviceOrPipeIsNeverReplaced) {
+  const myotact::testing::TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_THAT(complaint(ExitStatus::InputOutput, [&] { write_file(folder / "pipe", "x"); }),
+              HasSubstr("pipe: cannot be written: it is a device or pipe"));
+  EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe"));
+}
+
+TEST(File, WhetherItCanBeWrittenIsKnownBefore) {
+  const myotact::testing::TemporaryFolder folder;
+  require_writable(folder / "f");
+  EXPECT_EQ(entries_of(folder.path()), 0u);
+  complaint(ExitStatus::InputOutput, [&] { require_writable(folder / "new/f"); });
+  EXPECT_THAT(complaint(ExitStatus::InputOutput, [&] { require_writable(folder.path()); }),
+              HasSubstr("it is a folder, not a file"));
+  EXPECT_THAT(complaint(ExitStatus::InputOutput, [] { require_writable(""); }), HasSubstr("names no file"));
+  complaint(ExitStatus::InputOutput, [] { require_writable("/proc/f"); });
+}
+
 TEST(File, AFolderIsMadeOrTheReasonIsNamed) {
   const myotact::testing::TemporaryFolder folder;
   make_writable_folder(folder / "a/b");

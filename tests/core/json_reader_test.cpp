@@ -28,6 +28,15 @@ TEST(JsonReader, SyntaxErrorsNameLineAndColumn) {
   EXPECT_THAT(syntax_error("[1,\n 1e999]"), AllOf(StartsWith("f.json: 2:2: "), HasSubstr("smaller")));
 }
 
+TEST(JsonReader, WhatIsNoNumberIsNamedAsSuch) {
+  for (const char* word : {"NaN", "nan", "-Infinity", "Infinity", "inf", "-inf"}) {
+    EXPECT_THAT(syntax_error(std::string("[1,\n ") + word + "]"),
+                AllOf(StartsWith("f.json: 2:"), HasSubstr("write a finite one")))
+        << word;
+  }
+  EXPECT_THAT(syntax_error("[nano]"), ::testing::Not(HasSubstr("finite")));
+}
+
 TEST(JsonReader, CommentsAreSkipped) {
   EXPECT_EQ(parse_json("// a title\n{\"a\": 1} // end", "f")["a"].get<int>(), 1);
 }
@@ -66,6 +75,7 @@ TEST(JsonReader, WrongValuesNamePointerValueAndRange) {
        "nearest: \"hinge\""},
       {"[1, 2]", [](const JsonValue& v) { v.vec3(); }, "has 2 elements; must have 3"},
       {"5", [](const JsonValue& v) { v.elements(); }, "5; must be a list"},
+      {"5", [](const JsonValue& v) { v.elements(3); }, "5; must be a list of 3"},
       {"[]", [](const JsonValue& v) { JsonObject object(v); }, "a list; must be an object"},
   };
   for (const Wrong& wrong : wrongs) {

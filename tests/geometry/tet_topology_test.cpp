@@ -69,5 +69,14 @@ TEST(TetTopology, PartsAreTetsThatHangTogether) {
   EXPECT_EQ(connected_parts(mesh), (std::vector<int>{0, 1, 0}));
 }
 
+TEST(TetTopology, BlocksAreTetsThatShareFaces) {
+  TetMesh mesh;
+  mesh.nodes_m.assign(9, Vec3::Zero());
+  mesh.corners = {{0, 1, 2, 3}, {1, 2, 4, 5}, {3, 0, 6, 1}, {6, 7, 8, 4}};
+  EXPECT_EQ(face_connected_blocks(mesh), (std::vector<int>{0, 1, 0, 2}));
+  const TetMesh box = make_box_mesh(Vec3(0.3, 0.2, 0.1), {3, 2, 1});
+  EXPECT_EQ(face_connected_blocks(box), std::vector<int>(box.corners.size(), 0));
+}
+
 }  // namespace
 }  // namespace myotact::geometry

@@ -18,6 +18,7 @@ using myotact::testing::TemporaryFolder;
 using ::testing::HasSubstr;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::string check(const std::string& quantity, const std::string& rest) {
   return "{\"quantity\": \"" + quantity + "\"" + rest + "}";
@@ -57,7 +58,7 @@ TEST_F(ValidationCases, CompareValuesAndBounds) {
           check(kHalf, R"(, "at_least": 0.16)") + "," + check(kHalf, R"(, "at_least": 0.17)") + "," +
           check(kHalf, R"(, "at_most": 0.17)") + "," + check(kHalf, R"(, "at_most": 0.16)"));
   std::vector<bool> passed;
-  for (const CheckResult& outcome : result.checks) passed.push_back(outcome.passed);
+  for (const CheckResult& outcome : result.checks) passed.push_back(outcome.verdict == Verdict::Pass);
   EXPECT_EQ(passed, (std::vector<bool>{true, false, true, false, true, false}));
   EXPECT_FALSE(result.passed());
   EXPECT_EQ(result.name, "only");
@@ -70,18 +71,38 @@ TEST_F(ValidationCases, CompareValuesAndBounds) {
   EXPECT_NEAR(result.checks[3].error, 0.17 - 1.0 / 6.0, 1e-12);
 }
 
+Verdict verdict(Expectation expectation, double expected, double tolerance, double obtained) {
+  return compare({"q", expectation, expected, tolerance, ""}, obtained).verdict;
+}
+
 TEST_F(ValidationCases, NanAndInfinityFail) {
-  for (const Expectation expectation : {Expectation::Value, Expectation::AtLeast, Expectation::AtMost}) {
-    EXPECT_FALSE(compare({"q", expectation, 1.0, 1e300, ""}, kNaN).passed);
+  for (const Expectation expectation :
+       {Expectation::Value, Expectation::AtLeast, Expectation::AtMost, Expectation::Reported}) {
+    EXPECT_EQ(verdict(expectation, 1.0, 1e300, kNaN), Verdict::Fail);
   }
-  const double infinity = std::numeric_limits<double>::infinity();
-  EXPECT_FALSE(compare({"q", Expectation::Value, 1.0, 1e300, ""}, infinity).passed);
-  EXPECT_FALSE(compare({"q", Expectation::AtMost, 1.0, 0.0, ""}, infinity).passed);
+  EXPECT_EQ(verdict(Expectation::Value, 1.0, 1e300, kInfinity), Verdict::Fail);
+  EXPECT_EQ(verdict(Expectation::AtMost, 1.0, 0.0, kInfinity), Verdict::Fail);
+  EXPECT_EQ(verdict(Expectation::Reported, 0.0, 0.0, kInfinity), Verdict::Fail);
+  EXPECT_EQ(verdict(Expectation::Reported, 0.0, 0.0, -kInfinity), Verdict::Fail);
 }
 
 TEST_F(ValidationCases, AnErrorOfExactlyTheTolerancePasses) {
-  EXPECT_TRUE(compare({"q", Expectation::Value, 1.0, 0.5, ""}, 1.5).passed);
-  EXPECT_TRUE(compare({"q", Expectation::AtMost, 0.0, 0.0, ""}, 0.0).passed);
+  EXPECT_EQ(verdict(Expectation::Value, 1.0, 0.5, 1.5), Verdict::Pass);
+  EXPECT_EQ(verdict(Expectation::AtMost, 0.0, 0.0, 0.0), Verdict::Pass);
+}
+
+TEST_F(ValidationCases, WhatIsReportedIsNotJudged) {
+  const std::string reported = check(kQuarter, R"(, "reported": true, "source": "for comparison")");
+  const CaseResult result = run(reported + "," + kBound);
+  EXPECT_EQ(result.checks[0].verdict, Verdict::Reported);
+  EXPECT_NEAR(result.checks[0].obtained, 0.375, 1e-9);
+  EXPECT_EQ(result.checks[0].check.source, "for comparison");
+  EXPECT_EQ(result.checks[1].verdict, Verdict::Pass);
+  EXPECT_TRUE(result.passed());
+  EXPECT_FALSE(run(reported + "," + check(kHalf, R"(, "at_least": 1)")).passed());
+  EXPECT_THAT(refusal(hill_case(reported)), HasSubstr("/checks: holds no value and no bound"));
+  EXPECT_THAT(refusal(hill_case(kBound + "," + check(kHalf, R"(, "reported": false)"))),
+              HasSubstr("/checks/1/reported: is false; must be true"));
 }
 
 TEST_F(ValidationCases, AreReadInOrderOfTheirNames) {
@@ -120,7 +141,7 @@ TEST_F(ValidationCases, RefusalsNamePlaceAndNearest) {
   EXPECT_THAT(refusal(R"({"schema": 1, "kind": "pendulum", "title": "", "source": "", "checks": []})"),
               HasSubstr("nearest: \"hinge_pendulum\""));
   EXPECT_THAT(refusal(R"({"schema": 2})"), HasSubstr("/schema"));
-  EXPECT_THAT(refusal(hill_case("")), HasSubstr("/checks: is empty"));
+  EXPECT_THAT(refusal(hill_case("")), HasSubstr("/checks: holds no value and no bound"));
   EXPECT_THAT(refusal(hill_case(check(kHalf, R"(, "at_least": 0, "sauce": "")"))),
               HasSubstr("/checks/0/sauce: unknown key; the nearest known one is \"source\""));
 }
@@ -130,6 +151,7 @@ TEST_F(ValidationCases, ACheckHasExactlyOneExpectation) {
        {"", R"(, "value": 1)", R"(, "value": 1, "relative": 0.1, "absolute": 0.1)", R"(, "at_least": 1, "at_most": 2)",
         R"(, "value": 1, "relative": 0.1, "at_most": 2)", R"(, "at_most": 2, "absolute": 0.1)",
         R"(, "at_most": 2, "absolute": 0.1, "relative": 0.1)", R"(, "value": 0, "relative": 0.1)",
+        R"(, "reported": true, "at_most": 2)", R"(, "reported": true, "absolute": 1)", R"(, "reported": 1)",
         R"(, "value": 1, "relative": 2)", R"(, "value": 1, "absolute": -1)", R"(, "value": "1", "absolute": 1)"}) {
     EXPECT_THAT(refusal(hill_case(check(kHalf, wrong))), HasSubstr("only.json: /checks/0")) << wrong;
   }

@@ -3,121 +3,18 @@
 #include <cmath>
 #include <limits>
 
+#include "measure/case_laws.h"
+
 namespace myotact::measure {
 namespace {
 
 using namespace simulation;
 
-constexpr double kLargest_Pa = 1e15;
-
-double pressure(JsonObject& object, const std::string& key) {
-  return object.at(key).number_between(0.0, kLargest_Pa);
-}
-
-double number(JsonObject& object, const std::string& key, double fallback) {
-  const auto found = object.find(key);
-  return found ? found->number_between(-kLargest_Pa, kLargest_Pa) : fallback;
-}
-
-template <class Elastic>
-Law elastic(JsonObject& object) {
-  const auto young = object.find("young_Pa");
-  const auto poisson = object.find("poisson");
-  if (!young && !poisson) return Elastic{pressure(object, "shear_Pa"), pressure(object, "lambda_Pa")};
-  const double E = pressure(object, "young_Pa"), nu = object.at("poisson").number_between(0.0, 0.499999999);
-  return Elastic{0.5 * E / (1.0 + nu), E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))};
-}
-
-BlemkerFibre blemker_fibre(JsonObject& object) {
-  const BlemkerFibre usual;
-  return {pressure(object, "peak_Pa"), number(object, "optimal_stretch", usual.optimal_stretch),
-          number(object, "toe", usual.toe), number(object, "exponent", usual.exponent),
-          number(object, "straight", usual.straight)};
-}
-
-ExponentialFibre exponential_fibre(JsonObject& object) {
-  const ExponentialFibre usual;
-  return {number(object, "toe_Pa", usual.toe_Pa), number(object, "exponent", usual.exponent),
-          number(object, "straight_Pa", usual.straight_Pa), number(object, "straight", usual.straight)};
-}
-
-Law mooney_rivlin(JsonObject& object) {
-  return MooneyRivlin{pressure(object, "c1_Pa"), pressure(object, "c2_Pa"), pressure(object, "bulk_Pa")};
-}
-
-Law blemker_muscle(JsonObject& object) {
-  return BlemkerMuscle<BlemkerFibre>{pressure(object, "along_Pa"), pressure(object, "across_Pa"),
-                                     pressure(object, "bulk_Pa"), blemker_fibre(object)};
-}
-
-Law muscle_fibres(JsonObject& object) {
-  const MuscleFibre usual;
-  return UnsplitFibres<MuscleFibre>{
-      {pressure(object, "peak_Pa"), number(object, "rest_length", usual.rest_length), number(object, "gain", 1.0)}};
-}
-
-Law calcium_tension(JsonObject& object) {
-  CalciumTension curve;
-  curve.largest_Pa = pressure(object, "largest_Pa");
-  curve.calcium = number(object, "calcium", 0.0);
-  curve.largest_calcium = number(object, "largest_calcium", 0.0);
-  curve.steepness_1_um = number(object, "steepness_1_um", 0.0);
-  curve.shortest_um = number(object, "shortest_um", 0.0);
-  curve.reference_um = number(object, "reference_um", 0.0);
-  return UnsplitFibres<CalciumTension>{curve};
-}
-
-struct LawReader {
-  const char* name;
-  Law (*read)(JsonObject& object);
-};
-
-const std::vector<LawReader>& law_readers() {
-  static const std::vector<LawReader> readers = {
-      {"neo_hookean", elastic<NeoHookean>},
-      {"stable_neo_hookean", elastic<StableNeoHookean>},
-      {"corotated", elastic<Corotated>},
-      {"mooney_rivlin", mooney_rivlin},
-      {"blemker_muscle", blemker_muscle},
-      {"muscle_fibres", muscle_fibres},
-      {"blemker_fibres", [](JsonObject& o) -> Law { return UnsplitFibres<BlemkerFibre>{blemker_fibre(o)}; }},
-      {"exponential_fibres_isochoric",
-       [](JsonObject& o) -> Law { return IsochoricFibres<ExponentialFibre>{exponential_fibre(o)}; }},
-      {"exponential_fibres",
-       [](JsonObject& o) -> Law { return UnsplitFibres<ExponentialFibre>{exponential_fibre(o)}; }},
-      {"constant_tension",
-       [](JsonObject& o) -> Law { return UnsplitFibres<ConstantTension>{{pressure(o, "tension_Pa")}}; }},
-      {"isotropic_tension", [](JsonObject& o) -> Law { return IsotropicTension{pressure(o, "tension_Pa")}; }},
-      {"calcium_tension", calcium_tension},
-  };
-  return readers;
-}
-
-Law read_law(const JsonValue& value) {
-  std::vector<std::string> names;
-  for (const LawReader& reader : law_readers()) names.emplace_back(reader.name);
+Law read_one_law(const JsonValue& value) {
   JsonObject object(value);
-  const std::string name = object.at("law").one_of(names);
-  for (const LawReader& reader : law_readers()) {
-    if (name != reader.name) continue;
-    const Law law = reader.read(object);
-    object.finish();
-    return law;
-  }
-  throw value.error("is of no known law");
-}
-
-/// Shear modulus of a law at rest; 0 for fibres.
-double shear_Pa(const Law& law) {
-  return std::visit(
-      [](const auto& l) {
-        using Kind = std::decay_t<decltype(l)>;
-        if constexpr (requires { l.shear_Pa; }) return l.shear_Pa;
-        if constexpr (std::is_same_v<Kind, MooneyRivlin>) return 2.0 * (l.c1_Pa + l.c2_Pa);
-        if constexpr (requires { l.along_Pa; }) return l.along_Pa;
-        return 0.0;
-      },
-      law);
+  const Law law = read_law(object.at("law"), object);
+  object.finish();
+  return law;
 }
 
 }  // namespace
@@ -125,7 +22,7 @@ double shear_Pa(const Law& law) {
 std::vector<Law> read_laws(JsonObject& inputs) {
   std::vector<Law> laws;
   const JsonValue list = inputs.at("laws");
-  for (const JsonValue& element : list.elements()) laws.push_back(read_law(element));
+  for (const JsonValue& element : list.elements()) laws.push_back(read_one_law(element));
   if (laws.empty()) throw list.error("is empty; a solid needs at least 1 law");
   return laws;
 }
@@ -136,8 +33,7 @@ const std::vector<std::string>& elastic_law_names() {
 }
 
 Law elastic_law(const std::string& name, double young_Pa, double poisson) {
-  const double shear = 0.5 * young_Pa / (1.0 + poisson);
-  const double lambda = young_Pa * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
+  const auto [shear, lambda] = lame_moduli(young_Pa, poisson);
   if (name == "neo_hookean") return NeoHookean{shear, lambda};
   if (name == "mooney_rivlin") return MooneyRivlin{0.5 * shear, 0.0, lambda + 2.0 / 3.0 * shear};
   if (name == "corotated") return Corotated{shear, lambda};
@@ -183,7 +79,7 @@ SolidInput uniform_solid(const geometry::TetMesh& mesh, const ElementChoice& ele
   SolidInput input;
   input.mesh = mesh;
   input.kind = element.kind;
-  input.materials = {{laws, 1000.0, element.fluctuation_over_shear * shear_Pa(laws.front())}};
+  input.materials = {{laws, 1000.0, element.fluctuation_over_shear * shear_at_rest_Pa(laws.front())}};
   if (element.fluctuation_over_shear < 0.0) input.materials[0].fluctuation_Pa = -1.0;
   input.fibre.assign(mesh.corners.size(), fibre);
   if (element.kind == ElementKind::Patched) input.patch = cells_of_box(mesh);

@@ -8,8 +8,7 @@
 
 namespace myotact::measure {
 
-/// Key `laws`: a list of objects {law, ...}, the law's numbers as its struct names them, or for neo_hookean,
-/// stable_neo_hookean and corotated young_Pa and poisson.
+/// Key `laws`: a list of objects {law, ...}, names and numbers as in a case's materials (case_laws.h).
 std::vector<simulation::Law> read_laws(JsonObject& inputs);
 
 /// Gives the volume ratio to those laws that need it as a number; whether that changed any.

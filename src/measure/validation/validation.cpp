@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -15,25 +16,38 @@ namespace {
 
 constexpr double kLargestTolerance = 1e300;  // any finite one that can still be multiplied
 
-/// The expectation of a check: `value` with one tolerance, `at_least` or `at_most`.
-void read_expectation(const JsonValue& place, JsonObject& object, Check& check) {
-  const auto value = object.find("value");
-  const auto at_least = object.find("at_least");
-  const auto at_most = object.find("at_most");
-  const auto relative = object.find("relative");
-  const auto absolute = object.find("absolute");
-  if (value.has_value() + at_least.has_value() + at_most.has_value() != 1) {
-    throw place.error("expects exactly one of value, at_least and at_most");
+using MaybeValue = std::optional<JsonValue>;
+
+/// `relative` or `absolute`, which a value has and nothing else.
+void read_tolerance(const JsonValue& place, JsonObject& object, Check& check) {
+  const MaybeValue relative = object.find("relative");
+  const MaybeValue absolute = object.find("absolute");
+  const int wanted = check.expectation == Expectation::Value ? 1 : 0;
+  if (relative.has_value() + absolute.has_value() != wanted) {
+    throw place.error("a value comes with exactly one tolerance, relative or absolute; anything else with none");
   }
-  if (value.has_value() != (relative.has_value() != absolute.has_value()) || (!value && relative && absolute)) {
-    throw place.error("a value comes with exactly one tolerance, relative or absolute; a bound with none");
-  }
-  check.expected = (value ? *value : at_least ? *at_least : *at_most).number();
-  check.expectation = value ? Expectation::Value : at_least ? Expectation::AtLeast : Expectation::AtMost;
   if (absolute) check.tolerance = absolute->number_between(0.0, kLargestTolerance);
   if (!relative) return;
   check.tolerance = relative->number_between(0.0, 1.0) * std::abs(check.expected);
   if (check.expected == 0.0) throw relative->error("means nothing for the value 0; give an absolute tolerance");
+}
+
+/// `value`, `at_least`, `at_most` or `reported`.
+void read_expectation(const JsonValue& place, JsonObject& object, Check& check) {
+  const MaybeValue value = object.find("value");
+  const MaybeValue at_least = object.find("at_least");
+  const MaybeValue at_most = object.find("at_most");
+  const MaybeValue reported = object.find("reported");
+  if (value.has_value() + at_least.has_value() + at_most.has_value() + reported.has_value() != 1) {
+    throw place.error("expects exactly one of value, at_least, at_most and reported");
+  }
+  if (reported) {
+    check.expectation = Expectation::Reported;
+    if (!reported->boolean()) throw reported->error("is false; must be true, or a value or bound in its place");
+    return;
+  }
+  check.expected = (value ? *value : at_least ? *at_least : *at_most).number();
+  check.expectation = value ? Expectation::Value : at_least ? Expectation::AtLeast : Expectation::AtMost;
 }
 
 Check read_check(const JsonValue& place, const std::string& source) {
@@ -42,6 +56,7 @@ Check read_check(const JsonValue& place, const std::string& source) {
   check.quantity = object.at("quantity").string();
   check.source = object.string_or("source", source);
   read_expectation(place, object, check);
+  read_tolerance(place, object, check);
   object.finish();
   return check;
 }
@@ -70,7 +85,10 @@ ValidationCase read_case(JsonObject& object) {
   result.slow = object.boolean_or("slow", false);
   const JsonValue checks = object.at("checks");
   for (const JsonValue& check : checks.elements()) result.checks.push_back(read_check(check, result.source));
-  if (result.checks.empty()) throw checks.error("is empty; a case that checks nothing proves nothing");
+  const auto judged = [](const Check& check) { return check.expectation != Expectation::Reported; };
+  if (std::none_of(result.checks.begin(), result.checks.end(), judged)) {
+    throw checks.error("holds no value and no bound; a case that checks nothing proves nothing");
+  }
   return result;
 }
 
@@ -88,7 +106,8 @@ double obtained_of(const Quantities& quantities, const Check& check, const JsonV
 }  // namespace
 
 bool CaseResult::passed() const {
-  return std::all_of(checks.begin(), checks.end(), [](const CheckResult& result) { return result.passed; });
+  return std::none_of(checks.begin(), checks.end(),
+                      [](const CheckResult& result) { return result.verdict == Verdict::Fail; });
 }
 
 std::filesystem::path validation_folder() {
@@ -131,7 +150,7 @@ std::vector<ValidationCase> select_cases(const std::vector<ValidationCase>& case
 }
 
 CheckResult compare(const Check& check, double obtained) {
-  CheckResult result{check, obtained, 0.0, false};
+  CheckResult result{check, obtained, 0.0, Verdict::Fail};
   switch (check.expectation) {
     case Expectation::Value:
       result.error = std::abs(obtained - check.expected);
@@ -142,8 +161,11 @@ CheckResult compare(const Check& check, double obtained) {
     case Expectation::AtMost:
       result.error = obtained <= check.expected ? 0.0 : obtained - check.expected;
       break;
+    case Expectation::Reported:
+      if (std::isfinite(obtained)) result.verdict = Verdict::Reported;
+      return result;
   }
-  result.passed = result.error <= check.tolerance;  // false for NaN
+  if (result.error <= check.tolerance) result.verdict = Verdict::Pass;  // false for NaN
   return result;
 }
 
@@ -152,7 +174,7 @@ CaseResult run_case(const ValidationCase& validation_case) {
   read_case(object);  // asks for the common keys once more, so that finish() knows them
   const Quantities quantities = read_kind(object).run(object);
   object.finish();
-  CaseResult result{validation_case.name, validation_case.title, {}};
+  CaseResult result{validation_case.name, validation_case.title, validation_case.source, {}};
   const auto places = object.at("checks").elements();
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Check& check = validation_case.checks[i];

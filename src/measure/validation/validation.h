@@ -12,13 +12,15 @@ namespace myotact::measure {
 // Cases that compare what the program computes with closed forms and published figures. A case is a file NAME.json of
 // tests/validation/, whose README gives the format.
 
-enum class Expectation { Value, AtLeast, AtMost };
+/// Reported: a figure that is shown and not judged, for comparison with those that are.
+enum class Expectation { Value, AtLeast, AtMost, Reported };
+enum class Verdict { Pass, Fail, Reported };
 
 struct Check {
   std::string quantity;
   Expectation expectation = Expectation::Value;
   double expected = 0.0;
-  double tolerance = 0.0;  // largest absolute error; 0 for AtLeast and AtMost
+  double tolerance = 0.0;  // largest absolute error; 0 for all but Value
   std::string source;      // the case's own, if the check has none
 };
 
@@ -35,13 +37,13 @@ struct CheckResult {
   Check check;
   double obtained = 0.0;
   double error = 0.0;  // how far off; for AtLeast and AtMost how far on the wrong side, else 0
-  bool passed = false;
+  Verdict verdict = Verdict::Fail;
 };
 
 struct CaseResult {
-  std::string name, title;
+  std::string name, title, source;
   std::vector<CheckResult> checks;
-  bool passed() const;
+  bool passed() const;  // nothing failed
 };
 
 /// tests/validation of the data folder. Throws Error NoInput naming the remedy.
@@ -57,7 +59,7 @@ std::vector<ValidationCase> select_cases(const std::vector<ValidationCase>& case
 /// check of a quantity that it does not compute.
 CaseResult run_case(const ValidationCase& validation_case);
 
-/// NaN never passes.
+/// NaN always fails, and of what is only reported infinity does too.
 CheckResult compare(const Check& check, double obtained);
 
 }  // namespace myotact::measure
