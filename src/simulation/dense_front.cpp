@@ -243,14 +243,15 @@ void solve_backward(const DenseFront<Scalar>& front, Scalar* values) {
                         __attribute__((always_inline)) { backward<VectorOf<Scalar, kBytes>>(front, values); });
 }
 
-#define MYOTACT_INSTANTIATE(Scalar)                                                                 \
-  template void zero_remainder(const DenseFront<Scalar>&);                                          \
-  template void add_remainder(const Scalar*, std::span<const FrontRun>, const DenseFront<Scalar>&); \
-  template Pivots eliminate_front(const DenseFront<Scalar>&, Scalar*);                              \
-  template void solve_forward(const DenseFront<Scalar>&, Scalar*);                                  \
-  template void solve_backward(const DenseFront<Scalar>&, Scalar*)
-MYOTACT_INSTANTIATE(float);
-MYOTACT_INSTANTIATE(double);
-#undef MYOTACT_INSTANTIATE
+template void zero_remainder(const DenseFront<float>&);
+template void add_remainder(const float*, std::span<const FrontRun>, const DenseFront<float>&);
+template Pivots eliminate_front(const DenseFront<float>&, float*);
+template void solve_forward(const DenseFront<float>&, float*);
+template void solve_backward(const DenseFront<float>&, float*);
+template void zero_remainder(const DenseFront<double>&);
+template void add_remainder(const double*, std::span<const FrontRun>, const DenseFront<double>&);
+template Pivots eliminate_front(const DenseFront<double>&, double*);
+template void solve_forward(const DenseFront<double>&, double*);
+template void solve_backward(const DenseFront<double>&, double*);
 
 }  // namespace myotact::simulation

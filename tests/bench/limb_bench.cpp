@@ -11,6 +11,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <benchmark/benchmark.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include "anatomy/specimen.h"
@@ -130,7 +131,7 @@ void add_parts(const anatomy::Specimen& specimen) {
              compute_forces(muscle.tissue, limb.skeleton, step_load(), muscle.state, muscle.system);
            }));
   for (const int columns : {1, 4}) {
-    add_part("solve, right sides: " + std::to_string(columns), specimen, each_muscle([columns](Limb&, LimbMuscle& m) {
+    add_part(fmt::format("solve, right sides: {}", columns), specimen, each_muscle([columns](Limb&, LimbMuscle& m) {
                const Eigen::MatrixXd right = Eigen::MatrixXd::Ones(m.system.residual_N.size(), columns);
                benchmark::DoNotOptimize(m.factor.matrix.solve(right).data());
              }));
@@ -177,13 +178,14 @@ void step(benchmark::State& state, const anatomy::Specimen& specimen, int worker
 }
 
 void add_steps(const std::string& name, const anatomy::Specimen& specimen) {
-  const std::pair<const char*, VectorUnit> units[] = {
-      {"AVX-512", VectorUnit::Avx512}, {"AVX2", VectorUnit::Avx2}, {"SSE2", VectorUnit::Sse2}};
+  const auto add_step = [&](int workers, const char* registers, VectorUnit unit) {
+    add(fmt::format("step/{}/workers:{}/{}", name, workers, registers),
+        [&specimen, workers, unit](benchmark::State& state) { step(state, specimen, workers, unit); });
+  };
   for (const int workers : {1, 2}) {
-    for (const auto& [unit_name, unit] : units) {
-      add("step/" + name + "/workers:" + std::to_string(workers) + "/" + unit_name,
-          [&specimen, workers, unit](benchmark::State& state) { step(state, specimen, workers, unit); });
-    }
+    add_step(workers, "AVX-512", VectorUnit::Avx512);
+    add_step(workers, "AVX2", VectorUnit::Avx2);
+    add_step(workers, "SSE2", VectorUnit::Sse2);
   }
 }
 
@@ -191,7 +193,7 @@ void add_steps(const std::string& name, const anatomy::Specimen& specimen) {
 void add_sizes(const std::string& name, const anatomy::Specimen& specimen) {
   for (std::size_t m = 0; m < specimen.muscles.size(); ++m) {
     const int tets = static_cast<int>(specimen.muscles[m].tets.corners.size());
-    add("size/tets:" + std::to_string(tets) + "/" + name + "/" + specimen.muscles[m].key,
+    add(fmt::format("size/tets:{}/{}/{}", tets, name, specimen.muscles[m].key),
         [&specimen, m, tets](benchmark::State& state) {
           Limb limb(specimen);
           LimbMuscle& muscle = limb.muscles[m];
@@ -215,7 +217,7 @@ anatomy::Specimen repeated(const anatomy::Specimen& specimen, std::size_t count)
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t from = k % specimen.muscles.size();
     more.muscles.push_back(specimen.muscles[from]);
-    more.muscles.back().key += "_" + std::to_string(k);
+    more.muscles.back().key += fmt::format("_{}", k);
     for (anatomy::MuscleLine line : specimen.lines) {
       if (line.muscle != static_cast<int>(from)) continue;
       line.muscle = static_cast<int>(k);
@@ -241,9 +243,10 @@ int main(int argc, char** argv) {
     simulation::add_sizes(folders[k].filename(), specimens[k]);
   }
   std::vector<anatomy::Specimen> repeats;
-  for (const std::size_t count : {1, 2, 5, 10, 20, 40}) repeats.push_back(simulation::repeated(specimens[0], count));
+  for (const std::size_t count : {1UL, 2UL, 5UL, 10UL, 20UL, 40UL})
+    repeats.push_back(simulation::repeated(specimens[0], count));
   for (const anatomy::Specimen& limb : repeats) {
-    simulation::add("muscles:" + std::to_string(limb.muscles.size()), [&limb](benchmark::State& state) {
+    simulation::add(fmt::format("muscles:{}", limb.muscles.size()), [&limb](benchmark::State& state) {
       simulation::step(state, limb, 2, simulation::VectorUnit::Avx512);
     });
   }
