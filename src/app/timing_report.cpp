@@ -45,10 +45,11 @@ void print_summary(const nlohmann::json& report, std::ostream& out) {
   if (report.contains("stiffness")) {
     out << "co-contraction   K Schur   K perturbed   K lines [N m/rad]   net torque [N m]\n";
     for (const auto& row : report["stiffness"]) {
-      out << fmt::format("{:>14.2f} {:>9.3f} {:>13.3f} {:>9.3f} {:>28.5f}{}\n", row["common"].get<double>(),
+      out << fmt::format("{:>14.2f} {:>9.3f} {:>13.3f} {:>9.3f} {:>28.5f}{}{}\n", row["common"].get<double>(),
                          row["K_schur_Nm_rad"].get<double>(), row["K_perturbed_Nm_rad"].get<double>(),
                          row["K_line_Nm_rad"].get<double>(), row["net_torque_Nm"].get<double>(),
-                         row["converged"] == 1 ? "" : "  not converged");
+                         row["converged"] == 1 ? "" : "  not converged",
+                         row.contains("mark") ? "  " + row["mark"].get<std::string>() : "");
     }
   }
   out << std::flush;

@@ -21,6 +21,7 @@ struct JointFrame {
   double angle_rad = 0.0;
   double torque_Nm = 0.0;
   double stiffness_Nm_rad = 0.0;
+  bool preview = false;  // mass-spring muscles are in it
 };
 
 struct RateFrame {

@@ -75,8 +75,9 @@ void read_joints(const JsonValue& value, Scene& scene) {
 simulation::TissueModel tissue_model(const JsonValue& value) {
   const std::string name = value.one_of({"fem", "mass_spring", "line", "rigid"});
   if (name == "fem") return simulation::TissueModel::Fem;
+  if (name == "mass_spring") return simulation::TissueModel::MassSpring;
   if (name == "rigid") return simulation::TissueModel::Rigid;
-  throw value.error(fmt::format("the model \"{}\" is not in this version; use fem or rigid", name));
+  throw value.error(fmt::format("the model \"{}\" is not in this version; use fem, mass_spring or rigid", name));
 }
 
 void read_tissue(const JsonValue& value, Scene& scene) {

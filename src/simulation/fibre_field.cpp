@@ -35,34 +35,34 @@ SpeedFactor speed_factor(const FibreInputs& in, std::size_t point, double stretc
 
 double fibre_weight_Nm(const MuscleTissue& tissue) {
   double weight = 0.0;
-  for (const TissueElement& element : tissue.elements) weight += kTetPoints * point_weight_Nm(element);
+  for (const TissueElement& element : tissue.elements)
+    weight += static_cast<double>(element.points()) * point_weight_Nm(element);
   return weight;
 }
 
 double mean_fibre_length(const MuscleTissue& tissue, const std::vector<double>& stretches) {
   double sum = 0.0, weight = 0.0;
-  for (std::size_t t = 0; t < tissue.elements.size(); ++t) {
-    const double w = point_weight_Nm(tissue.elements[t]);
-    for (std::size_t p = 0; p < kTetPoints; ++p) sum += w * tissue.fibre_map.length(stretches[t * kTetPoints + p]);
-    weight += kTetPoints * w;
+  std::size_t point = 0;
+  for (const TissueElement& element : tissue.elements) {
+    const double w = point_weight_Nm(element);
+    for (std::size_t p = 0; p < element.points(); ++p) sum += w * tissue.fibre_map.length(stretches[point++]);
+    weight += static_cast<double>(element.points()) * w;
   }
   return weight > 0.0 ? sum / weight : tissue.fibre_map.rest_stretch;
 }
 
-void write_fibre_stress(const FibreInputs& in, std::size_t t, std::size_t lane, MuscleBatch& batch) {
+FibreStress fibre_stress(const FibreInputs& in, std::size_t t, std::size_t p) {
   const TissueElement& element = in.tissue.elements[t];
-  if (element.peak_Pa == 0.0) return;
+  if (element.peak_Pa == 0.0) return {};
   const FibreMap& map = in.tissue.fibre_map;
   const double a = in.state.activation, peak = map.scale * element.peak_Pa;
-  for (std::size_t p = 0; p < kTetPoints; ++p) {
-    const double stretch = in.state.now.stretch[t * kTetPoints + p];
-    const double n = map.length(stretch);
-    const SpeedFactor speed = speed_factor(in, t * kTetPoints + p, stretch);
-    const double active = in.shared_force + kEvenness * (n - in.mean_length) + in.damped_force * (speed.value - 1.0);
-    batch.stress_Pa[p].lane[lane] = peak * (a * active + passive_force_length(n));
-    batch.slope_Pa[p].lane[lane] =
-        peak * ((a * kEvenness + passive_force_length_slope(n)) * map.gain + a * in.damped_force * speed.slope);
-  }
+  const std::size_t point = t * element.points() + p;
+  const double stretch = in.state.now.stretch[point];
+  const double n = map.length(stretch);
+  const SpeedFactor speed = speed_factor(in, point, stretch);
+  const double active = in.shared_force + kEvenness * (n - in.mean_length) + in.damped_force * (speed.value - 1.0);
+  return {peak * (a * active + passive_force_length(n)),
+          peak * ((a * kEvenness + passive_force_length_slope(n)) * map.gain + a * in.damped_force * speed.slope)};
 }
 
 FibreInputs fibre_inputs(const MuscleTissue& tissue, const TissueState& state, const TissueLoad& load) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "simulation/element/muscle_batch.h"
 #include "simulation/tissue_system.h"
 
 namespace myotact::simulation {
@@ -34,8 +33,12 @@ struct FibreInputs {
 /// What all points share in the present iterate.
 FibreInputs fibre_inputs(const MuscleTissue& tissue, const TissueState& state, const TissueLoad& load);
 
-/// Nominal stress and its slope against the point's own stretch, at the four points of an element's lane.
-void write_fibre_stress(const FibreInputs& inputs, std::size_t element, std::size_t lane, MuscleBatch& batch);
+/// Nominal stress of the fibres at a point and its slope against the point's own stretch.
+struct FibreStress {
+  double stress_Pa = 0.0;
+  double slope_Pa = 0.0;
+};
+FibreStress fibre_stress(const FibreInputs& inputs, std::size_t element, std::size_t point);
 
 /// How the mean length enters the tangent: factor * (gradient of the mean)(gradient of the mean)^T [N m].
 double mean_tangent_Nm(const FibreInputs& inputs);

@@ -13,13 +13,15 @@ void add_mean_term(const LimbMuscle& muscle, Eigen::MatrixXd& solution) {
 
 }  // namespace
 
-Limb::Limb(const anatomy::Specimen& specimen) : skeleton(specimen) {
+Limb::Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> models) : skeleton(specimen) {
   now.angle_rad = now.velocity_rad_s = Eigen::VectorXd::Zero(skeleton.joint_count());
   last = before = now;
   external_torque_Nm = now.angle_rad;
   for (int m = 0; m < static_cast<int>(specimen.muscles.size()); ++m) {
     LimbMuscle muscle;
-    muscle.tissue = build_muscle_tissue(specimen, m);
+    const TissueModel model = models.empty() ? TissueModel::Fem : models[static_cast<std::size_t>(m)];
+    muscle.tissue = build_muscle_tissue(specimen, m, model);
+    muscle.rigid = model == TissueModel::Rigid;
     muscle.state = make_state(muscle.tissue);
     muscle.system = make_system(muscle.tissue, skeleton);
     muscle.factor = make_factor(muscle.tissue);

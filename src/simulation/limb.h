@@ -61,7 +61,8 @@ struct JointFrameState {
 
 /// Everything that moves, and what a step needs. See step.h and settle.h.
 struct Limb {
-  explicit Limb(const anatomy::Specimen& specimen);
+  /// `models`: one a muscle; empty: all Fem.
+  explicit Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> models = {});
 
   Skeleton skeleton;
   SkeletonLoads loads;

@@ -62,7 +62,11 @@ void add_elements(const anatomy::Muscle& muscle, const BellyShape& shape, Muscle
       element.nodes[c] = tissue.mesh.corners[t][c];
       corners[c] = tissue.mesh.nodes_m[at(element.nodes[c])];
     }
-    for (std::size_t e = 0; e < 6; ++e) element.nodes[4 + e] = tissue.mesh.midsides[t][e];
+    if (tissue.mesh.quadratic()) {
+      for (std::size_t e = 0; e < 6; ++e) element.nodes[4 + e] = tissue.mesh.midsides[t][e];
+    } else {
+      element.nodes.count = LinearTet::kNodes;
+    }
     element.shape = make_tet_shape(corners, muscle.fibres[t].normalized());
     element.section_m2 = shape.sections_m2[t];
     element.sheath = !is_belly(muscle.regions[t]);
@@ -72,14 +76,15 @@ void add_elements(const anatomy::Muscle& muscle, const BellyShape& shape, Muscle
 }
 
 /// Lumps by the diagonal of the consistent mass matrix, scaled to the element's mass: corners 1/36, mid-sides 4/27.
-/// (Row sums would give the corners of a quadratic tet negative mass.)
+/// (Row sums would give the corners of a quadratic tet negative mass.) A linear tet's corners carry a quarter each.
 void add_masses(MuscleTissue& tissue) {
   tissue.mass_kg.assign(tissue.mesh.nodes_m.size(), 0.0);
   for (const TissueElement& element : tissue.elements) {
     const TissueMaterial& material = element.sheath ? kTendonSheath : kMuscleMatrix;
     const double mass = material.density_kg_m3 * element.shape.volume_m3;
-    for (std::size_t a = 0; a < kTetNodes; ++a)
-      tissue.mass_kg[at(element.nodes[a])] += mass * (a < 4 ? 1.0 / 36.0 : 4.0 / 27.0);
+    const double corner = element.nodes.size() == LinearTet::kNodes ? 1.0 / 4.0 : 1.0 / 36.0;
+    for (std::size_t a = 0; a < element.nodes.size(); ++a)
+      tissue.mass_kg[at(element.nodes[a])] += mass * (a < 4 ? corner : 4.0 / 27.0);
   }
 }
 
@@ -108,9 +113,9 @@ void add_batches(bool sheath, MuscleTissue& tissue) {
     if (!open) tissue.batches.emplace_back().sheath = sheath;
     TissueBatch& batch = tissue.batches.back();
     const std::size_t lane = at(batch.tets.count++);
-    set_lane(batch.tets, lane, static_cast<int>(t), element.shape, element.nodes);
+    set_lane(batch.tets, lane, static_cast<int>(t), element.shape, element.nodes.node);
     batch.peak_Pa.lane[lane] = element.peak_Pa;
-    set_slots<QuadraticTet>(tissue.pattern, free_nodes(tissue, element.nodes), lane, batch.tets.slots);
+    set_slots<QuadraticTet>(tissue.pattern, free_nodes(tissue, element.nodes.node), lane, batch.tets.slots);
     open = batch.tets.count < kBatch;
   }
 }
@@ -129,6 +134,10 @@ void add_pattern(MuscleTissue& tissue) {
   for (TissueElement& element : tissue.elements) {
     element.clamped = std::any_of(element.nodes.begin(), element.nodes.end(),
                                   [&](int node) { return tissue.free_index[at(node)] < 0; });
+  }
+  if (tissue.model == TissueModel::MassSpring) {
+    tissue.springs = make_spring_net(tissue);
+    return;
   }
   add_batches(false, tissue);
   add_batches(true, tissue);
@@ -172,7 +181,7 @@ void add_blend(MuscleTissue& tissue) {
 
 }  // namespace
 
-MuscleTissue build_muscle_tissue(const anatomy::Specimen& specimen, int index) {
+MuscleTissue build_muscle_tissue(const anatomy::Specimen& specimen, int index, TissueModel model) {
   const anatomy::Muscle& muscle = specimen.muscles[at(index)];
   if (muscle.tets.corners.empty()) throw refuse(muscle, "has no tets; at least 1 is needed");
   const auto found = std::find_if(specimen.lines.begin(), specimen.lines.end(),
@@ -182,7 +191,8 @@ MuscleTissue build_muscle_tissue(const anatomy::Specimen& specimen, int index) {
   }
   std::vector<std::array<int, 2>> edges;
   MuscleTissue tissue;
-  tissue.mesh = geometry::make_quadratic(muscle.tets, &edges);
+  tissue.model = model;
+  tissue.mesh = model == TissueModel::MassSpring ? muscle.tets : geometry::make_quadratic(muscle.tets, &edges);
   const BellyShape shape = belly_shape(muscle, *found);
   tissue.fibre_map = {muscle.rest_stretch, shape.length_m / (muscle.optimal_fibre_m * std::cos(muscle.pennation_rad)),
                       0.0, 1.0};

@@ -8,25 +8,40 @@
 #include "anatomy/specimen.h"
 #include "geometry/tet_mesh.h"
 #include "simulation/block_matrix.h"
-#include "simulation/element/tet_elements.h"
+#include "simulation/spring_net.h"
 #include "simulation/tendon_strand.h"
 #include "simulation/tissue_material.h"
+#include "simulation/tissue_model.h"
 
 namespace myotact::simulation {
 
 inline constexpr std::size_t kTetNodes = QuadraticTet::kNodes;
 inline constexpr std::size_t kTetPoints = QuadraticTet::kPoints;
 
+/// Nodes of a tet: 4 of a linear one, 10 of a quadratic one; the corners come first.
+struct TetNodeList {
+  std::array<int, kTetNodes> node{};
+  std::size_t count = kTetNodes;
+
+  std::size_t size() const { return count; }
+  const int* begin() const { return node.data(); }
+  const int* end() const { return node.data() + count; }
+  int operator[](std::size_t a) const { return node[a]; }
+  int& operator[](std::size_t a) { return node[a]; }
+};
+
 /// One tet of a muscle's mesh, as it is at rest.
 struct TissueElement {
-  std::array<int, kTetNodes> nodes{};
+  TetNodeList nodes;
   TetShape<double> shape;
   double section_m2 = 0.0;  // of the muscle here, along the fibres
   double peak_Pa = 0.0;     // nominal fibre stress at full activation and optimal length; 0: no fibres (sheath)
   bool sheath = false;
   bool clamped = false;  // some of its nodes are
 
-  double point_volume_m3() const { return 0.25 * shape.volume_m3; }
+  /// Integration points.
+  std::size_t points() const { return nodes.size() == LinearTet::kNodes ? LinearTet::kPoints : kTetPoints; }
+  double point_volume_m3() const { return shape.volume_m3 / static_cast<double>(points()); }
 };
 
 /// Eight tets of one material.
@@ -50,13 +65,15 @@ struct FibreMap {
 /// A muscle as the solver sees it: everything that does not change while it moves. n nodes, of which some are clamped
 /// to bodies and move exactly with them; the rest are free and numbered in the order of the nodes.
 struct MuscleTissue {
-  geometry::TetMesh mesh;       // quadratic, rest position
+  TissueModel model = TissueModel::Fem;
+  geometry::TetMesh mesh;       // rest position; linear for a mass-spring muscle, else quadratic
   std::vector<int> body;        // n: body that clamps the node, or -1
   std::vector<int> free_index;  // n: number among the free nodes, or -1
   int free_nodes = 0;
   std::vector<double> mass_kg;  // n, lumped
   std::vector<TissueElement> elements;
-  std::vector<TissueBatch> batches;  // of all elements: belly, then sheath
+  std::vector<TissueBatch> batches;  // of all elements: belly, then sheath; none of a mass-spring muscle
+  std::vector<SpringBatch> springs;  // of a mass-spring muscle: all elements
   FibreMap fibre_map;
   std::vector<TendonStrand> strands;
   std::vector<int> bodies;  // that clamp nodes
@@ -69,13 +86,14 @@ struct MuscleTissue {
 };
 
 /// Numbers of an element's nodes among the free ones; -1 for the clamped.
-inline std::array<int, kTetNodes> free_nodes(const MuscleTissue& tissue, const std::array<int, kTetNodes>& nodes) {
-  std::array<int, kTetNodes> free{};
-  for (std::size_t a = 0; a < kTetNodes; ++a) free[a] = tissue.free_index[static_cast<std::size_t>(nodes[a])];
+template <std::size_t kNodes>
+std::array<int, kNodes> free_nodes(const MuscleTissue& tissue, const std::array<int, kNodes>& nodes) {
+  std::array<int, kNodes> free{};
+  for (std::size_t a = 0; a < kNodes; ++a) free[a] = tissue.free_index[static_cast<std::size_t>(nodes[a])];
   return free;
 }
 
 /// Throws Error BadData naming the muscle when it cannot be simulated: no tets, nothing clamped, a tet of no volume.
-MuscleTissue build_muscle_tissue(const anatomy::Specimen& specimen, int muscle);
+MuscleTissue build_muscle_tissue(const anatomy::Specimen& specimen, int muscle, TissueModel model = TissueModel::Fem);
 
 }  // namespace myotact::simulation

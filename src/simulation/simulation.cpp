@@ -53,12 +53,13 @@ struct LineRest {
 
 struct Simulation::Impl {
   Impl(const anatomy::Specimen& given, const SimulationSettings& chosen)
-      : specimen(given), settings(chosen), limb(specimen), workers(chosen.workers), surfaces(specimen, limb) {
+      : specimen(given),
+        settings(chosen),
+        limb(specimen, settings.tissue),
+        workers(chosen.workers),
+        surfaces(specimen, limb) {
     limb.gravity_m_s2 = settings.gravity_m_s2;
     excitations.assign(specimen.muscles.size(), 0.0);
-    for (std::size_t m = 0; m < settings.tissue.size(); ++m) {
-      limb.muscles[m].rigid = settings.tissue[m] == TissueModel::Rigid;
-    }
     workers.run(static_cast<int>(specimen.muscles.size()), [&](int m) {
       if (!limb.muscles[at(m)].rigid) calibrate_muscle(specimen, m, limb.skeleton, limb.muscles[at(m)]);
     });
@@ -91,6 +92,7 @@ struct Simulation::Impl {
   void freeze();
   LineForce line_force_of(int muscle) const;
   LineGeometry line_geometry_of(int muscle) const;
+  bool spans(int muscle, int joint) const;
   void write_contact(const messages::ToolContact& contact, messages::LocalModel& model) const;
   void write_line(const messages::ToolState& tool, messages::LocalModel& model) const;
 };
@@ -121,6 +123,13 @@ LineGeometry Simulation::Impl::line_geometry_of(int muscle) const {
   LineGeometry geometry;
   measure_line(*lines[at(muscle)].line, limb.skeleton, geometry);
   return geometry;
+}
+
+/// Whether the muscle's line has points on both sides of the joint.
+bool Simulation::Impl::spans(int muscle, int joint) const {
+  const std::vector<anatomy::LinePoint>& points = lines[at(muscle)].line->points;
+  const auto distal = [&](const anatomy::LinePoint& point) { return limb.skeleton.is_distal(point.body, joint); };
+  return std::any_of(points.begin(), points.end(), distal) && !std::all_of(points.begin(), points.end(), distal);
 }
 
 LineForce Simulation::Impl::line_force_of(int muscle) const {
@@ -276,6 +285,7 @@ JointReadout Simulation::joint(int joint) const {
     const LineJointTerms terms = line_joint_terms(impl_->line_geometry_of(muscle), impl_->line_force_of(muscle), joint);
     readout.line_muscle_Nm_rad += terms.muscle_Nm_rad;
     readout.line_geometry_Nm_rad += terms.geometry_Nm_rad;
+    readout.preview |= limb.muscles[m].tissue.model == TissueModel::MassSpring && impl_->spans(muscle, joint);
   }
   return readout;
 }
@@ -380,7 +390,7 @@ void Simulation::write_frame(messages::SceneFrame& frame) const {
   frame.joints.resize(in.specimen.joints.size());
   for (std::size_t j = 0; j < frame.joints.size(); ++j) {
     const JointReadout readout = joint(static_cast<int>(j));
-    frame.joints[j] = {readout.angle_rad, readout.net_torque_Nm, readout.stiffness_Nm_rad};
+    frame.joints[j] = {readout.angle_rad, readout.net_torque_Nm, readout.stiffness_Nm_rad, readout.preview};
   }
 }
 

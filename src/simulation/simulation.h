@@ -11,10 +11,9 @@
 #include "messages/local_model.h"
 #include "messages/scene_frame.h"
 #include "messages/tool_state.h"
+#include "simulation/tissue_model.h"
 
 namespace myotact::simulation {
-
-enum class TissueModel { Fem, Rigid };
 
 struct SimulationSettings {
   double dt_s = 0.01;
@@ -33,6 +32,7 @@ struct JointReadout {
   double line_geometry_Nm_rad = 0.0;  // -sum (dr/dq) F of the muscle lines
   double passive_Nm_rad = 0.0;        // the joint's own
   double inertia_kg_m2 = 0.0;
+  bool preview = false;  // a mass-spring muscle spans the joint: torque and stiffness are no more than a preview
 };
 
 /// Soft muscles on a skeleton, advanced by a fixed implicit step. Single caller; makes its own workers.

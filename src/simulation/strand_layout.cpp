@@ -86,7 +86,9 @@ double slope_along_fibre(const TissueElement& element, std::size_t point, std::s
   for (std::size_t m = 0; m < 4; ++m) {
     const Vector3<double>& g = element.shape.gradient_1_m[m];
     const Vector3<double>& fibre = element.shape.fibre;
-    sum += shape_slope<QuadraticTet>(a, m, point) * (g[0] * fibre[0] + g[1] * fibre[1] + g[2] * fibre[2]);
+    const double slope = element.nodes.size() == LinearTet::kNodes ? shape_slope<LinearTet>(a, m, point)
+                                                                   : shape_slope<QuadraticTet>(a, m, point);
+    sum += slope * (g[0] * fibre[0] + g[1] * fibre[1] + g[2] * fibre[2]);
   }
   return sum;
 }
@@ -96,8 +98,8 @@ std::vector<double> unit_pull(const MuscleTissue& tissue) {
   std::vector<double> pull(tissue.mesh.nodes_m.size(), 0.0);
   for (const TissueElement& element : tissue.elements) {
     if (element.sheath) continue;
-    for (std::size_t p = 0; p < kTetPoints; ++p) {
-      for (std::size_t a = 0; a < kTetNodes; ++a) {
+    for (std::size_t p = 0; p < element.points(); ++p) {
+      for (std::size_t a = 0; a < element.nodes.size(); ++a) {
         pull[at(element.nodes[a])] += element.point_volume_m3() * slope_along_fibre(element, p, a) / element.section_m2;
       }
     }

@@ -8,6 +8,7 @@
 #include "simulation/element/muscle_batch.h"
 #include "simulation/fibre_field.h"
 #include "simulation/material/fibre_family.h"
+#include "simulation/spring_elements.h"
 
 namespace myotact::simulation {
 namespace {
@@ -16,16 +17,7 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-/// Everything that a pass over the elements needs.
-struct Pass {
-  const MuscleTissue& tissue;
-  const Skeleton& skeleton;
-  const TissueLoad& load;
-  TissueState& state;
-  TissueSystem& system;
-  bool tangent;
-  TissueFactor* factor = nullptr;  // takes the sparse part of the tangent; else the system does
-};
+using Pass = TissuePass;
 
 /// Calls action(matrix) with where the sparse part of the tangent goes.
 template <class Action>
@@ -177,8 +169,20 @@ void add_stiffness(const Pass& pass, const TissueBatch& batch, const MuscleBatch
   }
 }
 
+void write_fibre_stress(const FibreInputs& fibres, std::size_t element, std::size_t lane, MuscleBatch& muscle) {
+  for (std::size_t p = 0; p < kTetPoints; ++p) {
+    const FibreStress fibre = fibre_stress(fibres, element, p);
+    muscle.stress_Pa[p].lane[lane] = fibre.stress_Pa;
+    muscle.slope_Pa[p].lane[lane] = fibre.slope_Pa;
+  }
+}
+
 void add_elements(const Pass& pass) {
-  deform_elements(pass);
+  if (pass.tissue.model == TissueModel::MassSpring) {
+    deform_springs(pass);
+  } else {
+    deform_elements(pass);
+  }
   const FibreInputs fibres = fibre_inputs(pass.tissue, pass.state, pass.load);
   for (std::size_t b = 0; b < pass.tissue.batches.size(); ++b) {
     const TissueBatch& batch = pass.tissue.batches[b];
@@ -191,6 +195,7 @@ void add_elements(const Pass& pass) {
     add_forces(pass, batch, muscle);
     if (pass.tangent) add_stiffness(pass, batch, muscle);
   }
+  add_springs(pass, fibres);
   if (!pass.tangent) return;
   MeanTerm& mean = pass.system.mean;
   const double weight = fibre_weight_Nm(pass.tissue), factor = mean_tangent_Nm(fibres);
@@ -315,6 +320,16 @@ void run(const Pass& pass) {
   add_tension(pass);
 }
 
+/// Where a batch's blocks go in the factor.
+template <class Tet>
+TetSlots<Tet> factor_slots(const MuscleTissue& tissue, const BlockFactor& factor, const TetBatch<Tet>& tets) {
+  TetSlots<Tet> slots{};
+  for (std::size_t lane = 0; lane < at(tets.count); ++lane) {
+    set_slots<Tet>(factor, free_nodes(tissue, tets.nodes[lane]), lane, slots);
+  }
+  return slots;
+}
+
 }  // namespace
 
 TissueState make_state(const MuscleTissue& tissue) {
@@ -325,7 +340,7 @@ TissueState make_state(const MuscleTissue& tissue) {
     frame.position_m.segment<3>(static_cast<Eigen::Index>(3 * node)) = tissue.mesh.nodes_m[node];
   }
   frame.velocity_m_s = Eigen::VectorXd::Zero(dofs);
-  frame.stretch.assign(tissue.elements.size() * kTetPoints, 1.0);
+  frame.stretch.assign(tissue.elements.size() * tissue.elements.front().points(), 1.0);
   return {frame, frame, frame, std::vector<double>(frame.stretch.size(), 0.0), 0.0};
 }
 
@@ -338,13 +353,11 @@ void place_clamped(const MuscleTissue& tissue, const Skeleton& skeleton, TissueS
 }
 
 TissueFactor make_factor(const MuscleTissue& tissue) {
-  TissueFactor factor{BlockFactor(tissue.pattern), std::vector<TetSlots<QuadraticTet>>(tissue.batches.size())};
-  for (std::size_t b = 0; b < tissue.batches.size(); ++b) {
-    const TetBatch<QuadraticTet>& tets = tissue.batches[b].tets;
-    for (std::size_t lane = 0; lane < at(tets.count); ++lane) {
-      set_slots<QuadraticTet>(factor.matrix, free_nodes(tissue, tets.nodes[lane]), lane, factor.slots[b]);
-    }
-  }
+  TissueFactor factor{BlockFactor(tissue.pattern), {}, {}};
+  for (const TissueBatch& batch : tissue.batches)
+    factor.slots.push_back(factor_slots(tissue, factor.matrix, batch.tets));
+  for (const SpringBatch& batch : tissue.springs)
+    factor.spring_slots.push_back(factor_slots(tissue, factor.matrix, batch.tets));
   return factor;
 }
 
@@ -359,6 +372,7 @@ TissueSystem make_system(const MuscleTissue& tissue, const Skeleton& skeleton) {
   system.mean = {Eigen::VectorXd::Zero(3 * tissue.free_nodes), Eigen::VectorXd::Zero(joints), 0.0};
   system.internal_N = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * tissue.body.size()));
   system.points.resize(tissue.batches.size());
+  system.spring_points.resize(tissue.springs.size());
   system.points_at_m = Eigen::VectorXd::Constant(system.internal_N.size(), std::nan(""));  // nowhere yet
   return system;
 }

@@ -10,7 +10,7 @@
 
 namespace myotact::simulation {
 
-/// One instant of a muscle. 3 numbers a node, 4 stretches an element.
+/// One instant of a muscle. 3 numbers a node, one stretch an integration point.
 struct TissueFrame {
   Eigen::VectorXd position_m;
   Eigen::VectorXd velocity_m_s;
@@ -63,8 +63,9 @@ struct TissueSystem {
   Eigen::MatrixXd coupling_N_rad;
   Eigen::MatrixXd joint_stiffness_Nm_rad;
   Eigen::VectorXd joint_residual_Nm;
-  std::vector<PointBatch<QuadraticTet>> points;  // one a batch of elements
-  Eigen::VectorXd points_at_m;                   // node positions that `points` belong to
+  std::vector<PointBatch<QuadraticTet>> points;      // one a batch of elements
+  Eigen::VectorXd points_at_m;                       // node positions that `points` belong to
+  std::vector<PointBatch<LinearTet>> spring_points;  // of a spring net, one a batch
   // of the forces pass alone
   Eigen::VectorXd internal_N;        // at all nodes: elastic forces and strands
   Eigen::VectorXd muscle_torque_Nm;  // that the tissue exerts on the joints, positive flexes
@@ -77,10 +78,23 @@ struct TissueSystem {
 /// Factor of a muscle's sparse matrix.
 struct TissueFactor {
   BlockFactor matrix;
-  std::vector<TetSlots<QuadraticTet>> slots;  // one a batch of elements
+  std::vector<TetSlots<QuadraticTet>> slots;      // one a batch of elements
+  std::vector<TetSlots<LinearTet>> spring_slots;  // one a batch of a spring net
 };
 
 TissueFactor make_factor(const MuscleTissue& tissue);
+
+/// What a pass over the elements reads and fills.
+struct TissuePass {
+  const MuscleTissue& tissue;
+  const Skeleton& skeleton;
+  const TissueLoad& load;
+  TissueState& state;
+  TissueSystem& system;
+  bool tangent;
+  TissueFactor* factor = nullptr;  // takes the sparse part of the tangent; else the system does
+};
+
 TissueSystem make_system(const MuscleTissue& tissue, const Skeleton& skeleton);
 
 /// Forces, residual and torques of the present iterate; stores its stretches in `state.now`, and its velocities unless

@@ -153,6 +153,10 @@ void draw_panels(const anatomy::Specimen& specimen, const messages::SceneFrame& 
   ImGui::Separator();
   state.angle.draw(kPlotHeight);
   state.stiffness.draw(kPlotHeight);
+  const auto joint = static_cast<std::size_t>(state.joint);
+  if (joint < frame.joints.size() && frame.joints[joint].preview) {
+    ImGui::TextUnformatted("joint stiffness: preview (mass-spring)");
+  }
   state.force.draw(kPlotHeight);
   if (!frame.tools.empty()) {
     const auto& f = frame.tools[0].force_world_N;

@@ -76,6 +76,20 @@ TEST(Run, SummaryTellsTheTouchOnEitherClock) {
   }
 }
 
+TEST(Run, StiffnessOfMassSpringMusclesIsMarkedAsAPreview) {
+  for (const bool springs : {true, false}) {
+    TemporaryFolder folder;
+    const std::string tissue = springs ? " --set 'tissue={\"default\": \"mass_spring\"}'" : "";
+    const Outcome outcome = run_program("run elbow --levels 0 --seconds 0.05" + tissue + " --out " + at(folder, "out"));
+    ASSERT_EQ(outcome.status, 0) << outcome.output;
+    const auto summary = nlohmann::json::parse(content(folder.path() / "out" / "summary.json"));
+    EXPECT_EQ(summary.at("stiffness").at(0).contains("mark"), springs);
+    EXPECT_EQ(outcome.output.find("preview (mass-spring)") != std::string::npos, springs);
+    const std::string chart = content(folder.path() / "out" / "stiffness.svg");
+    EXPECT_EQ(chart.find("preview (mass-spring)") != std::string::npos, springs);
+  }
+}
+
 TEST(Run, InterruptedRunStillLeavesItsTables) {
   TemporaryFolder folder;
   const Outcome outcome = run_program("run elbow --seconds 600 --out " + at(folder, "out"), "timeout -s INT 12");

@@ -56,6 +56,16 @@ TEST_F(SceneFile, FillsDefaultsAndResolvesNames) {
   EXPECT_DOUBLE_EQ(scene.activations[static_cast<std::size_t>(anatomy::find_muscle(scene.specimen, "extensor"))], 0.25);
 }
 
+TEST_F(SceneFile, TakesOneTissueModelForAllAndOneForAMuscle) {
+  const Scene scene = parse(R"(, "tissue": {"default": "mass_spring", "muscles": {"extensor": "fem"}})");
+  const auto model = [&](const char* key) {
+    return scene.settings.tissue.at(static_cast<std::size_t>(anatomy::find_muscle(scene.specimen, key)));
+  };
+  EXPECT_EQ(model("flexor"), simulation::TissueModel::MassSpring);
+  EXPECT_EQ(model("extensor"), simulation::TissueModel::Fem);
+  EXPECT_THAT(complaint(R"(, "tissue": {"default": "line"})"), HasSubstr("use fem, mass_spring or rigid"));
+}
+
 TEST_F(SceneFile, OverridesReplaceKeys) {
   EXPECT_DOUBLE_EQ(parse("", {{"dt_s", "0.005"}}).settings.dt_s, 0.005);
 }

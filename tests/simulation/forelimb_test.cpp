@@ -16,9 +16,12 @@ constexpr double kDegree_rad = 3.14159265358979323846 / 180.0;
 constexpr double kAgreement = 0.05;
 
 struct Forelimb {
+  explicit Forelimb(TissueModel model = TissueModel::Fem)
+      : simulation(specimen, {.tissue = std::vector<TissueModel>(specimen.muscles.size(), model)}) {}
+
   anatomy::Specimen specimen = anatomy::load_specimen(MYOTACT_SOURCE_DIR "/meshes/canine_forelimb");
   int elbow = anatomy::find_joint(specimen, "elbow");
-  Simulation simulation{specimen, {}};
+  Simulation simulation;
 
   bool settle(double elbow_rad, double activation) {
     std::vector<double> angles(specimen.joints.size(), 0.0);
@@ -44,8 +47,11 @@ LineGeometry geometry_of(const anatomy::Specimen& specimen, int muscle) {
 
 }  // namespace
 
-TEST(Forelimb, IsometricForceAndItsSlopeAreTheLinesAtHalfActivation) {
-  Forelimb limb;
+class ForelimbOf : public ::testing::TestWithParam<TissueModel> {};
+INSTANTIATE_TEST_SUITE_P(Models, ForelimbOf, ::testing::Values(TissueModel::Fem, TissueModel::MassSpring));
+
+TEST_P(ForelimbOf, IsometricForceAndItsSlopeAreTheLinesAtHalfActivation) {
+  Forelimb limb(GetParam());
   const double turn = 0.5 * kDegree_rad;
   ASSERT_TRUE(limb.settle(turn, 0.5));
   const std::vector<double> flexed = limb.tensions();
@@ -80,8 +86,8 @@ TEST(Forelimb, StiffnessIsTheSlopeOfTheTorqueAndRisesWithCoContraction) {
   }
 }
 
-TEST(Forelimb, StandsJumpsOfActivationAndAYankedSkin) {
-  Forelimb limb;
+TEST_P(ForelimbOf, StandsJumpsOfActivationAndAYankedSkin) {
+  Forelimb limb(GetParam());
   ASSERT_TRUE(limb.settle(0.0, 0.0));
   messages::ToolState tool;
   tool.contact = {2, 10, {0.2, 0.3, 0.5}, {}, {}, 500.0};

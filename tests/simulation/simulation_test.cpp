@@ -79,9 +79,12 @@ std::uint64_t hash_after_steps(int workers) {
 
 }  // namespace
 
-TEST(Simulation, IsometricForceOfAStraightBarIsTheLineModels) {
+class SimulationOf : public ::testing::TestWithParam<TissueModel> {};
+INSTANTIATE_TEST_SUITE_P(Models, SimulationOf, ::testing::Values(TissueModel::Fem, TissueModel::MassSpring));
+
+TEST_P(SimulationOf, IsometricForceOfAStraightBarIsTheLineModels) {
   const anatomy::Specimen specimen = testing::single_muscle(coarse_bar());
-  Simulation simulation(specimen, {});
+  Simulation simulation(specimen, {.tissue = {GetParam()}});
   const double peak_N = specimen.muscles[0].peak_force_N;
   for (double a : {0.0, 0.5, 1.0}) {
     const double q = 0.0;
@@ -93,9 +96,9 @@ TEST(Simulation, IsometricForceOfAStraightBarIsTheLineModels) {
   }
 }
 
-TEST(Simulation, StiffnessIsTheSlopeOfTheTorque) {
+TEST_P(SimulationOf, StiffnessIsTheSlopeOfTheTorque) {
   const anatomy::Specimen specimen = coarse_pair();
-  Simulation simulation(specimen, {});
+  Simulation simulation(specimen, {.tissue = {GetParam(), GetParam()}});
   const double h = 0.5 * 3.14159265358979 / 180.0;
   const std::array<double, 2> activations{0.5, 0.3};
   const auto torque_at = [&](double q) {

@@ -22,10 +22,10 @@ testing::BarShape short_bar(int tendon_cells) {
 
 /// One muscle on the hinge in a state of large deformation, with history.
 struct Bench {
-  explicit Bench(const anatomy::Specimen& given)
+  explicit Bench(const anatomy::Specimen& given, TissueModel model = TissueModel::Fem)
       : specimen(given),
         skeleton(specimen),
-        tissue(build_muscle_tissue(specimen, 0)),
+        tissue(build_muscle_tissue(specimen, 0, model)),
         state(make_state(tissue)),
         system(make_system(tissue, skeleton)) {
     load.rule = second_order(0.01);
@@ -86,9 +86,12 @@ struct Bench {
 
 }  // namespace
 
-TEST(TissueSystem, TangentIsTheSlopeOfTheResidualWithJointAndTendon) {
+class TissueSystemOf : public ::testing::TestWithParam<TissueModel> {};
+INSTANTIATE_TEST_SUITE_P(Models, TissueSystemOf, ::testing::Values(TissueModel::Fem, TissueModel::MassSpring));
+
+TEST_P(TissueSystemOf, TangentIsTheSlopeOfTheResidualWithJointAndTendon) {
   for (int tendon_cells : {0, 1}) {
-    Bench bench(testing::single_muscle(short_bar(tendon_cells)));
+    Bench bench(testing::single_muscle(short_bar(tendon_cells)), GetParam());
     ASSERT_EQ(bench.tissue.strands.size(), static_cast<std::size_t>(tendon_cells));
     const Eigen::MatrixXd tangent = bench.tangent();
     const double largest = tangent.cwiseAbs().maxCoeff(), h = 1e-7;
