@@ -24,7 +24,6 @@ Limb::Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> model
     muscle.rigid = model == TissueModel::Rigid;
     muscle.state = make_state(muscle.tissue);
     muscle.system = make_system(muscle.tissue, skeleton);
-    muscle.factor = make_factor(muscle.tissue);
     muscle.stiffness_Nm_rad = muscle.readout.torque_Nm = Eigen::VectorXd::Zero(skeleton.joint_count());
     muscles.push_back(std::move(muscle));
   }
@@ -92,15 +91,13 @@ void read_out(Limb& limb) {
   limb.loads.compute(limb.skeleton, {limb.gravity_m_s2, span(limb.now.velocity_rad_s), span(limb.external_torque_Nm)});
 }
 
-void compute_system(const Skeleton& skeleton, const TissueLoad& load, LimbMuscle& muscle, Accuracy accuracy) {
-  if (accuracy == Accuracy::Single)
-    compute_system(muscle.tissue, skeleton, load, muscle.state, muscle.system, muscle.factor);
-  else
-    compute_system(muscle.tissue, skeleton, load, muscle.state, muscle.system);
+void compute_system(const Skeleton& skeleton, TissueLoad load, LimbMuscle& muscle, Accuracy accuracy) {
+  load.in_factor = accuracy == Accuracy::Single;
+  compute_system(muscle.tissue, skeleton, load, muscle.state, muscle.system);
 }
 
 Pivots factor_system(LimbMuscle& muscle, const Eigen::MatrixXd& right, Eigen::MatrixXd& solution, Accuracy accuracy) {
-  BlockFactor& factor = muscle.factor.matrix;
+  BlockFactor& factor = muscle.system.factor.matrix;
   const bool refined = accuracy == Accuracy::Refined;
   if (!(refined ? factor.factor(muscle.system.matrix) : factor.factor())) return Pivots::Unusable;
   const MeanTerm& mean = muscle.system.mean;
@@ -117,7 +114,7 @@ Pivots factor_system(LimbMuscle& muscle, const Eigen::MatrixXd& right, Eigen::Ma
 }
 
 Eigen::MatrixXd solve(const LimbMuscle& muscle, const Eigen::MatrixXd& right) {
-  Eigen::MatrixXd solution = muscle.factor.matrix.solve(right);
+  Eigen::MatrixXd solution = muscle.system.factor.matrix.solve(right);
   add_mean_term(muscle, solution);
   return solution;
 }

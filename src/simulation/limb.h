@@ -35,7 +35,6 @@ struct LimbMuscle {
   bool rigid = false;  // follows the bones, exerts nothing
   TissueState state;
   TissueSystem system;
-  TissueFactor factor;                // of the system's sparse matrix
   Eigen::VectorXd mean_solution;      // factor^-1 mean gradient
   double mean_share_Nm = 0.0;         // by which the mean term changes a solution, see solve()
   Eigen::VectorXd free_solution;      // matrix^-1 residual
@@ -96,7 +95,7 @@ void read_out(Limb& limb);
 /// Single: for a Newton step, whose residual tells what is left. Refined: for a solution that is read out itself.
 enum class Accuracy { Single, Refined };
 /// Tangent and residual of the present iterate, for factor_system() of the same accuracy.
-void compute_system(const Skeleton& skeleton, const TissueLoad& load, LimbMuscle& muscle,
+void compute_system(const Skeleton& skeleton, TissueLoad load, LimbMuscle& muscle,
                     Accuracy accuracy = Accuracy::Single);
 /// Factors the system, its mean term included, and solves it for `right`. Once after compute_system(). Unusable:
 /// neither the solution nor solve() may be used.

@@ -90,9 +90,9 @@ void add_stiffness(const TissuePass& pass, const SpringTets& tets) {
   Blocks blocks;
   spring_stiffness(tets, pass.load.definite, blocks);
   const int count = tets.batch.tets.count;
-  if (pass.factor != nullptr) {
+  if (pass.load.in_factor) {
     const auto index = static_cast<std::size_t>(&tets.batch - pass.tissue.springs.data());
-    scatter<LinearTet>(pass.factor->spring_slots[index], count, blocks, pass.factor->matrix.values());
+    scatter<LinearTet>(pass.system.factor.spring_slots[index], count, blocks, pass.system.factor.matrix.values());
   } else {
     scatter<LinearTet>(tets.batch.tets.slots, count, blocks, pass.system.matrix.values());
   }

@@ -22,8 +22,8 @@ using Pass = TissuePass;
 /// Calls action(matrix) with where the sparse part of the tangent goes.
 template <class Action>
 void with_matrix(const Pass& pass, const Action& action) {
-  if (pass.factor != nullptr)
-    action(pass.factor->matrix);
+  if (pass.load.in_factor)
+    action(pass.system.factor.matrix);
   else
     action(pass.system.matrix);
 }
@@ -149,9 +149,10 @@ void add_forces(const Pass& pass, const TissueBatch& batch, const MuscleBatch& m
 void add_stiffness(const Pass& pass, const TissueBatch& batch, const MuscleBatch& muscle) {
   Blocks blocks;
   muscle_stiffness(muscle, pass.load.definite, blocks);
-  if (pass.factor != nullptr) {
+  if (pass.load.in_factor) {
     const auto index = static_cast<std::size_t>(&batch - pass.tissue.batches.data());
-    scatter<QuadraticTet>(pass.factor->slots[index], batch.tets.count, blocks, pass.factor->matrix.values());
+    scatter<QuadraticTet>(pass.system.factor.slots[index], batch.tets.count, blocks,
+                          pass.system.factor.matrix.values());
   } else {
     scatter<QuadraticTet>(batch.tets.slots, batch.tets.count, blocks, pass.system.matrix.values());
   }
@@ -330,6 +331,15 @@ TetSlots<Tet> factor_slots(const MuscleTissue& tissue, const BlockFactor& factor
   return slots;
 }
 
+TissueFactor make_factor(const MuscleTissue& tissue) {
+  TissueFactor factor{BlockFactor(tissue.pattern), {}, {}};
+  for (const TissueBatch& batch : tissue.batches)
+    factor.slots.push_back(factor_slots(tissue, factor.matrix, batch.tets));
+  for (const SpringBatch& batch : tissue.springs)
+    factor.spring_slots.push_back(factor_slots(tissue, factor.matrix, batch.tets));
+  return factor;
+}
+
 }  // namespace
 
 TissueState make_state(const MuscleTissue& tissue) {
@@ -352,19 +362,11 @@ void place_clamped(const MuscleTissue& tissue, const Skeleton& skeleton, TissueS
   }
 }
 
-TissueFactor make_factor(const MuscleTissue& tissue) {
-  TissueFactor factor{BlockFactor(tissue.pattern), {}, {}};
-  for (const TissueBatch& batch : tissue.batches)
-    factor.slots.push_back(factor_slots(tissue, factor.matrix, batch.tets));
-  for (const SpringBatch& batch : tissue.springs)
-    factor.spring_slots.push_back(factor_slots(tissue, factor.matrix, batch.tets));
-  return factor;
-}
-
 TissueSystem make_system(const MuscleTissue& tissue, const Skeleton& skeleton) {
   const Eigen::Index joints = skeleton.joint_count();
   TissueSystem system;
   system.matrix = tissue.pattern;
+  system.factor = make_factor(tissue);
   system.residual_N = Eigen::VectorXd::Zero(3 * tissue.free_nodes);
   system.coupling_N_rad = Eigen::MatrixXd::Zero(3 * tissue.free_nodes, joints);
   system.joint_stiffness_Nm_rad = Eigen::MatrixXd::Zero(joints, joints);
@@ -385,11 +387,6 @@ void compute_forces(const MuscleTissue& tissue, const Skeleton& skeleton, const 
 void compute_system(const MuscleTissue& tissue, const Skeleton& skeleton, const TissueLoad& load, TissueState& state,
                     TissueSystem& system) {
   run({tissue, skeleton, load, state, system, true});
-}
-
-void compute_system(const MuscleTissue& tissue, const Skeleton& skeleton, const TissueLoad& load, TissueState& state,
-                    TissueSystem& system, TissueFactor& factor) {
-  run({tissue, skeleton, load, state, system, true, &factor});
 }
 
 }  // namespace myotact::simulation

@@ -39,7 +39,8 @@ struct TissueLoad {
   TimeRule rule;               // all zero: static, no inertia, no force-velocity
   bool force_velocity = true;  // false in static solves that use the rule as a damper only
   Vec3 gravity_m_s2 = Vec3::Zero();
-  bool definite = false;  // build a safe positive definite tangent
+  bool definite = false;   // build a safe positive definite tangent
+  bool in_factor = false;  // the sparse part of the tangent goes where it is factored, in its precision
 };
 
 /// What the mean length of the fibres adds to the tangent: factor * gradient gradient^T over free nodes and angles.
@@ -50,6 +51,13 @@ struct MeanTerm {
   double factor_Nm = 0.0;
 };
 
+/// Factor of a muscle's sparse matrix.
+struct TissueFactor {
+  BlockFactor matrix;
+  std::vector<TetSlots<QuadraticTet>> slots;      // one a batch of elements
+  std::vector<TetSlots<LinearTet>> spring_slots;  // one a batch of a spring net
+};
+
 /// One muscle's part of the arrow system
 ///
 ///   | matrix + mean  coupling        | | d nodes  |      | residual       |
@@ -57,7 +65,8 @@ struct MeanTerm {
 ///
 /// over its free nodes and all joint angles.
 struct TissueSystem {
-  BlockMatrix matrix;
+  BlockMatrix matrix;   // unless the load says `in_factor`
+  TissueFactor factor;  // of the matrix
   MeanTerm mean;
   Eigen::VectorXd residual_N;
   Eigen::MatrixXd coupling_N_rad;
@@ -75,15 +84,6 @@ struct TissueSystem {
   double volume_ratio = 1.0;         // of the whole muscle, now over rest
 };
 
-/// Factor of a muscle's sparse matrix.
-struct TissueFactor {
-  BlockFactor matrix;
-  std::vector<TetSlots<QuadraticTet>> slots;      // one a batch of elements
-  std::vector<TetSlots<LinearTet>> spring_slots;  // one a batch of a spring net
-};
-
-TissueFactor make_factor(const MuscleTissue& tissue);
-
 /// What a pass over the elements reads and fills.
 struct TissuePass {
   const MuscleTissue& tissue;
@@ -92,7 +92,6 @@ struct TissuePass {
   TissueState& state;
   TissueSystem& system;
   bool tangent;
-  TissueFactor* factor = nullptr;  // takes the sparse part of the tangent; else the system does
 };
 
 TissueSystem make_system(const MuscleTissue& tissue, const Skeleton& skeleton);
@@ -101,10 +100,8 @@ TissueSystem make_system(const MuscleTissue& tissue, const Skeleton& skeleton);
 /// the load is static.
 void compute_forces(const MuscleTissue& tissue, const Skeleton& skeleton, const TissueLoad& load, TissueState& state,
                     TissueSystem& system);
-/// The same and the tangent. Its sparse part goes into `system.matrix`, or instead, where it will be factored.
+/// The same and the tangent.
 void compute_system(const MuscleTissue& tissue, const Skeleton& skeleton, const TissueLoad& load, TissueState& state,
                     TissueSystem& system);
-void compute_system(const MuscleTissue& tissue, const Skeleton& skeleton, const TissueLoad& load, TissueState& state,
-                    TissueSystem& system, TissueFactor& factor);
 
 }  // namespace myotact::simulation

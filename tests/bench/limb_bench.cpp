@@ -70,7 +70,8 @@ void element_stiffness(Limb& limb, bool assemble) {
       muscle_stiffness(active_batch(batch, muscle.system.points[b]), false, blocks);
       benchmark::DoNotOptimize(blocks);
       if (!assemble) continue;
-      scatter<QuadraticTet>(muscle.factor.slots[b], batch.tets.count, blocks, muscle.factor.matrix.values());
+      scatter<QuadraticTet>(muscle.system.factor.slots[b], batch.tets.count, blocks,
+                            muscle.system.factor.matrix.values());
     }
   }
 }
@@ -118,7 +119,7 @@ void add_parts(const anatomy::Specimen& specimen) {
   });
   add_part("tangent and factor", specimen, each_muscle([](Limb& limb, LimbMuscle& muscle) {
              compute_system(limb.skeleton, step_load(), muscle);
-             muscle.factor.matrix.factor();
+             muscle.system.factor.matrix.factor();
            }));
   add_part("tangent", specimen, each_muscle([](Limb& limb, LimbMuscle& muscle) {
              muscle.system.points_at_m[0] = 1e9;  // look at the points anew
@@ -133,13 +134,13 @@ void add_parts(const anatomy::Specimen& specimen) {
   for (const int columns : {1, 4}) {
     add_part(fmt::format("solve, right sides: {}", columns), specimen, each_muscle([columns](Limb&, LimbMuscle& m) {
                const Eigen::MatrixXd right = Eigen::MatrixXd::Ones(m.system.residual_N.size(), columns);
-               benchmark::DoNotOptimize(m.factor.matrix.solve(right).data());
+               benchmark::DoNotOptimize(m.system.factor.matrix.solve(right).data());
              }));
   }
   add("part/factors read twice", [&specimen](benchmark::State& state) {
     const Limb limb = prepared(specimen);
     std::vector<std::vector<float>> copies;
-    for (const LimbMuscle& muscle : limb.muscles) copies.emplace_back(muscle.factor.matrix.places(), 1.0F);
+    for (const LimbMuscle& muscle : limb.muscles) copies.emplace_back(muscle.system.factor.matrix.places(), 1.0F);
     for (auto _ : state) {
       read_factors(copies);
       read_factors(copies);
@@ -204,7 +205,7 @@ void add_sizes(const std::string& name, const anatomy::Specimen& specimen) {
             factor_system(muscle, muscle.system.residual_N, solution);
           }
           state.counters["tets"] = tets;
-          state.counters["factor_MB"] = static_cast<double>(muscle.factor.matrix.places()) * 4e-6;
+          state.counters["factor_MB"] = static_cast<double>(muscle.system.factor.matrix.places()) * 4e-6;
         });
   }
 }
