@@ -1,5 +1,6 @@
 #!/bin/sh
-# Makes meshes/canine_forelimb again from the figures in assets/canine. The same machine gives the same bytes.
+# Makes the limbs in meshes/ again from the figures in assets/canine: canine_forelimb, about 140 tets a muscle, and
+# canine_forelimb_fine, about 290. The same machine gives the same bytes.
 # Usage: tools/make_specimens.sh [BUILD_FOLDER]      (build myotact-prepare first; default folder: build)
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -8,4 +9,5 @@ if [ ! -x "$prepare" ]; then
   echo "$prepare: is not there; build it: cmake -S $root -B ${1:-$root/build} && cmake --build ${1:-$root/build} --target myotact-prepare" >&2
   exit 66
 fi
-exec "$prepare" loft "$root/assets/canine" -o "$root/meshes/canine_forelimb"
+"$prepare" loft "$root/assets/canine" -o "$root/meshes/canine_forelimb"
+"$prepare" loft "$root/assets/canine" -o "$root/meshes/canine_forelimb_fine" --tets 400

@@ -1,6 +1,6 @@
 // What a step of a limb costs: its parts, whole steps by workers and vector registers, how the cost grows with the tets
 // of a muscle and with the number of muscles, and memory. Arguments that are no options of Google Benchmark are folders
-// of specimens of other resolutions; without one, the built-in limb alone.
+// of specimens of other resolutions; without one, the two built-in limbs alone.
 
 #include <algorithm>
 #include <cmath>
@@ -234,7 +234,8 @@ anatomy::Specimen repeated(const anatomy::Specimen& specimen, std::size_t count)
 int main(int argc, char** argv) {
   using namespace myotact;
   benchmark::Initialize(&argc, argv);
-  std::vector<std::filesystem::path> folders{data_folder() / "meshes" / "canine_forelimb"};
+  const std::filesystem::path built_in = data_folder() / "meshes";
+  std::vector<std::filesystem::path> folders{built_in / "canine_forelimb", built_in / "canine_forelimb_fine"};
   for (int i = 1; i < argc; ++i) folders.emplace_back(argv[i]);
   std::vector<anatomy::Specimen> specimens;
   for (const auto& folder : folders) specimens.push_back(anatomy::load_specimen(folder));

@@ -160,7 +160,7 @@ Quantities muscle_elements(JsonObject& inputs) {
                                           {"patched", {ElementKind::Patched, 0.0}, true},
                                           {"quadratic_own", {ElementKind::Quadratic, -1.0}, false},
                                           {"quadratic", {ElementKind::Quadratic, kDefault}, false}};
-  const NestedMuscle cage = read_nested_muscle(inputs.at("muscle").string());
+  const NestedMuscle cage = read_nested_muscle(inputs.at("specimen").string(), inputs.at("muscle").string());
   const Tests tests = read_tests(inputs);
   const NestedMuscle fine = refine_muscle(cage);
   const Bench reference_bench(fine, tests, {ElementKind::Quadratic, kDefault});

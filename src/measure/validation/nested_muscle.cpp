@@ -118,9 +118,8 @@ void add_face(const geometry::TetMesh& mesh, std::size_t tet, std::size_t opposi
 
 }  // namespace
 
-NestedMuscle read_nested_muscle(const std::string& name) {
-  const geometry::TetFile file =
-      geometry::read_vtk(data_folder() / "meshes" / "canine_forelimb" / "muscles" / (name + ".vtk"));
+NestedMuscle read_nested_muscle(const std::string& specimen, const std::string& name) {
+  const geometry::TetFile file = geometry::read_vtk(data_folder() / "meshes" / specimen / "muscles" / (name + ".vtk"));
   NestedMuscle muscle;
   muscle.mesh = file.mesh;
   muscle.mesh.midsides.clear();

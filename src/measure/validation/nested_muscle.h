@@ -22,8 +22,8 @@ struct NestedMuscle {
   int refinements = 0;
 };
 
-/// A muscle of the canine forelimb by name, from meshes/ of the data folder. Throws as read_vtk().
-NestedMuscle read_nested_muscle(const std::string& name);
+/// A muscle by name from a specimen in meshes/ of the data folder. Throws as read_vtk().
+NestedMuscle read_nested_muscle(const std::string& specimen, const std::string& name);
 
 /// The same muscle of eight times as many tets; the first nodes are its own.
 NestedMuscle refine_muscle(const NestedMuscle& muscle);
