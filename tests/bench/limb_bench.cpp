@@ -215,6 +215,7 @@ anatomy::Specimen repeated(const anatomy::Specimen& specimen, std::size_t count)
   anatomy::Specimen more = specimen;
   more.muscles.clear();
   more.lines.clear();
+  more.groups.clear();
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t from = k % specimen.muscles.size();
     more.muscles.push_back(specimen.muscles[from]);
