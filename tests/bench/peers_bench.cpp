@@ -1,7 +1,7 @@
 // Implicit steps of the meshes and settings on which other programs were timed: beams and muscles under gravity,
 // density 1060 kg/m3, E 300 kPa (beams) and 30 kPa (muscles), nu 0.45, steps of 10 ms by backward Euler with one Newton
 // step. Beside ours runs the plain loop that one would write first: the same elements one at a time and Eigen's sparse
-// factorisation. Needs MYOTACT_CANINE_DIR.
+// factorisation. Those need MYOTACT_CANINE_DIR; a static cantilever beside Eigen's solver does not.
 
 #include <cstdio>
 #include <cstdlib>
@@ -11,9 +11,11 @@
 #include <Eigen/SparseCholesky>
 #include <benchmark/benchmark.h>
 
+#include "geometry/box_mesh.h"
 #include "geometry/mesh_files.h"
 #include "simulation/solid/law_batch.h"
 #include "simulation/solid/solid_motion.h"
+#include "simulation/solid/static_solve.h"
 
 namespace myotact::simulation {
 namespace {
@@ -133,16 +135,66 @@ void plain_loop(benchmark::State& state, const Scenario& scenario) {
   }
 }
 
+/// Cantilever of 21,504 linear tets under its own weight: E 300 kPa, nu 0.45, 0.4 x 0.057 x 0.057 m.
+struct Cantilever {
+  Cantilever() : solid(input(), "cantilever") {
+    loads.gravity_m_s2 = Vec3(0.0, 0.0, -9.81);
+    for (int n = 0; n < solid.nodes(); ++n) {
+      for (int i = 0; solid.rest_m()[3 * n] < 1e-9 && i < 3; ++i) loads.held.push_back({n, i, 0.0});
+    }
+  }
+  static SolidInput input() {
+    SolidInput input;
+    input.mesh = geometry::make_box_mesh(Vec3(0.4, 0.4 / 7.0, 0.4 / 7.0), {56, 8, 8});
+    input.kind = ElementKind::Linear;
+    const double young_Pa = 300e3, nu = 0.45, shear_Pa = 0.5 * young_Pa / (1 + nu);
+    input.materials = {{{StableNeoHookean{shear_Pa, young_Pa * nu / ((1 + nu) * (1 - 2 * nu))}}, 1060.0, -1.0}};
+    return input;
+  }
+  Solid solid;
+  SolidLoads loads;
+};
+
+void static_solve(benchmark::State& state) {
+  const Cantilever beam;
+  StaticOptions options;
+  options.tolerance = 1e-6;
+  for (auto _ : state) {
+    const StaticResult result = solve_static(beam.solid, beam.loads, beam.solid.rest_m(), options);
+    if (!result.converged) state.SkipWithError("no equilibrium");
+    state.counters["newton_steps"] = result.iterations;
+  }
+}
+
+/// Analysis, factorisation and solution of the tangent at rest by Eigen's own solver: its first Newton step, elements
+/// not counted.
+void eigen_first_step(benchmark::State& state) {
+  const Cantilever beam;
+  Solid::Evaluation at = beam.solid.make_evaluation();
+  out_of_balance({beam.solid, beam.loads}, 1.0, beam.solid.rest_m(), Solid::Tangent::Exact, at);
+  const HeldSystem system(beam.solid, beam.loads.held);
+  system.hold(at.stiffness);
+  system.drop_held(at.force_N);
+  for (auto _ : state) {
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(at.stiffness.lower());
+    const Eigen::VectorXd step = factor.solve(-at.force_N);
+    benchmark::DoNotOptimize(step.data());
+  }
+}
+
 }  // namespace
 }  // namespace myotact::simulation
 
 int main(int argc, char** argv) {
   using namespace myotact::simulation;
+  benchmark::Initialize(&argc, argv);
+  benchmark::RegisterBenchmark("cantilever_20k/static to 1e-6", static_solve)->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark("cantilever_20k/Eigen's first step", eigen_first_step)->Unit(benchmark::kMillisecond);
   if (mesh_folder().empty()) {
-    std::fprintf(stderr, "skipped: set MYOTACT_CANINE_DIR to the folder that holds bench/\n");
+    std::fprintf(stderr, "the other programs' meshes are skipped: set MYOTACT_CANINE_DIR to the folder of bench/\n");
+    benchmark::RunSpecifiedBenchmarks();
     return 0;
   }
-  benchmark::Initialize(&argc, argv);
   for (const Scenario& scenario : kScenarios) {
     const std::string name = scenario.mesh;
     const auto add = [&](const std::string& what, auto&& run) {

@@ -49,10 +49,10 @@ class Solid {
   double rest_volume_m3(std::size_t tet) const;
 
   struct Evaluation {
-    Eigen::VectorXd force_N;            // slope of the energy at all nodes
-    BlockMatrix stiffness;              // slope of the forces, when asked for
-    double smallest_J = 1.0;            // over the integration points
-    double force_scale_N = 0.0;         // size of the elements' forces, to judge a residual by
+    Eigen::VectorXd force_N;     // slope of the energy at all nodes
+    BlockMatrix stiffness;       // slope of the forces, when asked for
+    double smallest_J = 1.0;     // over the integration points
+    double force_scale_N = 0.0;  // size of the elements' forces, to judge a residual by
   };
   Evaluation make_evaluation() const;
 
