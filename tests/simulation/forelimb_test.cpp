@@ -108,7 +108,7 @@ TEST_P(ForelimbOf, StandsJumpsOfActivationAndAYankedSkin) {
 TEST(Forelimb, WorkersDoNotChangeABit) {
   const anatomy::Specimen specimen = anatomy::load_specimen(MYOTACT_SOURCE_DIR "/meshes/canine_forelimb");
   std::vector<std::uint64_t> hashes;
-  for (int workers : {1, 2, 4}) {
+  for (int workers : {1, 2, 8}) {
     SimulationSettings settings;
     settings.workers = workers;
     Simulation simulation(specimen, settings);
