@@ -11,7 +11,6 @@
 #include "app/interruption.h"
 #include "app/options.h"
 #include "app/picture.h"
-#include "app/preview_mark.h"
 #include "app/stiffness_chart.h"
 #include "app/timing_report.h"
 #include "core/error.h"
@@ -123,9 +122,8 @@ nlohmann::json measure_stiffness(const Options& options, const scene::Scene& sce
   const double q_rad = scene.joints[static_cast<std::size_t>(scene.co_contraction->joint)].angle_rad;
   const auto rows = measure::sweep_stiffness(scene, simulation, q_rad, options.levels);
   write_file(options.out / "stiffness.csv", measure::stiffness_csv(rows));
-  const bool preview = is_preview(scene, simulation);
-  write_stiffness_chart(rows, marked_title(scene.title, preview), options.out / "stiffness.svg");
-  return nlohmann::json::parse(marked_json(rows, preview));
+  write_stiffness_chart(rows, scene.title, options.out / "stiffness.svg");
+  return nlohmann::json::parse(measure::stiffness_json(rows));
 }
 
 }  // namespace

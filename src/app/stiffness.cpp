@@ -6,11 +6,11 @@
 #include <spdlog/spdlog.h>
 
 #include "app/options.h"
-#include "app/preview_mark.h"
 #include "app/stiffness_chart.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "measure/stiffness_sweep.h"
+#include "messages/scene_frame.h"
 #include "simulation/simulation.h"
 
 namespace myotact::app {
@@ -25,10 +25,11 @@ int stiffness(const Options& options) {
     rows.insert(rows.end(), part.begin(), part.end());
   }
   write_file(options.out / "stiffness.csv", measure::stiffness_csv(rows));
-  const bool preview = is_preview(scene, simulation);
-  write_stiffness_chart(rows, marked_title(scene.title, preview), options.out / "stiffness.svg");
-  std::cout << (options.json ? marked_json(rows, preview) : measure::stiffness_csv(rows)) << std::flush;
-  if (preview) spdlog::warn("these figures are a {}; set the scene's tissue to fem for ones to quote", kPreviewMark);
+  write_stiffness_chart(rows, scene.title, options.out / "stiffness.svg");
+  std::cout << (options.json ? measure::stiffness_json(rows) : measure::stiffness_csv(rows)) << std::flush;
+  if (std::any_of(rows.begin(), rows.end(), [](const auto& row) { return row.preview; })) {
+    spdlog::warn("these figures are a {}; set the scene's tissue to fem for ones to quote", messages::kPreviewMark);
+  }
   const bool converged = std::all_of(rows.begin(), rows.end(), [](const auto& row) { return row.converged; });
   if (!converged) spdlog::warn("some rows did not converge: see the column converged");
   return static_cast<int>(converged ? ExitStatus::Done : ExitStatus::CheckFailed);

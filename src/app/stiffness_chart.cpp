@@ -1,11 +1,13 @@
 #include "app/stiffness_chart.h"
 
+#include <algorithm>
 #include <map>
 #include <numbers>
 
 #include <fmt/format.h>
 
 #include "core/file.h"
+#include "messages/scene_frame.h"
 #include "view/chart_svg.h"
 
 namespace myotact::app {
@@ -14,7 +16,9 @@ void write_stiffness_chart(const std::vector<measure::StiffnessRow>& rows, const
                            const std::filesystem::path& path) {
   std::map<double, std::vector<measure::StiffnessRow>> by_angle;
   for (const auto& row : rows) by_angle[row.q_rad].push_back(row);
-  view::Chart chart{title, "co-contraction (activation of the weaker side)", "joint stiffness [N m/rad]", {}};
+  const bool preview = std::any_of(rows.begin(), rows.end(), [](const auto& row) { return row.preview; });
+  const std::string mark = preview ? fmt::format(": {}", messages::kPreviewMark) : "";
+  view::Chart chart{title + mark, "co-contraction (activation of the weaker side)", "joint stiffness [N m/rad]", {}};
   for (const auto& [q_rad, at_angle] : by_angle) {
     const std::string where = fmt::format("q = {:.0f} deg", q_rad * 180.0 / std::numbers::pi);
     view::ChartSeries schur{"Schur complement, " + where, {}, {}};

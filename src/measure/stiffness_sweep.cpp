@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "messages/scene_frame.h"
 
 namespace myotact::measure {
 
@@ -76,6 +77,7 @@ StiffnessRow measure_row(const scene::Scene& scene, const scene::TorqueTable& ta
   row.K_passive_Nm_rad = readout.passive_Nm_rad;
   row.K_line_Nm_rad = row.K_muscle_Nm_rad + row.K_geometry_Nm_rad + row.K_passive_Nm_rad;
   row.net_torque_Nm = readout.net_torque_Nm;
+  row.preview = readout.preview;
   row.held = levels.held && std::abs(row.net_torque_Nm) <= 0.01 * std::max(std::abs(stronger_Nm), 0.01);
   return row;
 }
@@ -128,6 +130,7 @@ std::string stiffness_json(const std::vector<StiffnessRow>& rows) {
                     {"K_passive_Nm_rad", r.K_passive_Nm_rad},
                     {"held", r.held ? 1 : 0},
                     {"converged", r.converged ? 1 : 0}});
+    if (r.preview) list.back()["mark"] = messages::kPreviewMark;
   }
   return list.dump(2) + "\n";
 }

@@ -23,6 +23,7 @@ struct StiffnessRow {
   double K_passive_Nm_rad = 0.0;
   bool held = false;       // net torque balanced to within 1 % of the stronger side's
   bool converged = false;  // every static solve of the row did
+  bool preview = false;    // mass-spring muscles have a part in it
 };
 
 /// Half the angle between the two perturbed states. Small against the degree over which K changes, large against the
@@ -35,6 +36,7 @@ std::vector<StiffnessRow> sweep_stiffness(const scene::Scene& scene, simulation:
                                           const std::vector<double>& levels);
 
 std::string stiffness_csv(const std::vector<StiffnessRow>& rows);
+/// Rows of a preview carry `mark`; the columns of the CSV are fixed.
 std::string stiffness_json(const std::vector<StiffnessRow>& rows);
 
 }  // namespace myotact::measure

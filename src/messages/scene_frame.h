@@ -16,6 +16,9 @@ struct ToolFrame {
   int grabbed_line = -1;  // muscle, or -1
 };
 
+/// What stands beside a joint's stiffness that mass-spring muscles have a part in.
+inline constexpr const char* kPreviewMark = "preview (mass-spring)";
+
 /// Numbers of a joint for plots and panels.
 struct JointFrame {
   double angle_rad = 0.0;

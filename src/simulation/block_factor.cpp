@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
 
 #include <Eigen/OrderingMethods>
+
+#include "core/error.h"
 
 namespace myotact::simulation {
 namespace {
@@ -176,6 +180,10 @@ void BlockFactorOf<Scalar>::make_fronts(const std::vector<std::vector<int>>& nei
       if (!goes_on) front.runs.push_back({0, place});
       front.runs.back().count += 3;
     }
+  }
+  if (places > at(std::numeric_limits<int>::max())) {  // a slot's base is an int
+    throw Error(ExitStatus::BadData, "mesh: its stiffness has a factor of " + std::to_string(places) +
+                                         " numbers; must be below 2147483648: mesh coarser");
   }
   values_.assign(places, Scalar(0));
   find_depths();

@@ -20,7 +20,7 @@ template <class Scalar>
 class BlockFactorOf {
  public:
   BlockFactorOf() = default;
-  /// Analyses the pattern.
+  /// Analyses the pattern. Throws Error BadData when the factor would hold more than 2^31 numbers.
   explicit BlockFactorOf(const BlockMatrix& pattern);
 
   // The matrix may be added up where it will be factored, block by block after set_zero():

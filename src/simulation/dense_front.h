@@ -5,6 +5,9 @@
 
 namespace myotact::simulation {
 
+/// Places that each column of a front is followed by.
+inline constexpr int kFrontPadding = 16;
+
 /// A dense symmetric matrix of which the lower triangle counts, column by column. The columns to eliminate lie apart
 /// from the others: they are kept, the others are handed on, and of these only the rows from `own` on are stored. Each
 /// column is followed by kFrontPadding places that hold zero at the start, so that loops may run over its end in whole
@@ -16,7 +19,8 @@ struct DenseFront {
   int size = 0;                   // a multiple of 3
   int own = 0;                    // leading columns to eliminate, a multiple of 3
 
-  int stride(int c) const;
+  /// Places from a column to the next one on the same side of `own`.
+  int stride(int c) const { return (c < own ? size : size - own) + kFrontPadding; }
   /// Where row 0 of a column is, or would be.
   Scalar* column(int c) const {
     return c < own ? own_values + static_cast<std::ptrdiff_t>(c) * stride(c)
@@ -24,16 +28,9 @@ struct DenseFront {
   }
 };
 
-inline constexpr int kFrontPadding = 16;
 /// Columns that are eliminated together before the rest is updated: their part of a front of 150 rows stays in the
 /// first-level cache. A multiple of 3.
 inline constexpr int kFrontPanel = 24;
-
-/// Places from a column to the next one on the same side of `own`.
-template <class Scalar>
-int DenseFront<Scalar>::stride(int c) const {
-  return (c < own ? size : size - own) + kFrontPadding;
-}
 
 /// Neighbouring columns, and rows, of a front that are neighbours in another one too.
 struct FrontRun {

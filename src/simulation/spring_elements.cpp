@@ -86,12 +86,11 @@ void add_forces(const TissuePass& pass, const SpringTets& tets) {
   }
 }
 
-void add_stiffness(const TissuePass& pass, const SpringTets& tets) {
+void add_stiffness(const TissuePass& pass, std::size_t index, const SpringTets& tets) {
   Blocks blocks;
   spring_stiffness(tets, pass.load.definite, blocks);
   const int count = tets.batch.tets.count;
   if (pass.load.in_factor) {
-    const auto index = static_cast<std::size_t>(&tets.batch - pass.tissue.springs.data());
     scatter<LinearTet>(pass.system.factor.spring_slots[index], count, blocks, pass.system.factor.matrix.values());
   } else {
     scatter<LinearTet>(tets.batch.tets.slots, count, blocks, pass.system.matrix.values());
@@ -140,7 +139,7 @@ void add_springs(const TissuePass& pass, const FibreInputs& fibres) {
       tets.slope_Pa.lane[lane] = fibre.slope_Pa;
     }
     add_forces(pass, tets);
-    if (pass.tangent) add_stiffness(pass, tets);
+    if (pass.tangent) add_stiffness(pass, b, tets);
   }
 }
 

@@ -146,11 +146,11 @@ void add_forces(const Pass& pass, const TissueBatch& batch, const MuscleBatch& m
   }
 }
 
-void add_stiffness(const Pass& pass, const TissueBatch& batch, const MuscleBatch& muscle) {
+void add_stiffness(const Pass& pass, std::size_t index, const MuscleBatch& muscle) {
+  const TissueBatch& batch = pass.tissue.batches[index];
   Blocks blocks;
   muscle_stiffness(muscle, pass.load.definite, blocks);
   if (pass.load.in_factor) {
-    const auto index = static_cast<std::size_t>(&batch - pass.tissue.batches.data());
     scatter<QuadraticTet>(pass.system.factor.slots[index], batch.tets.count, blocks,
                           pass.system.factor.matrix.values());
   } else {
@@ -194,7 +194,7 @@ void add_elements(const Pass& pass) {
       write_fibre_stress(fibres, at(batch.tets.tet[lane]), lane, muscle);
     }
     add_forces(pass, batch, muscle);
-    if (pass.tangent) add_stiffness(pass, batch, muscle);
+    if (pass.tangent) add_stiffness(pass, b, muscle);
   }
   add_springs(pass, fibres);
   if (!pass.tangent) return;

@@ -155,7 +155,7 @@ void draw_panels(const anatomy::Specimen& specimen, const messages::SceneFrame& 
   state.stiffness.draw(kPlotHeight);
   const auto joint = static_cast<std::size_t>(state.joint);
   if (joint < frame.joints.size() && frame.joints[joint].preview) {
-    ImGui::TextUnformatted("joint stiffness: preview (mass-spring)");
+    ImGui::Text("joint stiffness: %s", messages::kPreviewMark);
   }
   state.force.draw(kPlotHeight);
   if (!frame.tools.empty()) {
