@@ -1,4 +1,4 @@
-#include "prepare/attachment_patch.h"
+#include "prepare/architecture/attachment_patch.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,12 +1,12 @@
-#include "prepare/cage.h"
+#include "prepare/remesh/cage.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "prepare/remesh/surface_remesh.h"
 #include "prepare/shapes.h"
-#include "prepare/surface_remesh.h"
-#include "prepare/tetrahedralise.h"
+#include "prepare/tets/tetrahedralise.h"
 
 namespace myotact::prepare {
 namespace {

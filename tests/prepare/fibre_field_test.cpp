@@ -1,13 +1,13 @@
-#include "prepare/fibre_field.h"
+#include "prepare/architecture/fibre_field.h"
 
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-#include "prepare/sections.h"
+#include "prepare/architecture/sections.h"
 #include "prepare/shapes.h"
-#include "prepare/tetrahedralise.h"
+#include "prepare/tets/tetrahedralise.h"
 
 namespace myotact::prepare {
 namespace {

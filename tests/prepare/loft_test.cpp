@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/triangle_mesh.h"
-#include "prepare/anatomy_assets.h"
+#include "prepare/recipe/anatomy_assets.h"
 
 namespace myotact::prepare {
 namespace {

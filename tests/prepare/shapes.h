@@ -1,7 +1,7 @@
 #pragma once
 
 #include "geometry/triangle_mesh.h"
-#include "prepare/attachment_patch.h"
+#include "prepare/architecture/attachment_patch.h"
 #include "prepare/prepare_muscle.h"
 
 // Closed surfaces with known volume, and a small limb made of them.

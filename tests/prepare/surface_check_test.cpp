@@ -1,4 +1,4 @@
-#include "prepare/surface_check.h"
+#include "prepare/repair/surface_check.h"
 
 #include <limits>
 
@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "prepare/repair/surface_pieces.h"
 #include "prepare/shapes.h"
-#include "prepare/surface_pieces.h"
 
 namespace myotact::prepare {
 namespace {

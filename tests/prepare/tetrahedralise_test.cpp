@@ -1,11 +1,11 @@
-#include "prepare/tetrahedralise.h"
+#include "prepare/tets/tetrahedralise.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "prepare/repair/surface_pieces.h"
 #include "prepare/shapes.h"
-#include "prepare/surface_pieces.h"
 
 namespace myotact::prepare {
 namespace {

@@ -8,10 +8,10 @@
 #include <gtest/gtest.h>
 
 #include "core/data_folder.h"
-#include "prepare/anatomy_assets.h"
 #include "prepare/assemble.h"
 #include "prepare/loft/loft.h"
-#include "prepare/read_scan.h"
+#include "prepare/recipe/anatomy_assets.h"
+#include "prepare/recipe/read_scan.h"
 
 namespace myotact::prepare {
 namespace {

@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "anatomy/specimen.h"
-#include "prepare/anatomy_data.h"
-#include "prepare/named_surface.h"
 #include "prepare/prepare_muscle.h"
+#include "prepare/recipe/anatomy_data.h"
+#include "prepare/recipe/named_surface.h"
 #include "prepare/report.h"
 
 namespace myotact::prepare {

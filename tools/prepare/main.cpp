@@ -14,10 +14,10 @@
 #include "core/data_folder.h"
 #include "core/error.h"
 #include "core/log.h"
-#include "prepare/anatomy_assets.h"
 #include "prepare/assemble.h"
 #include "prepare/loft/loft.h"
-#include "prepare/read_scan.h"
+#include "prepare/recipe/anatomy_assets.h"
+#include "prepare/recipe/read_scan.h"
 #include "prepare/report.h"
 
 namespace {

@@ -8,13 +8,13 @@
 
 #include "core/error.h"
 #include "geometry/triangle_tree.h"
-#include "prepare/attachment_patch.h"
-#include "prepare/cage.h"
-#include "prepare/fibre_field.h"
-#include "prepare/muscle_line.h"
-#include "prepare/sections.h"
-#include "prepare/surface_pieces.h"
-#include "prepare/tetrahedralise.h"
+#include "prepare/architecture/attachment_patch.h"
+#include "prepare/architecture/fibre_field.h"
+#include "prepare/architecture/muscle_line.h"
+#include "prepare/architecture/sections.h"
+#include "prepare/remesh/cage.h"
+#include "prepare/repair/surface_pieces.h"
+#include "prepare/tets/tetrahedralise.h"
 
 namespace myotact::prepare {
 

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "anatomy/specimen.h"
-#include "prepare/anatomy_data.h"
-#include "prepare/named_surface.h"
+#include "prepare/recipe/anatomy_data.h"
+#include "prepare/recipe/named_surface.h"
 #include "prepare/report.h"
 
 namespace myotact::prepare {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "prepare/surface_check.h"
-#include "prepare/tetrahedralise.h"
+#include "prepare/repair/surface_check.h"
+#include "prepare/tets/tetrahedralise.h"
 
 namespace myotact::prepare {
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "prepare/named_surface.h"
+#include "prepare/recipe/named_surface.h"
 
 namespace myotact::prepare {
 

@@ -1,4 +1,4 @@
-#include "prepare/muscle_line.h"
+#include "prepare/architecture/muscle_line.h"
 
 #include <algorithm>
 #include <cmath>

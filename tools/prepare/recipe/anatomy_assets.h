@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "prepare/anatomy_data.h"
+#include "prepare/recipe/anatomy_data.h"
 
 namespace myotact::prepare {
 

@@ -1,4 +1,4 @@
-#include "prepare/surface_pieces.h"
+#include "prepare/repair/surface_pieces.h"
 
 #include <algorithm>
 #include <map>

@@ -1,4 +1,4 @@
-#include "prepare/read_scan.h"
+#include "prepare/recipe/read_scan.h"
 
 #include "core/error.h"
 #include "core/text.h"

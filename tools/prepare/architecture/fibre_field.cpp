@@ -1,4 +1,4 @@
-#include "prepare/fibre_field.h"
+#include "prepare/architecture/fibre_field.h"
 
 #include <algorithm>
 #include <cmath>

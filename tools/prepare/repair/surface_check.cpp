@@ -1,4 +1,4 @@
-#include "prepare/surface_check.h"
+#include "prepare/repair/surface_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +11,9 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "prepare/half_edges.h"
-#include "prepare/surface_pieces.h"
-#include "prepare/surface_remesh.h"
+#include "prepare/remesh/half_edges.h"
+#include "prepare/remesh/surface_remesh.h"
+#include "prepare/repair/surface_pieces.h"
 
 namespace myotact::prepare {
 

@@ -1,4 +1,4 @@
-#include "prepare/surface_remesh.h"
+#include "prepare/remesh/surface_remesh.h"
 
 #include <array>
 

@@ -1,4 +1,4 @@
-#include "prepare/cage.h"
+#include "prepare/remesh/cage.h"
 
 #include <cmath>
 #include <numbers>
@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "prepare/half_edges.h"
-#include "prepare/surface_remesh.h"
+#include "prepare/remesh/half_edges.h"
+#include "prepare/remesh/surface_remesh.h"
 
 namespace myotact::prepare {
 

@@ -1,4 +1,4 @@
-#include "prepare/tetrahedralise.h"
+#include "prepare/tets/tetrahedralise.h"
 
 #include <algorithm>
 #include <cerrno>

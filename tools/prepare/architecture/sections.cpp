@@ -1,4 +1,4 @@
-#include "prepare/sections.h"
+#include "prepare/architecture/sections.h"
 
 #include <algorithm>
 #include <cmath>

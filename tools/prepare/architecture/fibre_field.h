@@ -6,7 +6,7 @@
 #include "core/vector.h"
 #include "geometry/tet_mesh.h"
 #include "geometry/triangle_mesh.h"
-#include "prepare/attachment_patch.h"
+#include "prepare/architecture/attachment_patch.h"
 
 namespace myotact::prepare {
 

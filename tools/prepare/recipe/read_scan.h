@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "prepare/anatomy_data.h"
-#include "prepare/named_surface.h"
+#include "prepare/recipe/anatomy_data.h"
+#include "prepare/recipe/named_surface.h"
 
 namespace myotact::prepare {
 

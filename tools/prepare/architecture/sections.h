@@ -5,7 +5,7 @@
 #include "anatomy/specimen.h"
 #include "core/vector.h"
 #include "geometry/tet_mesh.h"
-#include "prepare/fibre_field.h"
+#include "prepare/architecture/fibre_field.h"
 
 namespace myotact::prepare {
 

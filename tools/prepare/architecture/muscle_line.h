@@ -5,8 +5,8 @@
 
 #include "anatomy/specimen.h"
 #include "core/vector.h"
-#include "prepare/attachment_patch.h"
-#include "prepare/sections.h"
+#include "prepare/architecture/attachment_patch.h"
+#include "prepare/architecture/sections.h"
 
 namespace myotact::prepare {
 

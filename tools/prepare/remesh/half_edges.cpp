@@ -1,4 +1,4 @@
-#include "prepare/half_edges.h"
+#include "prepare/remesh/half_edges.h"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "prepare/anatomy_assets.h"
+#include "prepare/recipe/anatomy_assets.h"
 
 #include <fmt/format.h>
 
