@@ -1,4 +1,4 @@
-#include "prepare/remesh/cage.h"
+#include "prepare/tets/cage.h"
 
 #include <cmath>
 
@@ -6,7 +6,6 @@
 
 #include "prepare/remesh/surface_remesh.h"
 #include "prepare/shapes.h"
-#include "prepare/tets/tetrahedralise.h"
 
 namespace myotact::prepare {
 namespace {
@@ -17,34 +16,35 @@ TEST(EdgeForTets, IsThatOfRegularTets) {
   EXPECT_NEAR(edge_for_tets_m(150.0 * regular_m3, 150.0), edge_m, 1e-12);
 }
 
-TEST(EvenSurface, KeepsTheVolumeAndDoesNotCross) {
-  const geometry::TriangleMesh rod = testing::rod_surface({});
-  const double volume_m3 = geometry::enclosed_volume_m3(rod);
-  const EvenSurface cage = even_surface("rod", rod, edge_for_tets_m(volume_m3, 150.0));
-  EXPECT_NEAR(geometry::enclosed_volume_m3(cage.mesh), volume_m3, 0.01 * volume_m3);
-  EXPECT_EQ(geometry::bad_edge_count(cage.mesh), 0);
-  EXPECT_TRUE(crossing_triangles(cage.mesh).empty());
-}
-
-TEST(EvenSurface, HasEdgesNearTheLengthAskedFor) {
-  const EvenSurface skin = even_surface("rod", testing::rod_surface({}), 6e-3);
-  int near = 0;
-  for (const auto& [a, b, c] : skin.mesh.triangles) {
-    const double edge_m =
-        (skin.mesh.positions_m[static_cast<std::size_t>(a)] - skin.mesh.positions_m[static_cast<std::size_t>(b)])
-            .norm();
-    near += edge_m > 0.5 * skin.edge_m && edge_m < 1.6 * skin.edge_m ? 1 : 0;
+void expect_good_cage(const geometry::TriangleMesh& fine, double tets) {
+  const double volume_m3 = geometry::enclosed_volume_m3(fine);
+  const Cage cage = make_cage("part", fine, tets);
+  EXPECT_NEAR(geometry::enclosed_volume_m3(cage.surface), volume_m3, 0.01 * volume_m3);
+  EXPECT_NEAR(cage.quality.volume_m3, geometry::enclosed_volume_m3(cage.surface), 1e-9 * volume_m3);
+  EXPECT_EQ(geometry::bad_edge_count(cage.surface), 0);
+  EXPECT_TRUE(crossing_triangles(cage.surface).empty());
+  EXPECT_LE(cage.deviation_m, 0.5 * cage.edge_m);
+  EXPECT_GT(cage.quality.tets, 0.7 * tets);
+  EXPECT_LT(cage.quality.tets, 1.5 * tets);
+  EXPECT_GT(cage.quality.smallest_dihedral_deg, 5.0);
+  EXPECT_GT(cage.quality.first_percentile_dihedral_deg, 10.0);
+  EXPECT_GT(cage.quality.mean_ratio, 0.7);
+  for (std::size_t v = 0; v < cage.surface.positions_m.size(); ++v) {
+    EXPECT_EQ(cage.surface.positions_m[v], cage.tets.nodes_m[v]);
   }
-  EXPECT_GT(near, static_cast<int>(0.95 * static_cast<double>(skin.mesh.triangles.size())));
 }
 
-TEST(EvenSurface, MakesTheTetsAskedForAndNoFlatOnes) {
-  const geometry::TriangleMesh rod = testing::rod_surface({});
-  const EvenSurface cage = even_surface("rod", rod, edge_for_tets_m(geometry::enclosed_volume_m3(rod), 150.0));
-  const TetQuality quality = measure_tets(tetrahedralise("rod", cage.mesh));
-  EXPECT_GT(quality.tets, 90);
-  EXPECT_LT(quality.tets, 230);
-  EXPECT_GT(quality.smallest_dihedral_deg, 5.0);
+TEST(MakeCage, FillsARod) {
+  expect_good_cage(testing::rod_surface({}), 150.0);
+  expect_good_cage(testing::rod_surface({}), 600.0);
+}
+
+TEST(MakeCage, FillsASheetThinnerThanItsEdges) {
+  // 80 x 60 x 4 mm: 210 regular tets would have edges of 9.2 mm.
+  testing::SheetShape sheet;
+  sheet.thickness_m = 4e-3;
+  sheet.bulge_m = 0.015;
+  expect_good_cage(testing::sheet_surface(sheet), 210.0);
 }
 
 }  // namespace

@@ -20,8 +20,8 @@ struct Rod {
 };
 
 FibreField field_between_ends(const Rod& rod) {
-  return solve_fibres("rod", rod.tets, rod.surface, testing::rod_end(rod.surface, 0.0),
-                      testing::rod_end(rod.surface, kRod.length_m));
+  return solve_fibres("rod", rod.tets, rod.surface, {testing::rod_end(rod.surface, 0.0)},
+                      {testing::rod_end(rod.surface, kRod.length_m)});
 }
 
 TEST(SolveFibres, RunsStraightThroughARodFromEndToEnd) {
@@ -41,7 +41,7 @@ TEST(SolveFibres, StaysWithinFiveDegreesOfTheAxisBetweenGrownPatches) {
   end.point_m = {0.10, 0.0, 0.0};
   const AttachmentPatch insertion = grow_patch("rod", rod.surface, end);
   const AttachmentPatch origin = grow_patch("rod", rod.surface, begin, insertion.triangles);
-  const FibreField field = solve_fibres("rod", rod.tets, rod.surface, origin, insertion);
+  const FibreField field = solve_fibres("rod", rod.tets, rod.surface, {origin}, {insertion});
   for (std::size_t t = 0; t < rod.tets.corners.size(); ++t) {
     double x_m = 0.0;
     for (const int n : rod.tets.corners[t]) x_m += 0.25 * rod.tets.nodes_m[static_cast<std::size_t>(n)].x();

@@ -7,12 +7,13 @@
 #include <gtest/gtest.h>
 
 #include "geometry/triangle_mesh.h"
-#include "prepare/recipe/anatomy_assets.h"
+#include "prepare/recipe/read_recipe.h"
 
 namespace myotact::prepare {
 namespace {
 
 const std::filesystem::path kAssets = std::filesystem::path(MYOTACT_SOURCE_DIR) / "assets" / "canine";
+const std::filesystem::path kForelimb = kAssets / "forelimb.json", kHindlimb = kAssets / "hindlimb.json";
 
 /// Volumes of the measured meshes [cm^3]. Ellipses and eight harmonics lose grooves and slips: 10 % are allowed.
 const std::map<std::string, double> kMeasured_cm3 = {{"biceps_brachii", 29.6},
@@ -41,22 +42,22 @@ void expect_sound(const std::vector<NamedSurface>& surfaces, int& measured) {
 
 TEST(Loft, IsClosedOutwardAndAsLargeAsTheMeasuredMesh) {
   int measured = 0;
-  expect_sound(loft_muscles(kAssets), measured);
-  expect_sound(loft_bones(kAssets), measured);
+  expect_sound(loft_muscles(kForelimb), measured);
+  expect_sound(loft_bones(kForelimb), measured);
   EXPECT_EQ(measured, 11);
 }
 
 TEST(Loft, GivesTheSameBitsTwice) {
-  const auto once = loft_muscles(kAssets);
-  const auto twice = loft_muscles(kAssets);
+  const auto once = loft_muscles(kForelimb);
+  const auto twice = loft_muscles(kForelimb);
   for (std::size_t m = 0; m < once.size(); ++m) {
     EXPECT_EQ(once[m].surface.positions_m, twice[m].surface.positions_m) << once[m].key;
   }
 }
 
 TEST(AnatomyAssets, ElbowFlexesByARightHandRotationOfTheForearm) {
-  const AnatomyData data = read_anatomy(kAssets);
-  ASSERT_EQ(data.muscles.size(), 7u);
+  const AnatomyData data = read_recipe(kForelimb);
+  EXPECT_EQ(data.muscles.size(), 33u);
   for (const auto& joint : data.joints) {
     if (joint.key != "elbow") continue;
     // The paw lies below the elbow; flexion carries it cranially (+x).
@@ -66,6 +67,14 @@ TEST(AnatomyAssets, ElbowFlexesByARightHandRotationOfTheForearm) {
     return;
   }
   FAIL() << "no elbow";
+}
+
+TEST(AnatomyAssets, NameEveryMuscleOfTheHindlimbAndTheLigamentToBuild) {
+  const AnatomyData data = read_recipe(kHindlimb);
+  EXPECT_EQ(data.muscles.size(), 35u);
+  ASSERT_EQ(data.built.size(), 1u);
+  EXPECT_NEAR((data.built[0].ends_m[1] - data.built[0].ends_m[0]).norm(), 0.041, 0.001);  // measured
+  EXPECT_EQ(data.leave_out.size(), 2u);
 }
 
 }  // namespace

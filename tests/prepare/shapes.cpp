@@ -1,8 +1,11 @@
 #include "prepare/shapes.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -68,6 +71,80 @@ prepare::AttachmentPatch rod_end(const TriangleMesh& rod, double x_m) {
   return patch;
 }
 
+TriangleMesh sheet_surface(const SheetShape& shape) {
+  TriangleMesh sheet;
+  const int n = shape.steps;
+  for (const double side : {-0.5, 0.5}) {
+    for (int i = 0; i <= n; ++i) {
+      for (int j = 0; j <= n; ++j) {
+        const double u = 2.0 * i / n - 1.0, v = 2.0 * j / n - 1.0;
+        sheet.positions_m.emplace_back(0.5 * u * shape.length_m, 0.5 * v * shape.width_m,
+                                       shape.bulge_m * (1.0 - u * u) * (1.0 - v * v) + side * shape.thickness_m);
+      }
+    }
+  }
+  const auto at = [n](int layer, int i, int j) { return (layer * (n + 1) + i) * (n + 1) + j; };
+  const auto quad = [&](int a, int b, int c, int d) {
+    sheet.triangles.push_back({a, b, c});
+    sheet.triangles.push_back({a, c, d});
+  };
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      quad(at(1, i, j), at(1, i + 1, j), at(1, i + 1, j + 1), at(1, i, j + 1));
+      quad(at(0, i, j), at(0, i, j + 1), at(0, i + 1, j + 1), at(0, i + 1, j));
+    }
+    quad(at(0, i, 0), at(0, i + 1, 0), at(1, i + 1, 0), at(1, i, 0));
+    quad(at(0, i + 1, n), at(0, i, n), at(1, i, n), at(1, i + 1, n));
+    quad(at(0, 0, i + 1), at(0, 0, i), at(1, 0, i), at(1, 0, i + 1));
+    quad(at(0, n, i), at(0, n, i + 1), at(1, n, i + 1), at(1, n, i));
+  }
+  return sheet;
+}
+
+TriangleMesh sphere_surface(const Vec3& centre_m, double radius_m, int halvings) {
+  TriangleMesh sphere;
+  const double a = 0.525731112119133606, b = 0.850650808352039932;  // of the icosahedron with unit radius
+  for (const double s : {-1.0, 1.0}) {
+    for (const double t : {-1.0, 1.0}) {
+      sphere.positions_m.insert(sphere.positions_m.end(),
+                                {Vec3(s * a, t * b, 0.0), Vec3(0.0, s * a, t * b), Vec3(t * b, 0.0, s * a)});
+    }
+  }
+  for (int i = 0; i < 12; ++i) {
+    for (int j = i + 1; j < 12; ++j) {
+      for (int k = j + 1; k < 12; ++k) {
+        const Vec3 &p = sphere.positions_m[static_cast<std::size_t>(i)],
+                   &q = sphere.positions_m[static_cast<std::size_t>(j)],
+                   &r = sphere.positions_m[static_cast<std::size_t>(k)];
+        const double longest = std::max({(p - q).norm(), (q - r).norm(), (r - p).norm()});
+        if (longest > 2.0 * a + 1e-6) continue;  // edges of the icosahedron only
+        const bool outward = (q - p).cross(r - p).dot(p) > 0.0;
+        sphere.triangles.push_back(outward ? std::array<int, 3>{i, j, k} : std::array<int, 3>{i, k, j});
+      }
+    }
+  }
+  for (int halving = 0; halving < halvings; ++halving) {
+    std::map<std::pair<int, int>, int> middles;
+    const auto middle = [&](int i, int j) {
+      const auto [found, added] = middles.try_emplace(std::minmax(i, j), static_cast<int>(sphere.positions_m.size()));
+      if (added) {
+        sphere.positions_m.push_back(
+            (sphere.positions_m[static_cast<std::size_t>(i)] + sphere.positions_m[static_cast<std::size_t>(j)])
+                .normalized());
+      }
+      return found->second;
+    };
+    std::vector<std::array<int, 3>> finer;
+    for (const auto& [i, j, k] : sphere.triangles) {
+      const int ij = middle(i, j), jk = middle(j, k), ki = middle(k, i);
+      finer.insert(finer.end(), {{i, ij, ki}, {ij, j, jk}, {ki, jk, k}, {ij, jk, ki}});
+    }
+    sphere.triangles = std::move(finer);
+  }
+  for (Vec3& p : sphere.positions_m) p = centre_m + radius_m * p;
+  return sphere;
+}
+
 SmallLimb small_limb() {
   SmallLimb limb;
   prepare::AnatomyData& anatomy = limb.anatomy;
@@ -75,7 +152,8 @@ SmallLimb small_limb() {
   anatomy.side = "left";
   anatomy.bodies = {{"upper", 0.3, {-0.02, 0.0, -0.02}, {1e-4, 1e-4, 1e-4, 0.0, 0.0, 0.0}, true},
                     {"lower", 0.2, {0.12, 0.0, -0.02}, {1e-4, 1e-4, 1e-4, 0.0, 0.0, 0.0}, true}};
-  anatomy.bones = {{"upper_bone", "Os superius", "upper bone", 0}, {"lower_bone", "Os inferius", "lower bone", 1}};
+  anatomy.bones = {{"upper_bone", "Os superius", "upper bone", 0, ""},
+                   {"lower_bone", "Os inferius", "lower bone", 1, ""}};
   anatomy::Joint hinge;
   hinge.key = "elbow";
   hinge.parent = 0;
@@ -89,8 +167,8 @@ SmallLimb small_limb() {
   muscle.mechanics.material = "muscle";
   muscle.mechanics.peak_force_N = 100.0;
   muscle.mechanics.optimal_fibre_m = 0.1;
-  muscle.origin = {{"upper_bone"}, Vec3::Zero(), 0.0};
-  muscle.insertion = {{"lower_bone"}, {0.10, 0.0, 0.0}, 0.0};
+  muscle.origins = {{{"upper_bone"}, -1, Vec3::Zero(), 0.0}};
+  muscle.insertions = {{{"lower_bone"}, -1, {0.10, 0.0, 0.0}, 0.0}};
   anatomy.muscles = {muscle};
   anatomy.groups = {{0, {"rod"}, {}}};
   limb.bones = {{"upper_bone", box_surface({-0.03, -0.02, -0.03}, {0.0, 0.02, 0.02})},

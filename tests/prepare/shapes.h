@@ -2,7 +2,8 @@
 
 #include "geometry/triangle_mesh.h"
 #include "prepare/architecture/attachment_patch.h"
-#include "prepare/prepare_muscle.h"
+#include "prepare/recipe/anatomy_data.h"
+#include "prepare/recipe/named_surface.h"
 
 // Closed surfaces with known volume, and a small limb made of them.
 
@@ -21,6 +22,17 @@ struct RodShape {
 };
 geometry::TriangleMesh rod_surface(const RodShape& shape);
 double rod_section_m2(const RodShape& shape);
+
+/// A sheet in the x-y plane, bulged upward by a paraboloid, outward.
+struct SheetShape {
+  double length_m = 0.08, width_m = 0.06, thickness_m = 0.002;
+  double bulge_m = 0.0;
+  int steps = 24;  // along each side
+};
+geometry::TriangleMesh sheet_surface(const SheetShape& shape);
+
+/// An icosahedron whose edges were halved so often, on a sphere, outward: 20 4^halvings triangles.
+geometry::TriangleMesh sphere_surface(const Vec3& centre_m, double radius_m, int halvings);
 
 /// The flat end of the rod at x = 0 or at x = length.
 prepare::AttachmentPatch rod_end(const geometry::TriangleMesh& rod, double x_m);

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "prepare/repair/surface_pieces.h"
 #include "prepare/shapes.h"
+#include "prepare/tets/tet_quality.h"
 
 namespace myotact::prepare {
 namespace {

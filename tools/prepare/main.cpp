@@ -14,11 +14,12 @@
 #include "core/data_folder.h"
 #include "core/error.h"
 #include "core/log.h"
-#include "prepare/assemble.h"
 #include "prepare/loft/loft.h"
-#include "prepare/recipe/anatomy_assets.h"
+#include "prepare/prepare_limb.h"
+#include "prepare/recipe/make_limb.h"
+#include "prepare/recipe/read_recipe.h"
 #include "prepare/recipe/read_scan.h"
-#include "prepare/report.h"
+#include "prepare/report/surface_report.h"
 
 namespace {
 
@@ -34,25 +35,20 @@ struct Options {
 
 void add_common(CLI::App& command, Options& options) {
   command.add_option("-o,--output", options.specimen, "folder of the specimen to write");
-  command.add_option("--tets", options.settings.tets, "tets of a muscle of 30 cm3; larger ones get more")
+  command.add_option("--tets", options.settings.tets, "tets of a muscle, roughly")
       ->check(CLI::Range(40.0, 20000.0))
       ->capture_default_str();
   command.add_flag("--json", options.json, "report as JSON lines");
 }
 
-prepare::PreparedInput read_input(const Options& options, bool loft) {
-  prepare::PreparedInput input;
+prepare::LimbWork read_input(const Options& options, bool loft) {
   const std::filesystem::path anatomy = options.anatomy.empty() ? data_folder() / "assets" / "canine" : options.anatomy;
-  input.anatomy = prepare::read_anatomy(anatomy);
+  const prepare::AnatomyData recipe = prepare::read_recipe(anatomy / "forelimb.json");
   if (loft) {
-    input.bones = prepare::loft_bones(anatomy);
-    input.muscles = prepare::loft_muscles(anatomy);
-  } else {
-    prepare::Scan scan = prepare::read_scan(options.scan, input.anatomy);
-    input.bones = std::move(scan.bones);
-    input.muscles = std::move(scan.muscles);
+    return make_limb(recipe, prepare::loft_bones(anatomy / "forelimb.json"), prepare::loft_muscles(anatomy / "forelimb.json"), options.settings);
   }
-  return input;
+  const prepare::Scan scan = prepare::read_scan(options.scan, recipe);
+  return make_limb(recipe, scan.bones, scan.muscles, options.settings);
 }
 
 /// Before any work: whether the folder that is to hold the specimen is there, or can be made, and can be written.
@@ -74,10 +70,12 @@ int make_specimen(const Options& options, bool loft) {
     throw Error(ExitStatus::Usage, "the folder of the scan is missing; name one that holds bones/ and muscles/");
   }
   check_output(options.specimen);
-  const prepare::PreparedInput input = read_input(options, loft);
-  std::vector<prepare::SurfaceReport> reports;
-  const anatomy::Specimen specimen = prepare::assemble_specimen(input, options.settings, reports);
+  prepare::LimbWork limb = read_input(options, loft);
+  const anatomy::Specimen specimen = prepare::prepare_limb(limb);
   anatomy::save_specimen(specimen, options.specimen);
+  std::vector<prepare::SurfaceReport> reports;
+  for (const prepare::BoneWork& bone : limb.bones) reports.push_back(bone.report);
+  for (const prepare::MuscleWork& muscle : limb.muscles) reports.push_back(muscle.report);
   std::cout << (options.json ? prepare::report_json_lines(reports) : prepare::report_table(reports)) << std::flush;
   return static_cast<int>(ExitStatus::Done);
 }

@@ -21,7 +21,9 @@ using geometry::TriangleMesh;
 /// Least share of the surface and least number of triangles: below, a flux field comes out flat in most of the muscle
 /// (measured on tibialis cranialis with one vertex: 90 % of the volume).
 constexpr double kLeastArea = 0.03;
-constexpr std::size_t kLeastTriangles = 8;
+constexpr std::size_t kLeastTriangles = 8;  // of an end
+/// Least number of triangles of one site, where an end has several.
+constexpr std::size_t kLeastTrianglesOfSite = 4;
 /// Largest share: an attachment that covered more would leave no free muscle between the ends.
 constexpr double kMostArea = 0.12;
 /// A millimetre from the known middle counts as much as half a millimetre from the bone: bones are known surfaces,
@@ -59,8 +61,10 @@ std::vector<double> vertex_costs_m(const TriangleMesh& surface, const PatchGuide
   const geometry::TriangleTree tree(guide.bones);
   std::vector<double> costs_m;
   for (const Vec3& p : surface.positions_m) {
-    bone_distance_m.push_back(tree.nearest(p, guide.bones.positions_m).distance_m);
-    costs_m.push_back(bone_distance_m.back() + kPointWeight * (p - guide.point_m).norm());
+    const double to_point_m = (p - guide.point_m).norm();
+    const bool on_bone = !guide.bones.triangles.empty();
+    bone_distance_m.push_back(on_bone ? tree.nearest(p, guide.bones.positions_m).distance_m : to_point_m);
+    costs_m.push_back(bone_distance_m.back() + kPointWeight * to_point_m);
   }
   return costs_m;
 }
@@ -101,7 +105,7 @@ AttachmentPatch grow_patch(const std::string& name, const TriangleMesh& surface,
   const auto around = triangles_of_vertices(surface);
   const std::set<int> blocked = blocked_by(surface, around, taken);
   const double whole_m2 = geometry::surface_area_m2(surface);
-  const double wanted_m2 = std::clamp(guide.area_m2, kLeastArea * whole_m2, kMostArea * whole_m2);
+  const double wanted_m2 = std::clamp(guide.area_m2, kLeastArea * whole_m2, kMostArea * whole_m2) / guide.sites;
 
   const auto triangle_cost_m = [&](int t) {
     const auto& c = surface.triangles[static_cast<std::size_t>(t)];
@@ -120,8 +124,9 @@ AttachmentPatch grow_patch(const std::string& name, const TriangleMesh& surface,
     if (!blocked.contains(t)) seed = std::min(seed, Candidate(triangle_cost_m(t), t));
   }
   if (seed.second >= 0) offer(seed.second);
+  const std::size_t least = std::max(kLeastTriangles / static_cast<std::size_t>(guide.sites), kLeastTrianglesOfSite);
   AttachmentPatch patch;
-  while (!frontier.empty() && (patch.area_m2 < wanted_m2 || patch.triangles.size() < kLeastTriangles)) {
+  while (!frontier.empty() && (patch.area_m2 < wanted_m2 || patch.triangles.size() < least)) {
     const int t = frontier.top().second;
     frontier.pop();
     patch.triangles.push_back(t);
@@ -130,7 +135,7 @@ AttachmentPatch grow_patch(const std::string& name, const TriangleMesh& surface,
       for (const int next : around[static_cast<std::size_t>(v)]) offer(next);
     }
   }
-  if (patch.triangles.size() < kLeastTriangles) {
+  if (patch.triangles.size() < least) {
     throw bad_data(name, "attachments", "the surface has too few triangles for two attachments; ask for more tets");
   }
   finish(surface, bone_distance_m, patch);

@@ -19,9 +19,10 @@ struct AttachmentPatch {
 
 /// Where a patch should grow.
 struct PatchGuide {
-  geometry::TriangleMesh bones;  // that may carry it, joined
+  geometry::TriangleMesh bones;  // that may carry it, joined; empty: the point alone guides
   Vec3 point_m = Vec3::Zero();   // known middle of the attachment
   double area_m2 = 0.0;          // wanted; raised to the least that a flux can pass
+  int sites = 1;                 // at this end: they share what an end may cover
 };
 
 /// Grows a patch from the vertex that is nearest to bone and guide point, always by the neighbour nearest to both,

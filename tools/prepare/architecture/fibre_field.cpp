@@ -39,16 +39,30 @@ std::array<Vec3, 4> shape_gradients(const TetMesh& tets, std::size_t t) {
   return gradients;
 }
 
-/// Adds `flux`, spread evenly over the patch, to the nodes' right-hand side.
-void add_flux(const TriangleMesh& surface, const AttachmentPatch& patch, double flux, Eigen::VectorXd& rhs) {
-  for (const int t : patch.triangles) {
-    const auto& c = surface.triangles[static_cast<std::size_t>(t)];
-    const Vec3& a = surface.positions_m[static_cast<std::size_t>(c[0])];
-    const double area_m2 = 0.5 * (surface.positions_m[static_cast<std::size_t>(c[1])] - a)
-                                     .cross(surface.positions_m[static_cast<std::size_t>(c[2])] - a)
-                                     .norm();
-    for (const int v : c) rhs[v] += flux * area_m2 / patch.area_m2 / 3.0;
+/// Adds `flux`, spread evenly over the patches, to the nodes' right-hand side.
+void add_flux(const TriangleMesh& surface, const AttachmentPatches& patches, double flux, Eigen::VectorXd& rhs) {
+  double whole_m2 = 0.0;
+  for (const AttachmentPatch& patch : patches) whole_m2 += patch.area_m2;
+  for (const AttachmentPatch& patch : patches) {
+    for (const int t : patch.triangles) {
+      const auto& c = surface.triangles[static_cast<std::size_t>(t)];
+      const Vec3& a = surface.positions_m[static_cast<std::size_t>(c[0])];
+      const double area_m2 = 0.5 * (surface.positions_m[static_cast<std::size_t>(c[1])] - a)
+                                       .cross(surface.positions_m[static_cast<std::size_t>(c[2])] - a)
+                                       .norm();
+      for (const int v : c) rhs[v] += flux * area_m2 / whole_m2 / 3.0;
+    }
   }
+}
+
+Vec3 centroid_m(const AttachmentPatches& patches) {
+  Vec3 moment = Vec3::Zero();
+  double whole_m2 = 0.0;
+  for (const AttachmentPatch& patch : patches) {
+    moment += patch.area_m2 * patch.centroid_m;
+    whole_m2 += patch.area_m2;
+  }
+  return moment / whole_m2;
 }
 
 Eigen::SparseMatrix<double> laplace_matrix(const TetMesh& tets) {
@@ -150,10 +164,10 @@ void fill_directions(const TetMesh& tets, const Vec3& axis, FibreField& field) {
 }  // namespace
 
 FibreField solve_fibres(const std::string& name, const TetMesh& tets, const TriangleMesh& surface,
-                        const AttachmentPatch& origin, const AttachmentPatch& insertion) {
+                        const AttachmentPatches& origins, const AttachmentPatches& insertions) {
   Eigen::VectorXd flux = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(tets.nodes_m.size()));
-  add_flux(surface, origin, -1.0, flux);
-  add_flux(surface, insertion, 1.0, flux);
+  add_flux(surface, origins, -1.0, flux);
+  add_flux(surface, insertions, 1.0, flux);
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(laplace_matrix(tets));
   const Eigen::VectorXd potential = solver.solve(flux);
   if (solver.info() != Eigen::Success || !potential.allFinite()) {
@@ -167,7 +181,7 @@ FibreField solve_fibres(const std::string& name, const TetMesh& tets, const Tria
     for (std::size_t k = 0; k < 4; ++k) g += potential[tets.corners[t][k]] * gradients[k];
     field.gradient.push_back(g);
   }
-  const Vec3 axis = (insertion.centroid_m - origin.centroid_m).normalized();
+  const Vec3 axis = (centroid_m(insertions) - centroid_m(origins)).normalized();
   fill_directions(tets, axis, field);
   double sum = 0.0;
   for (std::size_t t = 0; t < tets.corners.size(); ++t) {

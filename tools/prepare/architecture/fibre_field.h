@@ -21,9 +21,12 @@ struct FibreField {
   double mean_angle_to_axis_deg = 0.0;  // between fibres and the straight way from patch to patch, volume-weighted
 };
 
-/// `surface` is the tets' boundary; its vertices are the first nodes. Throws Error BadData when the potential cannot be
-/// solved for (the tets fall into separate parts).
+/// The patches of one end, all of one kind: heads of an origin or tendons of an insertion.
+using AttachmentPatches = std::vector<AttachmentPatch>;
+
+/// `surface` is the tets' boundary; its vertices are the first nodes. The flux is spread evenly over all patches of an
+/// end. Throws Error BadData when the potential cannot be solved for (the tets fall into separate parts).
 FibreField solve_fibres(const std::string& name, const geometry::TetMesh& tets, const geometry::TriangleMesh& surface,
-                        const AttachmentPatch& origin, const AttachmentPatch& insertion);
+                        const AttachmentPatches& origins, const AttachmentPatches& insertions);
 
 }  // namespace myotact::prepare

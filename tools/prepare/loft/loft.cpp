@@ -99,10 +99,14 @@ void read_heading(JsonObject& root) {
   for (const char* key : {"what", "source", "licence"}) root.string_or(key, "");
 }
 
+std::filesystem::path beside(const std::filesystem::path& recipe, const std::string& ending) {
+  return recipe.parent_path() / (recipe.stem().string() + ending);
+}
+
 }  // namespace
 
-std::vector<NamedSurface> loft_muscles(const std::filesystem::path& folder) {
-  const auto file = folder / "forelimb_muscle_sections.json";
+std::vector<NamedSurface> loft_muscles(const std::filesystem::path& recipe) {
+  const auto file = beside(recipe, "_muscle_sections.json");
   const nlohmann::json json = read_json(file);
   JsonObject root(JsonValue(json, file.string()));
   read_heading(root);
@@ -112,8 +116,8 @@ std::vector<NamedSurface> loft_muscles(const std::filesystem::path& folder) {
   return surfaces;
 }
 
-std::vector<NamedSurface> loft_bones(const std::filesystem::path& folder) {
-  const auto file = folder / "forelimb_bone_outlines.json";
+std::vector<NamedSurface> loft_bones(const std::filesystem::path& recipe) {
+  const auto file = beside(recipe, "_bone_outlines.json");
   const nlohmann::json json = read_json(file);
   JsonObject root(JsonValue(json, file.string()));
   read_heading(root);

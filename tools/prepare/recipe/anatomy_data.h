@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -10,21 +11,36 @@
 
 namespace myotact::prepare {
 
-/// Where one end of a muscle is fixed.
+/// A place where a muscle is fixed.
 struct AttachmentSite {
   std::vector<std::string> bones;  // keys of the bones that may carry it; all on one body
+  int body = -1;                   // index into AnatomyData::bodies, where no bone carries it (the trunk)
   Vec3 point_m = Vec3::Zero();     // middle of the patch, specimen frame
   double area_m2 = 0.0;            // of the measured contact patch; 0: not known
 };
 
 struct MuscleData {
-  anatomy::Muscle mechanics;  // key, names, material, forces, lengths, sources; no meshes
-  AttachmentSite origin, insertion;
+  anatomy::Muscle mechanics;                        // key, names, material, forces, lengths, sources; no meshes
+  std::vector<AttachmentSite> origins, insertions;  // at least one each; the muscle line ends at the first
+  std::string file;                                 // of its surface, in the input's folder; empty: muscles/KEY
 };
 
 struct BoneData {
   std::string key, name_la, name_en;
-  int body = -1;  // index into AnatomyData::bodies
+  int body = -1;     // index into AnatomyData::bodies
+  std::string file;  // of its surface, in the input's folder; empty: bones/KEY
+};
+
+/// A part that the scan lacks and the limb needs: a flat band between two points, ends rounded.
+struct BandData {
+  BoneData bone;  // it moves with its body like a bone
+  std::array<Vec3, 2> ends_m{};
+  double width_m = 0.0, thickness_m = 0.0;
+};
+
+/// A file of the input that is no part of the limb.
+struct LeftOut {
+  std::string file, why;
 };
 
 /// A muscle group by keys: made into indices once the muscles of the specimen are known.
@@ -40,6 +56,8 @@ struct AnatomyData {
   std::vector<anatomy::Joint> joints;
   std::vector<MuscleData> muscles;
   std::vector<GroupData> groups;
+  std::vector<BandData> built;
+  std::vector<LeftOut> leave_out;
 };
 
 }  // namespace myotact::prepare

@@ -3,14 +3,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <limits>
-#include <numbers>
 #include <vector>
 
-#include <Eigen/Geometry>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
@@ -143,13 +139,6 @@ TetMesh parse_result(const std::string& name, const std::string& bytes) {
   return mesh;
 }
 
-double dihedral_deg(const std::array<Vec3, 4>& x, std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
-  const Vec3 edge = (x[b] - x[a]).normalized();
-  const Vec3 u = x[c] - x[a], v = x[d] - x[a];
-  const Vec3 p = u - edge.dot(u) * edge, q = v - edge.dot(v) * edge;
-  return std::atan2(p.cross(q).norm(), p.dot(q)) * 180.0 / std::numbers::pi;
-}
-
 }  // namespace
 
 TetMesh tetrahedralise(const std::string& name, const TriangleMesh& surface) {
@@ -185,29 +174,6 @@ TetMesh tetrahedralise(const std::string& name, const TriangleMesh& surface) {
         "again");
   }
   return parse_result(name, bytes);
-}
-
-TetQuality measure_tets(const TetMesh& mesh) {
-  static constexpr std::size_t kOpposite[6][4] = {{0, 1, 2, 3}, {1, 2, 0, 3}, {0, 2, 1, 3},
-                                                  {0, 3, 1, 2}, {1, 3, 0, 2}, {2, 3, 0, 1}};
-  TetQuality quality;
-  quality.tets = static_cast<int>(mesh.corners.size());
-  quality.volume_m3 = geometry::total_volume_m3(mesh);
-  quality.shortest_edge_m = std::numeric_limits<double>::infinity();
-  std::vector<double> angles_deg;
-  for (const auto& corners : mesh.corners) {
-    std::array<Vec3, 4> x;
-    for (std::size_t k = 0; k < 4; ++k) x[k] = mesh.nodes_m[static_cast<std::size_t>(corners[k])];
-    for (const auto& [a, b, c, d] : kOpposite) {
-      angles_deg.push_back(dihedral_deg(x, a, b, c, d));
-      quality.shortest_edge_m = std::min(quality.shortest_edge_m, (x[b] - x[a]).norm());
-    }
-  }
-  if (angles_deg.empty()) return quality;
-  std::sort(angles_deg.begin(), angles_deg.end());
-  quality.smallest_dihedral_deg = angles_deg.front();
-  quality.first_percentile_dihedral_deg = angles_deg[angles_deg.size() / 100];
-  return quality;
 }
 
 }  // namespace myotact::prepare

@@ -13,15 +13,4 @@ namespace myotact::prepare {
 /// Internal when no child can be made. Call from a program with one thread only (it forks).
 geometry::TetMesh tetrahedralise(const std::string& name, const geometry::TriangleMesh& surface);
 
-/// How good the tets are. Angles between faces are in degrees, because people read them.
-struct TetQuality {
-  int tets = 0;
-  double smallest_dihedral_deg = 0.0;
-  double first_percentile_dihedral_deg = 0.0;
-  double shortest_edge_m = 0.0;
-  double volume_m3 = 0.0;
-};
-
-TetQuality measure_tets(const geometry::TetMesh& mesh);
-
 }  // namespace myotact::prepare

@@ -1,4 +1,4 @@
-#include "prepare/report.h"
+#include "prepare/report/surface_report.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -17,7 +17,6 @@ nlohmann::ordered_json json_of(const SurfaceReport& r) {
                                  {"dropped_pieces", r.repair.dropped_pieces},
                                  {"skin_triangles", r.skin_triangles},
                                  {"volume_m3", r.volume_m3},
-                                 {"wall_s", r.wall_s},
                                  {"notes", r.notes}};
   if (!r.muscle) return json;
   json.update({{"tets", r.tets.tets},
@@ -26,6 +25,12 @@ nlohmann::ordered_json json_of(const SurfaceReport& r) {
                {"shortest_edge_m", r.tets.shortest_edge_m},
                {"cage_attempts", r.cage_attempts},
                {"cage_volume_error", r.cage_volume_error},
+               {"cage_deviation_m", r.cage_deviation_m},
+               {"cage_edge_m", r.cage_edge_m},
+               {"mean_ratio", r.tets.mean_ratio},
+               {"parted_loss_m3", r.parted_loss_m3},
+               {"overlap_p95_m", r.overlap_p95_m},
+               {"overlap_largest_m", r.overlap_largest_m},
                {"origin_area_m2", r.origin_area_m2},
                {"insertion_area_m2", r.insertion_area_m2},
                {"origin_gap_m", r.origin_gap_m},
@@ -49,16 +54,17 @@ std::string levers_text(const SurfaceReport& r) {
 }  // namespace
 
 std::string report_table(const std::vector<SurfaceReport>& reports) {
-  std::string text = fmt::format("{:<28} {:>6} {:>6} {:>7} {:>5} {:>6} {:>6} {:>7} {:>11} {:>6} {:>13} {:>6}  {}\n",
-                                 "surface", "tri in", "skin", "cm3", "tets", "min", "1 %", "dV", "gap o/i", "filled",
-                                 "belly/path", "s", "levers, mm");
+  std::string text = fmt::format("{:<30} {:>6} {:>5} {:>6} {:>5} {:>4} {:>5} {:>5} {:>5} {:>6} {:>9} {:>4} {:>8}  {}\n",
+                                 "surface", "tri in", "skin", "cm3", "lost", "tets", "min", "1 %", "ratio", "dV %",
+                                 "gap o/i", "fill", "belly", "levers, mm");
   for (const SurfaceReport& r : reports) {
-    text += fmt::format("{:<28} {:>6} {:>6} {:>7.1f} ", r.key, r.input_triangles, r.skin_triangles, 1e6 * r.volume_m3);
+    text += fmt::format("{:<30} {:>6} {:>5} {:>6.1f} ", r.key, r.input_triangles, r.skin_triangles, 1e6 * r.volume_m3);
     if (r.muscle) {
-      text += fmt::format("{:>5} {:>5.1f}d {:>5.1f}d {:>6.2f}% {:>4.1f}/{:<4.1f}mm {:>6} {:>5.0f}/{:<4.0f}mm {:>6.2f} ",
-                          r.tets.tets, r.tets.smallest_dihedral_deg, r.tets.first_percentile_dihedral_deg,
-                          100.0 * r.cage_volume_error, 1e3 * r.origin_gap_m, 1e3 * r.insertion_gap_m, r.filled_tets,
-                          1e3 * r.belly_m, 1e3 * r.path_m, r.wall_s);
+      text +=
+          fmt::format("{:>5.1f} {:>4} {:>5.1f} {:>5.1f} {:>5.2f} {:>6.2f} {:>4.1f}/{:<4.1f} {:>4} {:>3.0f}/{:<4.0f} ",
+                      1e6 * r.parted_loss_m3, r.tets.tets, r.tets.smallest_dihedral_deg,
+                      r.tets.first_percentile_dihedral_deg, r.tets.mean_ratio, 100.0 * r.cage_volume_error,
+                      1e3 * r.origin_gap_m, 1e3 * r.insertion_gap_m, r.filled_tets, 1e3 * r.belly_m, 1e3 * r.path_m);
       text += levers_text(r);
     }
     for (const std::string& note : r.notes) text += "  [" + note + "]";

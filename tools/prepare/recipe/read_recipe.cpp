@@ -1,4 +1,4 @@
-#include "prepare/recipe/anatomy_assets.h"
+#include "prepare/recipe/read_recipe.h"
 
 #include <fmt/format.h>
 
@@ -37,7 +37,7 @@ anatomy::Body read_body(const JsonValue& value) {
 BoneData read_bone(const JsonValue& value, const AnatomyData& data) {
   JsonObject fields(value);
   BoneData bone{fields.at("key").string(), fields.at("name_la").string(), fields.at("name_en").string(),
-                index_of(fields.at("body"), data.bodies, "body")};
+                index_of(fields.at("body"), data.bodies, "body"), fields.string_or("file", "")};
   fields.finish();
   return bone;
 }
@@ -67,15 +67,36 @@ anatomy::Joint read_joint(const JsonValue& value, const AnatomyData& data) {
 AttachmentSite read_site(const JsonValue& value, const AnatomyData& data) {
   JsonObject fields(value);
   AttachmentSite site;
-  for (const JsonValue& bone : fields.at("bones").elements()) {
-    index_of(bone, data.bones, "bone");
-    site.bones.push_back(bone.string());
+  if (const auto body = fields.find("body")) {
+    site.body = index_of(*body, data.bodies, "body");
+  } else {
+    for (const JsonValue& bone : fields.at("bones").elements()) {
+      index_of(bone, data.bones, "bone");
+      site.bones.push_back(bone.string());
+    }
+    if (site.bones.empty()) throw value.error("names no bone; a muscle end must be fixed to one, or to a body");
   }
-  if (site.bones.empty()) throw value.error("names no bone; a muscle end must be fixed to one");
   site.point_m = fields.at("point_m").vec3();
-  site.area_m2 = fields.at("area_m2").number_between(0.0, 1.0);
+  if (const auto area = fields.find("area_m2")) {
+    site.area_m2 = area->number();
+    if (!(site.area_m2 > 0.0 && site.area_m2 <= 1.0)) {
+      throw area->error(
+          fmt::format("is {} m2; must be > 0 and at most 1: a muscle hangs on nothing by an attachment "
+                      "of no area. Leave it out if it is not known",
+                      to_text(site.area_m2)));
+    }
+  }
   fields.finish();
   return site;
+}
+
+/// One site, or a list of them.
+std::vector<AttachmentSite> read_sites(const JsonValue& value, const AnatomyData& data) {
+  if (!value.raw().is_array()) return {read_site(value, data)};
+  std::vector<AttachmentSite> sites;
+  for (const JsonValue& site : value.elements()) sites.push_back(read_site(site, data));
+  if (sites.empty()) throw value.error("is empty; a muscle needs an attachment at both ends");
+  return sites;
 }
 
 MuscleData read_muscle(const JsonValue& value, const AnatomyData& data) {
@@ -95,10 +116,48 @@ MuscleData read_muscle(const JsonValue& value, const AnatomyData& data) {
   m.deactivation_tau_s = fields.at("deactivation_tau_s").number_between(1e-3, 1.0);
   m.estimated = fields.at("estimated").strings();
   m.sources = fields.at("sources").strings();
-  muscle.origin = read_site(fields.at("origin"), data);
-  muscle.insertion = read_site(fields.at("insertion"), data);
+  muscle.origins = read_sites(fields.at("origin"), data);
+  muscle.insertions = read_sites(fields.at("insertion"), data);
+  muscle.file = fields.string_or("file", "");
+  fields.string_or("note", "");
   fields.finish();
   return muscle;
+}
+
+BandData read_band(const JsonValue& value, const AnatomyData& data) {
+  JsonObject fields(value);
+  BandData band;
+  band.bone.key = fields.at("key").string();
+  band.bone.name_la = fields.at("name_la").string();
+  band.bone.name_en = fields.at("name_en").string();
+  band.bone.body = index_of(fields.at("body"), data.bodies, "body");
+  const auto ends = fields.at("points_m").elements(2);
+  band.ends_m = {ends[0].vec3(), ends[1].vec3()};
+  band.width_m = fields.at("width_m").number_between(1e-4, 0.2);
+  band.thickness_m = fields.at("thickness_m").number_between(1e-4, 0.2);
+  fields.at("why").string();
+  fields.finish();
+  return band;
+}
+
+LeftOut read_left_out(const JsonValue& value) {
+  JsonObject fields(value);
+  LeftOut left{fields.at("file").string(), fields.at("why").string()};
+  fields.finish();
+  return left;
+}
+
+/// A key that two parts share would make one overwrite the other's files.
+template <class Part, class KeyOf>
+void refuse_twins(const JsonValue& list, const std::vector<Part>& parts, KeyOf&& key_of) {
+  const auto elements = list.elements();
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (key_of(parts[i]) != key_of(parts[j])) continue;
+      throw elements[i].error(
+          fmt::format("has the key \"{}\", which entry {} has already; rename one", key_of(parts[i]), j));
+    }
+  }
 }
 
 GroupData read_group(const JsonValue& value, const AnatomyData& data) {
@@ -111,8 +170,7 @@ GroupData read_group(const JsonValue& value, const AnatomyData& data) {
 
 }  // namespace
 
-AnatomyData read_anatomy(const std::filesystem::path& folder) {
-  const auto file = folder / "forelimb_anatomy.json";
+AnatomyData read_recipe(const std::filesystem::path& file) {
   const nlohmann::json json = read_json(file);
   JsonObject root(JsonValue(json, file.string()));
   root.at("schema").integer_between(1, 1);
@@ -129,7 +187,16 @@ AnatomyData read_anatomy(const std::filesystem::path& folder) {
   for (const JsonValue& v : root.at("joints").elements()) data.joints.push_back(read_joint(v, data));
   for (const JsonValue& v : root.at("muscles").elements()) data.muscles.push_back(read_muscle(v, data));
   for (const JsonValue& v : root.at("groups").elements()) data.groups.push_back(read_group(v, data));
+  if (const auto built = root.find("built")) {
+    for (const JsonValue& v : built->elements()) data.built.push_back(read_band(v, data));
+  }
+  if (const auto left = root.find("leave_out")) {
+    for (const JsonValue& v : left->elements()) data.leave_out.push_back(read_left_out(v));
+  }
   root.finish();
+  refuse_twins(root.at("bodies"), data.bodies, [](const anatomy::Body& body) { return body.key; });
+  refuse_twins(root.at("bones"), data.bones, [](const BoneData& bone) { return bone.key; });
+  refuse_twins(root.at("muscles"), data.muscles, [](const MuscleData& muscle) { return muscle.mechanics.key; });
   return data;
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "prepare/repair/surface_check.h"
-#include "prepare/tets/tetrahedralise.h"
+#include "prepare/tets/tet_quality.h"
 
 namespace myotact::prepare {
 
@@ -15,12 +15,15 @@ struct SurfaceReport {
   int input_triangles = 0;
   SurfaceRepair repair;
   int skin_triangles = 0;
-  double volume_m3 = 0.0;  // of the cleaned input
-  double wall_s = 0.0;
+  double volume_m3 = 0.0;          // of the repaired and parted surface
   std::vector<std::string> notes;  // what a person should look at
   // Muscles only.
+  double parted_loss_m3 = 0.0;
+  std::vector<std::pair<std::string, double>> gave_way;  // bones and muscles it overlapped, volumes [m3]
+  double overlap_p95_m = 0.0, overlap_largest_m = 0.0;   // depth of its skin in its neighbours, after parting
   int cage_attempts = 0;
   double cage_volume_error = 0.0;
+  double cage_deviation_m = 0.0, cage_edge_m = 0.0;
   TetQuality tets;
   double origin_area_m2 = 0.0, insertion_area_m2 = 0.0;
   double origin_gap_m = 0.0, insertion_gap_m = 0.0;  // nearest vertex to bone

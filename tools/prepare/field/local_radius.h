@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "core/vector.h"
+#include "prepare/field/signed_distance.h"
+
+namespace myotact::prepare {
+
+/// How thick a body is near a place: the radius of the largest balls that fit inside there [m], smoothed over a few
+/// millimetres. Measured at the triangles (the ball that touches there), spread to a lattice, interpolated between.
+class LocalRadius {
+ public:
+  explicit LocalRadius(const SignedDistance& body);
+
+  double operator()(const Vec3& p) const;
+
+ private:
+  double& at(const Eigen::Array3i& node);
+  double at(const Eigen::Array3i& node) const;
+
+  Vec3 origin_m_;
+  double spacing_m_ = 0.0;
+  Eigen::Array3i counts_;
+  std::vector<double> radii_m_;  // by lattice node, z fastest
+};
+
+}  // namespace myotact::prepare

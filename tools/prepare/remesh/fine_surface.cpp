@@ -1,0 +1,45 @@
+#include "prepare/remesh/fine_surface.h"
+
+#include <cmath>
+
+#include "prepare/field/level_set.h"
+#include "prepare/field/signed_distance.h"
+#include "prepare/remesh/decimate.h"
+
+namespace myotact::prepare {
+
+namespace {
+
+/// Surfaces of fewer triangles are left alone.
+constexpr std::size_t kFewTriangles = 6000;
+/// Surfaces of more are resampled on a lattice.
+constexpr std::size_t kManyTriangles = 150'000;
+/// Triangles of a resampled surface, roughly, and per square of the lattice's spacing (measured on spheres).
+constexpr double kResampledTriangles = 60000.0;
+constexpr double kTrianglesPerCell = 8.0;
+constexpr double kFineTolerance_m = 1.5e-4;
+constexpr double kFineEdge_m = 2.5e-3;
+/// How far a skin may lie from the fine surface: less than a tenth of the tool's radius of 3 mm is not felt.
+constexpr double kSkinTolerance_m = 2.5e-4;
+/// Longest edge of skins, roughly: triangles smaller than the tool only cost time.
+constexpr double kSkinEdge_m = 5.5e-3;
+
+geometry::TriangleMesh resample(const geometry::TriangleMesh& surface) {
+  const SignedDistance distance(surface);
+  const double spacing_m = std::sqrt(kTrianglesPerCell * geometry::surface_area_m2(surface) / kResampledTriangles);
+  return extract_level_set([&](const Vec3& p) { return distance(p); }, distance.box(), spacing_m);
+}
+
+}  // namespace
+
+geometry::TriangleMesh fine_surface(const geometry::TriangleMesh& surface) {
+  if (surface.triangles.size() <= kFewTriangles) return surface;
+  const DecimateSettings settings{kFineEdge_m, kFineTolerance_m};
+  return decimate(surface.triangles.size() <= kManyTriangles ? surface : resample(surface), settings);
+}
+
+geometry::TriangleMesh skin_surface(const geometry::TriangleMesh& fine) {
+  return decimate(fine, {kSkinEdge_m, kSkinTolerance_m});
+}
+
+}  // namespace myotact::prepare

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "core/vector.h"
+#include "geometry/triangle_mesh.h"
+
+namespace myotact::prepare {
+
+/// How far two surfaces lie apart.
+struct SurfaceDistance {
+  double largest_m = 0.0;  // Hausdorff distance at samples
+  Vec3 place_m = Vec3::Zero();
+};
+
+/// Looks both ways, from the vertices, the middles of edges and the centres of triangles of one to the nearest place on
+/// the other.
+SurfaceDistance surface_distance(const geometry::TriangleMesh& a, const geometry::TriangleMesh& b);
+
+}  // namespace myotact::prepare

@@ -1,0 +1,105 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "prepare/parallel.h"
+#include "prepare/remesh/fine_surface.h"
+#include "prepare/repair/surface_check.h"
+#include "prepare/repair/surface_pieces.h"
+#include "prepare/stages/stages.h"
+
+namespace myotact::prepare {
+
+namespace {
+
+using geometry::TriangleMesh;
+
+/// Calls task(part) for every bone and muscle.
+template <class Task>
+void for_each_part(LimbWork& limb, const PartDone& done, Task&& task) {
+  const std::size_t bones = limb.bones.size();
+  for_each_index(bones + limb.muscles.size(), limb.settings.threads, [&](std::size_t i) {
+    if (i < bones)
+      task(limb.bones[i]);
+    else
+      task(limb.muscles[i - bones]);
+    done();
+  });
+}
+
+void repair(const std::string& key, TriangleMesh& surface, SurfaceReport& report) {
+  report.key = key;
+  report.input_triangles = static_cast<int>(surface.triangles.size());
+  surface = clean_surface(key, surface, &report.repair);
+  report.volume_m3 = geometry::enclosed_volume_m3(surface);
+}
+
+/// Lets every piece of a bone become a skin of its own: those of a paw may overlap each other.
+TriangleMesh bone_skin(const TriangleMesh& surface) {
+  TriangleMesh skin;
+  for (const TriangleMesh& piece : pieces_of(surface)) append(skin, skin_surface(fine_surface(piece)));
+  return skin;
+}
+
+std::string key_list(const std::vector<std::string>& keys) {
+  std::string text;
+  for (const std::string& key : keys) text += (text.empty() ? "" : ", ") + key;
+  return text;
+}
+
+void report_parting(const PartReport& part, SurfaceReport& report) {
+  report.parted_loss_m3 = part.volume_lost_m3;
+  report.volume_m3 = part.volume_before_m3 - part.volume_lost_m3;
+  for (const auto& [volume_m3, key] : part.gave_way) report.gave_way.emplace_back(key, volume_m3);
+  if (!part.hosts.empty()) report.notes.push_back("nested in " + key_list(part.hosts) + ": keeps its shape");
+  if (part.kept_core) report.notes.push_back("would be cut in two by its neighbours: its core stays and overlaps them");
+  if (part.dropped_m3 > 1e-9) {
+    report.notes.push_back(fmt::format("{:.2f} cm3 of loose ends dropped in parting", 1e6 * part.dropped_m3));
+  }
+}
+
+}  // namespace
+
+void repair_surfaces(LimbWork& limb, const PartDone& done) {
+  for (MuscleWork& muscle : limb.muscles) muscle.report.muscle = true;
+  for_each_index(limb.bones.size(), limb.settings.threads, [&](std::size_t b) {
+    repair(limb.bones[b].data.key, limb.bones[b].surface, limb.bones[b].report);
+    done();
+  });
+  for_each_index(limb.muscles.size(), limb.settings.threads, [&](std::size_t m) {
+    MuscleWork& muscle = limb.muscles[m];
+    repair(muscle.data.mechanics.key, muscle.surface, muscle.report);
+    refuse_crossings(muscle.data.mechanics.key, muscle.surface);
+    done();
+  });
+}
+
+void part_muscles(LimbWork& limb, const PartDone& done) {
+  std::vector<NamedSurface> muscles, bones;
+  for (MuscleWork& muscle : limb.muscles) muscles.push_back({muscle.data.mechanics.key, std::move(muscle.surface)});
+  for (const BoneWork& bone : limb.bones) {
+    for (TriangleMesh& piece : pieces_of(bone.surface)) bones.push_back({bone.data.key, std::move(piece)});
+  }
+  PartSettings settings;
+  settings.threads = limb.settings.threads;
+  const auto reports = part_surfaces(muscles, bones, settings, done);
+  for (std::size_t m = 0; m < limb.muscles.size(); ++m) {
+    limb.muscles[m].surface = std::move(muscles[m].surface);
+    report_parting(reports[m], limb.muscles[m].report);
+  }
+}
+
+void remesh_surfaces(LimbWork& limb, const PartDone& done) {
+  for_each_part(limb, done, [](auto& part) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(part)>, BoneWork>) {
+      part.skin = bone_skin(part.surface);
+    } else {
+      part.surface = fine_surface(part.surface);
+      part.skin = skin_surface(part.surface);
+    }
+    part.report.skin_triangles = static_cast<int>(part.skin.triangles.size());
+  });
+}
+
+}  // namespace myotact::prepare
