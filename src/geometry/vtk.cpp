@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/text.h"
-#include "geometry/mesh_files.h"
+#include "geometry/parse_mesh.h"
 #include "geometry/words.h"
 
 namespace myotact::geometry {
@@ -165,9 +165,8 @@ void append_cells(std::string& text, const TetMesh& mesh) {
 
 }  // namespace
 
-TetFile read_vtk(const std::filesystem::path& path) {
-  const std::string text = read_file(path);
-  Words words(path.string(), text);
+TetFile parse_vtk(std::string_view bytes, const std::string& file_name) {
+  Words words(file_name, bytes);
   if (words.rest_of_line().find("vtk DataFile") == std::string_view::npos) {
     throw words.error("is no legacy VTK file (\"# vtk DataFile Version\" is missing)");
   }
@@ -184,6 +183,10 @@ TetFile read_vtk(const std::filesystem::path& path) {
   read_cell_types(words, file.mesh);
   read_data(words, file);
   return file;
+}
+
+TetFile read_vtk(const std::filesystem::path& path) {
+  return parse_vtk(read_file(path), path.string());
 }
 
 void write_vtk(const TetFile& file, const std::filesystem::path& path) {
