@@ -85,7 +85,7 @@ class AsciiFacets {
     if (key == "vertex") {
       if (filled_ == 3) throw error(number, "a facet has more than 3 corners");
       corners_[filled_++] = corner_of(file_, words, number);
-    } else if (words[0] == "endfacet") {
+    } else if (key == "endfacet") {
       if (filled_ != 3) throw error(number, "a facet has fewer than 3 corners");
       welder_.add(corners_);
       if (too_many(welder_)) throw error(number, too_many_text());
