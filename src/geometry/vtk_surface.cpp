@@ -1,6 +1,5 @@
 #include <array>
 #include <limits>
-#include <optional>
 
 #include <fmt/format.h>
 
