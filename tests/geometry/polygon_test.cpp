@@ -125,6 +125,7 @@ TEST(PolygonCutter, ABridgeToAHoleIsKept) {
   const std::vector<Vec3> outline = {Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(4, 4, 0), Vec3(0, 4, 0),
                                      Vec3(1, 1, 0), Vec3(1, 3, 0), Vec3(3, 3, 0), Vec3(3, 1, 0)};
   const Pieces pieces = cut(outline, {0, 1, 2, 3, 0, 4, 5, 6, 7, 4});
+  EXPECT_TRUE(pieces.simple);
   EXPECT_EQ(pieces.mesh.triangles.size(), 8u);
   EXPECT_NEAR(surface_area_m2(pieces.mesh), 12.0, 1e-12);
 }
