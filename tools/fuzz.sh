@@ -35,4 +35,4 @@ fuzz() {
 }
 export -f fuzz
 export project amount
-printf '%s\n' "${targets[@]}" | xargs -P2 -I{} bash -euo pipefail -c 'fuzz {}'
+printf '%s\n' "${targets[@]}" | xargs -P2 -I{} bash -euo pipefail -c 'fuzz {}' || exit 1

@@ -100,7 +100,7 @@ SurfaceFile boundary_surface(const TetFile& tets, const std::string& file) {
   }
   std::size_t inverted = 0;
   for (std::size_t tet = 0; tet < tets.mesh.corners.size(); ++tet) {
-    inverted += corner_volume_m3(tets.mesh, tet) < 0.0 ? 1 : 0;
+    if (corner_volume_m3(tets.mesh, tet) < 0.0) ++inverted;
   }
   if (inverted > 0) {
     surface.notes.push_back(fmt::format("{} of its {} tets are inside out: their triangles look inwards", inverted,

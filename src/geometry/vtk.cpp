@@ -34,7 +34,9 @@ void read_cells(Words& words, TetMesh& mesh) {
   words.integer(0, std::numeric_limits<int>::max());  // size of the list: implied by the cells
   const int last_node = static_cast<int>(mesh.nodes_m.size()) - 1;
   for (int i = 0; i < count; ++i) {
-    const int nodes = words.integer(4, 10);
+    const std::string_view first = words.next();
+    if (first == "OFFSETS") throw words.error("tets of VTK's version 5 are not read; write the file as version 4.2");
+    const int nodes = words.integer_in(first, 4, 10);
     if (nodes != 4 && nodes != 10) throw words.error(fmt::format("a tet has 4 or 10 nodes, not {}", nodes));
     std::array<int, 4> corners{};
     for (int& node : corners) node = words.integer(0, last_node);
