@@ -221,16 +221,10 @@ void read_lists(JsonObject& root, Loader& loader) {
 
 }  // namespace
 
-Specimen load_specimen(const std::filesystem::path& folder) {
-  const auto file = folder / "specimen.json";
-  std::error_code failure;  // a path that cannot even be examined is no specimen either
-  if (!std::filesystem::exists(file, failure)) {
-    throw Error(ExitStatus::NoInput, folder.string() +
-                                         ": is no specimen folder: specimen.json is missing; make one "
-                                         "with myotact-prepare");
-  }
-  const nlohmann::json json = read_json(file);
-  JsonObject root(JsonValue(json, file.string()));
+Specimen parse_specimen(const std::string& text, const std::filesystem::path& folder) {
+  const std::string file = (folder / "specimen.json").string();
+  const nlohmann::json json = parse_json(text, file);
+  JsonObject root(JsonValue(json, file));
   root.at("schema").integer_between(1, 1);
   Loader loader{folder, {}};
   if (const auto files = root.find("files")) check_sums(*files, loader);
@@ -244,8 +238,19 @@ Specimen load_specimen(const std::filesystem::path& folder) {
   specimen.created_by = root.string_or("created_by", "");
   read_lists(root, loader);
   root.finish();
-  if (const std::string defect = find_defect(specimen); !defect.empty()) throw bad_data(file.string(), "", defect);
+  if (const std::string defect = find_defect(specimen); !defect.empty()) throw bad_data(file, "", defect);
   return std::move(loader.specimen);
+}
+
+Specimen load_specimen(const std::filesystem::path& folder) {
+  const auto file = folder / "specimen.json";
+  std::error_code failure;  // a path that cannot even be examined is no specimen either
+  if (!std::filesystem::exists(file, failure)) {
+    throw Error(ExitStatus::NoInput, folder.string() +
+                                         ": is no specimen folder: specimen.json is missing; make one "
+                                         "with myotact-prepare");
+  }
+  return parse_specimen(read_file(file), folder);
 }
 
 }  // namespace myotact::anatomy

@@ -105,6 +105,8 @@ struct Specimen {
 /// Reads a specimen folder (FORMATS: specimen.json, bones/*.ply, skins/*.ply, muscles/*.vtk) and checks it.
 /// Throws Error NoInput or BadData naming file, place, value, allowed range and remedy.
 Specimen load_specimen(const std::filesystem::path& folder);
+/// The same with `text` in the place of specimen.json; the meshes it names are read from the folder.
+Specimen parse_specimen(const std::string& text, const std::filesystem::path& folder);
 
 /// Writes the folder completely, or throws Error (InputOutput; BadData for a specimen with a defect) and leaves nothing
 /// half-written: the files go to a temporary folder beside it that is renamed at the end. An existing specimen folder

@@ -21,6 +21,9 @@ std::string nearest_word(std::string_view word, std::span<const std::string> can
 /// The parts of `line` between blanks (space, tab, carriage return).
 std::vector<std::string_view> words_of(std::string_view line);
 
+/// With small letters for the capitals of ASCII. Independent of the locale.
+std::string lower(std::string_view text);
+
 /// With &, <, > and quotes as XML and HTML write them, so that any text may stand between tags and in attributes.
 std::string escape_markup(std::string_view text);
 

@@ -1,7 +1,7 @@
 #include <array>
 
 #include "core/file.h"
-#include "geometry/mesh_files.h"
+#include "geometry/parse_mesh.h"
 #include "geometry/words.h"
 
 // Medit's ASCII .mesh: keywords, each followed by a count and its entries; nodes count from 1; "#" before a comment.
@@ -37,9 +37,8 @@ void read_tetrahedra(Words& words, TetFile& file) {
 
 }  // namespace
 
-TetFile read_medit(const std::filesystem::path& path) {
-  const std::string text = read_file(path);
-  Words words(path.string(), text, '#');
+TetFile parse_medit(std::string_view bytes, const std::string& file_name) {
+  Words words(file_name, bytes, '#');
   if (words.next() != "MeshVersionFormatted") {
     throw words.error("is no Medit mesh in text form (\"MeshVersionFormatted\" is missing); write it as ASCII");
   }
@@ -55,6 +54,10 @@ TetFile read_medit(const std::filesystem::path& path) {
   }
   if (file.mesh.corners.empty()) throw words.error("the file holds no Tetrahedra; mesh the volume first");
   return file;
+}
+
+TetFile read_medit(const std::filesystem::path& path) {
+  return parse_medit(read_file(path), path.string());
 }
 
 }  // namespace myotact::geometry

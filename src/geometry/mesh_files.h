@@ -10,13 +10,25 @@
 
 namespace myotact::geometry {
 
-/// Binary little-endian PLY with double positions. Reading also accepts float positions and skips unknown properties.
-/// Throws Error NoInput, BadData (file, byte offset, value), InputOutput.
+/// A surface, and what a person should know of the file it came from: "the header announces 12 facets, ...".
+struct SurfaceFile {
+  TriangleMesh mesh;
+  std::vector<std::string> notes;
+};
+
+/// A surface in the file's own unit, told by the extension: .stl, .obj, .ply, .off, .vtk (legacy: PolyData, or the
+/// boundary of an unstructured grid of tets), .mesh (Medit), .node and .ele (boundary of the tets); capitals are the
+/// same. Polygons are cut into triangles; faces are kept as they are, also degenerate ones; only STL's corners are
+/// welded, exactly. Throws Error NoInput, BadData (file, line or byte, value), InputOutput.
+SurfaceFile read_surface(const std::filesystem::path& path);
+
+/// PLY in any of its three encodings; unknown elements and properties are read over. Throws as above.
 TriangleMesh read_ply(const std::filesystem::path& path);
+/// Binary little-endian with double positions.
 void write_ply(const TriangleMesh& mesh, const std::filesystem::path& path);
 
-/// ASCII or binary STL; the kind is told from the size, not from "solid". Equal corners are welded exactly.
-/// Refuses non-finite coordinates and files whose size does not fit the header.
+/// ASCII or binary STL; the kind is told from the size, not from "solid". Equal corners are welded exactly. Since it
+/// returns no notes, it refuses a file whose header and size differ, which read_surface() reads where it can.
 TriangleMesh read_stl(const std::filesystem::path& path);
 
 /// A tet mesh with the values that its file has for it; formats without a kind of value leave that list empty.

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <map>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -11,7 +10,9 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/text.h"
-#include "geometry/mesh_files.h"
+#include "geometry/corner_welder.h"
+#include "geometry/parse_mesh.h"
+#include "geometry/words.h"
 
 namespace myotact::geometry {
 
@@ -20,28 +21,32 @@ namespace {
 constexpr std::size_t kHeader_bytes = 80 + 4;  // title and count
 constexpr std::size_t kFacet_bytes = 50;       // normal, three corners, two unused bytes
 
-/// Joins corners with the same coordinates, in order of appearance.
-class Welder {
- public:
-  int vertex(const Vec3& position) {
-    const auto [found, added] = index_.try_emplace(to_array(position), static_cast<int>(mesh_.positions_m.size()));
-    if (added) mesh_.positions_m.push_back(position);
-    return found->second;
-  }
+std::uint32_t announced_facets(std::string_view bytes) {
+  static_assert(std::endian::native == std::endian::little, "binary STL is read little-endian");
+  std::uint32_t count = 0;
+  if (bytes.size() >= kHeader_bytes) std::memcpy(&count, bytes.data() + 80, sizeof count);
+  return count;
+}
 
-  void add(const std::array<Vec3, 3>& corners) {
-    mesh_.triangles.push_back({vertex(corners[0]), vertex(corners[1]), vertex(corners[2])});
-  }
+/// Text begins with "solid" and holds no zero byte; a binary file's title may begin so too, but its numbers hold zeros.
+bool is_text(std::string_view bytes) {
+  constexpr std::size_t kEnough_bytes = 1024;  // of a binary file: the header and eighteen facets
+  const std::string_view start = bytes.substr(0, kEnough_bytes);
+  if (start.find('\0') != std::string_view::npos) return false;
+  const auto words = words_of(start.substr(0, start.find('\n')));
+  return !words.empty() && lower(words[0]) == "solid";
+}
 
-  TriangleMesh take() { return std::move(mesh_); }
+bool too_many(const CornerWelder& welder) {
+  return welder.vertex_count() > static_cast<std::size_t>(kMostMeshElements);
+}
 
- private:
-  std::map<std::array<double, 3>, int> index_;
-  TriangleMesh mesh_;
-};
+std::string too_many_text() {
+  return fmt::format("there are more than {} vertices; simplify the surface", kMostMeshElements);
+}
 
 TriangleMesh read_binary(const std::string& file, std::string_view bytes, std::size_t count) {
-  Welder welder;
+  CornerWelder welder(count);
   for (std::size_t facet = 0; facet < count; ++facet) {
     const std::size_t start = kHeader_bytes + facet * kFacet_bytes;
     std::array<float, 12> numbers{};
@@ -56,6 +61,7 @@ TriangleMesh read_binary(const std::string& file, std::string_view bytes, std::s
       }
     }
     welder.add(corners);
+    if (too_many(welder)) throw bad_data(file, fmt::format("byte {}", start), too_many_text());
   }
   return welder.take();
 }
@@ -75,16 +81,20 @@ class AsciiFacets {
   explicit AsciiFacets(const std::string& file) : file_(file) {}
 
   void read_line(const std::vector<std::string_view>& words, int number) {
-    if (words[0] == "vertex") {
+    const std::string key = lower(words[0]);  // some programs write capitals
+    if (key == "vertex") {
       if (filled_ == 3) throw error(number, "a facet has more than 3 corners");
       corners_[filled_++] = corner_of(file_, words, number);
-    } else if (words[0] == "endfacet") {
+    } else if (key == "endfacet") {
       if (filled_ != 3) throw error(number, "a facet has fewer than 3 corners");
       welder_.add(corners_);
+      if (too_many(welder_)) throw error(number, too_many_text());
       filled_ = 0;
-    } else if (words[0] == "solid" || words[0] == "endsolid") {
-      open_ = words[0] == "solid";
-    } else if (words[0] != "facet" && words[0] != "outer" && words[0] != "endloop") {
+    } else if (key == "facet") {
+      if (filled_ != 0) throw error(number, "a facet begins before the last one ended");
+    } else if (key == "solid" || key == "endsolid") {
+      open_ = key == "solid";
+    } else if (key != "outer" && key != "endloop") {
       throw error(number, "is no line of an STL");
     }
   }
@@ -95,10 +105,12 @@ class AsciiFacets {
   }
 
  private:
-  Error error(int number, const char* problem) const { return bad_data(file_, fmt::format("{}:1", number), problem); }
+  Error error(int number, const std::string& problem) const {
+    return bad_data(file_, fmt::format("{}:1", number), problem);
+  }
 
   const std::string& file_;
-  Welder welder_;
+  CornerWelder welder_;
   std::array<Vec3, 3> corners_;
   std::size_t filled_ = 0;
   bool open_ = false;
@@ -110,30 +122,54 @@ TriangleMesh read_ascii(const std::string& file, std::string_view text) {
   while (!text.empty()) {
     ++number;
     const std::size_t end = std::min(text.find('\n'), text.size());
-    const auto words = words_of(text.substr(0, end));
+    const auto words = words_of(text.substr(0, std::min(end, kLongestLine_bytes)));
     text.remove_prefix(std::min(end + 1, text.size()));
     if (!words.empty()) facets.read_line(words, number);
   }
   return facets.finish(number);
 }
 
+Error misfit(const std::string& file, std::string_view bytes) {
+  if (bytes.size() < kHeader_bytes) {
+    return bad_data(file, fmt::format("byte {}", bytes.size()),
+                    fmt::format("is no STL: it ends within the header of {} bytes and does not begin with \"solid\"",
+                                kHeader_bytes));
+  }
+  const std::size_t count = announced_facets(bytes);
+  return bad_data(file, "byte 80",
+                  fmt::format("is no STL: its header announces {} facets ({} bytes), the file has {} bytes; export it "
+                              "again",
+                              count, kHeader_bytes + count * kFacet_bytes, bytes.size()));
+}
+
 }  // namespace
 
-TriangleMesh read_stl(const std::filesystem::path& path) {
-  static_assert(std::endian::native == std::endian::little, "binary STL is read little-endian");
-  const std::string file = path.string();
-  const std::string bytes = read_file(path);
-  std::uint32_t count = 0;
-  if (bytes.size() >= kHeader_bytes) std::memcpy(&count, bytes.data() + 80, sizeof count);
-  const bool binary = bytes.size() >= kHeader_bytes && bytes.size() == kHeader_bytes + count * kFacet_bytes;
-  if (!binary && !bytes.starts_with("solid")) {
-    throw bad_data(file, "byte 80",
-                   fmt::format("is no STL: its header announces {} facets ({} bytes), the file has {} bytes", count,
-                               kHeader_bytes + count * kFacet_bytes, bytes.size()));
+bool is_whole_binary_stl(std::string_view bytes) {
+  return bytes.size() >= kHeader_bytes && bytes.size() == kHeader_bytes + announced_facets(bytes) * kFacet_bytes;
+}
+
+SurfaceFile parse_stl(std::string_view bytes, const std::string& file) {
+  SurfaceFile surface;
+  if (!is_whole_binary_stl(bytes) && is_text(bytes)) {
+    surface.mesh = read_ascii(file, bytes);
+  } else {
+    if (bytes.size() < kHeader_bytes || (bytes.size() - kHeader_bytes) % kFacet_bytes != 0) throw misfit(file, bytes);
+    const std::size_t count = (bytes.size() - kHeader_bytes) / kFacet_bytes;
+    if (count != announced_facets(bytes)) {
+      surface.notes.push_back(fmt::format("the header announces {} facets, the file holds {}; all of these are read",
+                                          announced_facets(bytes), count));
+    }
+    surface.mesh = read_binary(file, bytes, count);
   }
-  TriangleMesh mesh = binary ? read_binary(file, bytes, count) : read_ascii(file, bytes);
-  if (mesh.triangles.empty()) throw bad_data(file, "", "holds no triangles");
-  return mesh;
+  if (surface.mesh.triangles.empty()) throw bad_data(file, "", "holds no triangles");
+  return surface;
+}
+
+TriangleMesh read_stl(const std::filesystem::path& path) {
+  const std::string bytes = read_file(path);
+  SurfaceFile surface = parse_stl(bytes, path.string());
+  if (!surface.notes.empty()) throw misfit(path.string(), bytes);
+  return std::move(surface.mesh);
 }
 
 }  // namespace myotact::geometry

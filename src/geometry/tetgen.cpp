@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/file.h"
-#include "geometry/mesh_files.h"
+#include "geometry/parse_mesh.h"
 #include "geometry/words.h"
 
 // TetGen's .node (points) and .ele (tets), one entry a line, "#" before a comment:
@@ -31,9 +31,8 @@ std::vector<std::string_view> entry(Words& words, std::size_t least) {
   return line;
 }
 
-Nodes read_nodes(const std::filesystem::path& path) {
-  const std::string text = read_file(path);
-  Words words(path.string(), text, '#');
+Nodes parse_nodes(std::string_view text, const std::string& file) {
+  Words words(file, text, '#');
   const auto header = entry(words, 1);
   const int count = words.integer_in(header[0], 4, kMostMeshElements);
   if (header.size() > 1) words.integer_in(header[1], 3, 3);
@@ -50,9 +49,8 @@ Nodes read_nodes(const std::filesystem::path& path) {
   return nodes;
 }
 
-void read_tets(const std::filesystem::path& path, int first_index, TetMesh& mesh) {
-  const std::string text = read_file(path);
-  Words words(path.string(), text, '#');
+void parse_tets(std::string_view text, const std::string& file, int first_index, TetMesh& mesh) {
+  Words words(file, text, '#');
   const auto header = entry(words, 2);
   const int count = words.integer_in(header[0], 1, kMostMeshElements);
   const int nodes_of_tet = words.integer_in(header[1], 4, 10);
@@ -75,16 +73,19 @@ void read_tets(const std::filesystem::path& path, int first_index, TetMesh& mesh
 
 }  // namespace
 
-TetFile read_tetgen(const std::filesystem::path& path) {
-  std::filesystem::path node_path = path;
-  std::filesystem::path tet_path = path;
-  node_path.replace_extension(".node");
-  tet_path.replace_extension(".ele");
-  Nodes nodes = read_nodes(node_path);
+TetFile parse_tetgen(std::string_view nodes, std::string_view tets, const std::string& stem) {
+  Nodes read = parse_nodes(nodes, stem + ".node");
   TetFile file;
-  file.mesh.nodes_m = std::move(nodes.positions_m);
-  read_tets(tet_path, nodes.first_index, file.mesh);
+  file.mesh.nodes_m = std::move(read.positions_m);
+  parse_tets(tets, stem + ".ele", read.first_index, file.mesh);
   return file;
+}
+
+TetFile read_tetgen(const std::filesystem::path& path) {
+  std::filesystem::path stem = path;
+  stem.replace_extension();
+  const std::string nodes = read_file(stem.string() + ".node");
+  return parse_tetgen(nodes, read_file(stem.string() + ".ele"), stem.string());
 }
 
 }  // namespace myotact::geometry

@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/text.h"
-#include "geometry/mesh_files.h"
+#include "geometry/parse_mesh.h"
 #include "geometry/words.h"
 
 namespace myotact::geometry {
@@ -34,7 +34,9 @@ void read_cells(Words& words, TetMesh& mesh) {
   words.integer(0, std::numeric_limits<int>::max());  // size of the list: implied by the cells
   const int last_node = static_cast<int>(mesh.nodes_m.size()) - 1;
   for (int i = 0; i < count; ++i) {
-    const int nodes = words.integer(4, 10);
+    const std::string_view first = words.next();
+    if (first == "OFFSETS") throw words.error("tets of VTK's version 5 are not read; write the file as version 4.2");
+    const int nodes = words.integer_in(first, 4, 10);
     if (nodes != 4 && nodes != 10) throw words.error(fmt::format("a tet has 4 or 10 nodes, not {}", nodes));
     std::array<int, 4> corners{};
     for (int& node : corners) node = words.integer(0, last_node);
@@ -165,9 +167,8 @@ void append_cells(std::string& text, const TetMesh& mesh) {
 
 }  // namespace
 
-TetFile read_vtk(const std::filesystem::path& path) {
-  const std::string text = read_file(path);
-  Words words(path.string(), text);
+TetFile parse_vtk(std::string_view bytes, const std::string& file_name) {
+  Words words(file_name, bytes);
   if (words.rest_of_line().find("vtk DataFile") == std::string_view::npos) {
     throw words.error("is no legacy VTK file (\"# vtk DataFile Version\" is missing)");
   }
@@ -184,6 +185,10 @@ TetFile read_vtk(const std::filesystem::path& path) {
   read_cell_types(words, file.mesh);
   read_data(words, file);
   return file;
+}
+
+TetFile read_vtk(const std::filesystem::path& path) {
+  return parse_vtk(read_file(path), path.string());
 }
 
 void write_vtk(const TetFile& file, const std::filesystem::path& path) {

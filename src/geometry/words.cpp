@@ -17,6 +17,13 @@ bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\n' || c == '\r';
 }
 
+std::string_view without_comment(std::string_view line, char comment) {
+  for (std::size_t at = line.find(comment); at != std::string_view::npos; at = line.find(comment, at + 1)) {
+    if (at == 0 || is_blank(line[at - 1])) return line.substr(0, at);
+  }
+  return line;
+}
+
 }  // namespace
 
 std::string shown(std::string_view word) {
@@ -28,8 +35,8 @@ std::string_view Words::next() {
   skip_blanks();
   const std::size_t start = position_;
   word_line_ = line_;
-  while (position_ < text_.size() && !is_blank(text_[position_]) && !(comment_ != '\0' && text_[position_] == comment_))
-    ++position_;
+  word_start_ = start;
+  while (position_ < text_.size() && !is_blank(text_[position_])) ++position_;
   if (start == position_) throw error(kCutShort);
   return text_.substr(start, position_ - start);
 }
@@ -41,17 +48,28 @@ bool Words::at_end() {
 
 std::string_view Words::rest_of_line() {
   const std::size_t end = std::min(text_.find('\n', position_), text_.size());
-  std::string_view line = text_.substr(position_, end - position_);
-  position_ = std::min(end + 1, text_.size());
+  const std::string_view line = text_.substr(position_, end - position_);
   word_line_ = line_;
+  word_start_ = position_;
+  position_ = std::min(end + 1, text_.size());
   if (end < text_.size()) ++line_;
-  if (comment_ != '\0') line = line.substr(0, line.find(comment_));
-  return line;
+  if (line.size() > kLongestLine_bytes) {
+    throw error(fmt::format("the line has {} bytes; at most {} are read", line.size(), kLongestLine_bytes));
+  }
+  return comment_ == '\0' ? line : without_comment(line, comment_);
 }
 
 std::vector<std::string_view> Words::next_line() {
   if (at_end()) throw error(kCutShort);
   return words_of(rest_of_line());
+}
+
+std::string_view Words::bytes(std::size_t count) {
+  binary_ = true;
+  word_start_ = position_;
+  if (count > left()) throw error(kCutShort);
+  position_ += count;
+  return text_.substr(word_start_, count);
 }
 
 void Words::expect(std::string_view word) {
@@ -66,7 +84,10 @@ double Words::number_in(std::string_view word) const {
 }
 
 int Words::integer_in(std::string_view word, int lowest, int highest) const {
-  const double value = number_in(word);
+  return whole(number_in(word), lowest, highest);
+}
+
+int Words::whole(double value, int lowest, int highest) const {
   if (!(value >= lowest && value <= highest) || value != std::floor(value)) {
     throw error(fmt::format("{} must be a whole number from {} to {}", to_text(value), lowest, highest));
   }
@@ -74,7 +95,7 @@ int Words::integer_in(std::string_view word, int lowest, int highest) const {
 }
 
 Error Words::error(const std::string& problem) const {
-  return bad_data(file_, fmt::format("line {}", word_line_), problem);
+  return bad_data(file_, binary_ ? fmt::format("byte {}", word_start_) : fmt::format("line {}", word_line_), problem);
 }
 
 void Words::skip_blanks() {

@@ -55,6 +55,10 @@ TEST(Text, NearestWordForgivesTypingErrors) {
   EXPECT_EQ(nearest_word(std::string(10'000'000, 'a'), keys).empty(), false);
 }
 
+TEST(Text, LowerLeavesWhatIsNoCapitalOfAscii) {
+  EXPECT_EQ(lower("ENDsolid [@Z] \xc3\x84"), "endsolid [@z] \xc3\x84");
+}
+
 TEST(Text, WordsAreSplitAtBlanks) {
   const auto words = words_of("  vertex\t1 2  3\r");
   ASSERT_EQ(words.size(), 4u);

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -66,8 +68,9 @@ TEST_F(Ply, FloatsAreReadAndUnknownPropertiesSkipped) {
 TEST_F(Ply, WhatIsNoPlyIsRefused) {
   EXPECT_THAT(problem(""), HasSubstr("is no PLY file"));
   EXPECT_THAT(problem("solid x\n"), HasSubstr("is no PLY file"));
-  EXPECT_THAT(problem("ply\nformat ascii 1.0\nend_header\n"),
-              AllOf(HasSubstr("2:1"), HasSubstr("binary_little_endian")));
+  EXPECT_THAT(problem("ply\nformat binary 1.0\nend_header\n"),
+              AllOf(HasSubstr("f.ply: 2:1"), HasSubstr("\"binary\""), HasSubstr("binary_big_endian")));
+  EXPECT_THAT(problem("ply\nformat ascii 1.0\nend_header\n"), HasSubstr("no triangles"));
   EXPECT_THAT(problem("ply\nend_header\n"), HasSubstr("is missing"));
   EXPECT_THAT(problem(header("element vertex 0\n")), HasSubstr("no triangles"));
 }
@@ -102,9 +105,71 @@ TEST_F(Ply, BadValuesNameTheElement) {
   mesh.positions_m[3].y() = std::nan("");
   write_ply(mesh, folder_ / "n.ply");
   EXPECT_THAT(problem(read_file(folder_ / "n.ply")), HasSubstr("vertex 3 is not finite"));
-  std::string four = example();
-  four[four.find("end_header\n") + 11 + 4 * 24] = 4;
-  EXPECT_THAT(problem(four), HasSubstr("face 0 has 4 corners; must have 3"));
+  std::string two = example();
+  two[two.find("end_header\n") + 11 + 4 * 24] = 2;
+  EXPECT_THAT(problem(two), HasSubstr("a face has 2 corners; must have 3 to 10000"));
+}
+
+/// The unit square with lists, texts of colours and an element that nobody asked for.
+const std::string kAsciiHeader =
+    "ply\nformat ascii 1.0\ncomment by hand\nelement vertex 4\nproperty uchar red\nproperty double x\nproperty list "
+    "uchar float weights\nproperty int y\nproperty float z\nelement marker 2\nproperty list int short ids\nelement "
+    "face "
+    "1\nproperty list uchar float texcoord\nproperty list uchar int vertex_indices\nproperty float "
+    "quality\nend_header\n";
+const std::string kAsciiBody =
+    "9 0.1 2 .5 nan 0 1e-9\n9 1.0000000000000002 0 0 0\n9 1 1 1 1 0\n9 -100000.00000000001 0 1 0\n"
+    "3 1 2 3\n0\n2 0 1 4 0 1 2 3 nan\n";
+
+TEST_F(Ply, AsciiIsReadInDoublePrecisionAndListsAreReadOver) {
+  write_file(folder_ / "a.ply", kAsciiHeader + kAsciiBody);
+  const TriangleMesh mesh = read_ply(folder_ / "a.ply");
+  EXPECT_EQ(mesh.positions_m, (std::vector<Vec3>{Vec3(0.1, 0, 1e-9), Vec3(1.0000000000000002, 0, 0), Vec3(1, 1, 0),
+                                                 Vec3(-100000.00000000001, 1, 0)}));
+  EXPECT_EQ(mesh.triangles, (std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}}));
+}
+
+TEST_F(Ply, AsciiDefectsNameTheLine) {
+  const auto with = [](const std::string& from, const std::string& to) {
+    std::string text = kAsciiHeader + kAsciiBody;
+    return text.replace(text.find(from), from.size(), to);
+  };
+  EXPECT_THAT(problem(with("9 1 1 1", "9 nan 1 1")), AllOf(HasSubstr("f.ply: line 19"), HasSubstr("vertex 2")));
+  EXPECT_THAT(problem(with("4 0 1 2 3", "4 0 1 2 4")), AllOf(HasSubstr("line 23"), HasSubstr("names vertex 4")));
+  EXPECT_THAT(problem(with("4 0 1 2 3", "4 0 1 2.5 3")), HasSubstr("names vertex 2.5"));
+  EXPECT_THAT(problem(with("9 1 1 1", "9 one 1 1")), HasSubstr("\"one\" is no number"));
+  EXPECT_THAT(problem(with(" nan\n", " nan\n7 7\n")), AllOf(HasSubstr("line 24"), HasSubstr("goes on after")));
+  EXPECT_THAT(problem(with("element face 1", "element face 2")), HasSubstr("ends early"));
+  EXPECT_THAT(problem(with("4 0 1 2 3", "-4 0 1 2 3")), HasSubstr("a list has -4 entries"));
+  EXPECT_THAT(problem(with("marker", "vertex")), HasSubstr("stands twice"));
+}
+
+template <class T>
+void append_big_endian(std::string& bytes, T value) {
+  append_bytes(bytes, value);
+  std::reverse(bytes.end() - static_cast<std::ptrdiff_t>(sizeof value), bytes.end());
+}
+
+TEST_F(Ply, BigEndianOfAnyScalarType) {
+  std::string bytes =
+      "ply\nformat binary_big_endian 1.0\nelement vertex 3\nproperty double x\nproperty short y\nproperty list uchar "
+      "double extra\nproperty uint z\nelement face 1\nproperty list ushort uchar vertex_index\nend_header\n";
+  for (int i = 0; i < 3; ++i) {
+    append_big_endian(bytes, 1e5 + 1e-9 * i);
+    append_big_endian(bytes, static_cast<std::int16_t>(-i));
+    append_big_endian(bytes, static_cast<std::uint8_t>(i));
+    for (int k = 0; k < i; ++k) append_big_endian(bytes, 0.5);
+    append_big_endian(bytes, 4'000'000'000U);
+  }
+  append_big_endian(bytes, std::uint16_t{3});
+  bytes += std::string("\0\1\2", 3);
+  write_file(folder_ / "b.ply", bytes);
+  const TriangleMesh mesh = read_ply(folder_ / "b.ply");
+  EXPECT_EQ(mesh.positions_m[2], Vec3(1e5 + 2e-9, -2, 4e9));
+  EXPECT_EQ(mesh.triangles, (std::vector<std::array<int, 3>>{{0, 1, 2}}));
+  EXPECT_THAT(problem(bytes + "x"), AllOf(HasSubstr("byte "), HasSubstr("goes on after")));
+  write_file(folder_ / "b.ply", bytes + "\n");
+  EXPECT_EQ(read_ply(folder_ / "b.ply").triangles.size(), 1u);
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include <cctype>
 #include <limits>
 
 #include <gmock/gmock.h>
@@ -29,9 +30,15 @@ class Stl : public ::testing::Test {
   myotact::testing::TemporaryFolder folder_;
 };
 
+/// Its triangles when the corners are numbered as they appear.
+std::vector<std::array<int, 3>> corner_surface_by_corners() {
+  return {{0, 1, 2}, {0, 2, 3}, {2, 1, 3}, {0, 3, 1}};
+}
+
 TEST_F(Stl, BinaryCornersAreWeldedIntoAClosedSurface) {
   const TriangleMesh mesh = read(binary_stl(corner_surface()));
-  EXPECT_EQ(mesh.positions_m.size(), 4u);
+  EXPECT_EQ(mesh.positions_m, (std::vector<Vec3>{Vec3(0, 0, 0), Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(0, 0, 1)}));
+  EXPECT_EQ(mesh.triangles, corner_surface_by_corners());
   EXPECT_EQ(bad_edge_count(mesh), 0);
   EXPECT_NEAR(enclosed_volume_m3(mesh), 1.0 / 6.0, 1e-15);
 }
@@ -74,6 +81,38 @@ TEST_F(Stl, ASizeThatDoesNotFitTheHeaderIsRefused) {
   EXPECT_THAT(problem(binary_stl({})), HasSubstr("no triangles"));
 }
 
+TEST_F(Stl, AWrongCountIsNotedWhereTheSizeIsThatOfWholeFacets) {
+  std::string bytes = binary_stl(corner_surface());
+  bytes[80] = 3;
+  write_file(folder_ / "n.stl", bytes);
+  const SurfaceFile surface = read_surface(folder_ / "n.stl");
+  EXPECT_EQ(surface.mesh.triangles, corner_surface_by_corners());
+  ASSERT_EQ(surface.notes.size(), 1u);
+  EXPECT_THAT(surface.notes[0], HasSubstr("announces 3 facets, the file holds 4"));
+  EXPECT_THAT(problem(bytes), HasSubstr("3 facets (234 bytes), the file has 284"));  // read_stl() returns no notes
+  for (const std::string& misfit : {bytes + "x", bytes.substr(0, 283), bytes.substr(0, 60)}) {
+    write_file(folder_ / "n.stl", misfit);
+    EXPECT_THAT(complaint(ExitStatus::BadData, [&] { read_surface(folder_ / "n.stl"); }),
+                AllOf(HasSubstr("n.stl: byte "), HasSubstr("is no STL")));
+  }
+}
+
+TEST_F(Stl, ABinaryFileThatSaysSolidAndHasAWrongCountIsStillBinary) {
+  std::string bytes = binary_stl(corner_surface(), "solid made by a scanner");
+  bytes[80] = 9;
+  write_file(folder_ / "n.stl", bytes);
+  EXPECT_EQ(read_surface(folder_ / "n.stl").mesh.triangles.size(), 4u);
+}
+
+TEST_F(Stl, SeveralSolidsAreOneSurfaceAndCapitalsAreTheSame) {
+  std::string second = ascii_stl();
+  second.replace(second.find("+1.5e0"), 6, "-3");
+  for (char& c : second) c = static_cast<char>(std::toupper(c));
+  const TriangleMesh mesh = read(ascii_stl() + second);
+  EXPECT_EQ(mesh.positions_m, (std::vector<Vec3>{Vec3(0, 0, 0), Vec3(1.5, 0, 0), Vec3(0, 2, 0), Vec3(-3, 0, 0)}));
+  EXPECT_EQ(mesh.triangles, (std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 3, 2}}));
+}
+
 TEST_F(Stl, CornersThatAreNotFiniteAreRefused) {
   for (const double bad : {std::nan(""), HUGE_VAL}) {
     TriangleMesh mesh = corner_surface();
@@ -92,6 +131,7 @@ TEST_F(Stl, BrokenAsciiNamesTheLine) {
   EXPECT_THAT(problem("solid x\nfacet\nvertex 0 0 0\nendfacet\nendsolid\n"), HasSubstr("4:1: a facet has fewer"));
   EXPECT_THAT(problem("solid x\nvertex 0 0 0\nvertex 0 0 1\nvertex 0 1 0\nvertex 1 1 1\n"),
               HasSubstr("5:1: a facet has more"));
+  EXPECT_THAT(problem("solid x\nfacet\nvertex 0 0 0\nfacet\n"), HasSubstr("4:1: a facet begins before"));
   EXPECT_THAT(problem("solid x\nnonsense\nendsolid\n"), HasSubstr("2:1: is no line of an STL"));
   EXPECT_THAT(problem("solid x\nvertex 0 0\n"), HasSubstr("2:1"));
 }

@@ -76,6 +76,7 @@ TEST_F(TetFiles, TetgenDefectsNameFileLineValueAndRange) {
   EXPECT_THAT(tetgen_problem("4 2 0 0\n", kTets), AllOf(HasSubstr("m.node: line 1"), HasSubstr("from 3 to 3")));
   EXPECT_THAT(tetgen_problem("4 3\n0 0 0 0\n1 1 0\n", kTets), AllOf(HasSubstr("line 3"), HasSubstr("at least 4")));
   EXPECT_THAT(tetgen_problem("4 3\n0 0 0 nan\n", kTets), AllOf(HasSubstr("line 2"), HasSubstr("\"nan\"")));
+  EXPECT_THAT(tetgen_problem("4 3\n0 0 0 1.#INF\n", kTets), AllOf(HasSubstr("line 2"), HasSubstr("\"1.#INF\"")));
   EXPECT_THAT(tetgen_problem("4 3\n5 0 0 0\n", kTets), HasSubstr("from 0 to 1"));
   EXPECT_THAT(tetgen_problem("4 3\n0 0 0 0\n2 0 0 0\n", kTets), HasSubstr("index 2; must be 1"));
   EXPECT_THAT(tetgen_problem("4 3\n0 0 0 0\n", kTets), HasSubstr("ends early"));
@@ -110,6 +111,7 @@ TEST_F(TetFiles, MeditDefectsNameTheLine) {
   EXPECT_THAT(medit_problem("\x02"), HasSubstr("MeshVersionFormatted"));
   EXPECT_THAT(medit_problem(with("Dimension\n3", "Dimension\n2")),
               AllOf(HasSubstr("line 4"), HasSubstr("from 3 to 3")));
+  EXPECT_THAT(medit_problem(with("0 0 0.5 1", "0 0 1.#QNAN 1")), HasSubstr("\"1.#QNAN\""));
   EXPECT_THAT(medit_problem(with("1 2 3 4 5", "1 2 3 0 5")), AllOf(HasSubstr("line 16"), HasSubstr("from 1 to 4")));
   EXPECT_THAT(medit_problem(with("Tetrahedra", "Hexahedra")), HasSubstr("holds no Tetrahedra"));
   EXPECT_THAT(medit_problem(with("Triangles\n1", "Vertices\n4")), HasSubstr("stands twice"));

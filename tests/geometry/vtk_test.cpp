@@ -82,6 +82,8 @@ TEST_F(Vtk, WrongWordsNameTheLine) {
   EXPECT_THAT(problem(with("ASCII", "BINARY")), AllOf(HasSubstr("line 3"), HasSubstr("must be \"ASCII\"")));
   EXPECT_THAT(problem(with("UNSTRUCTURED_GRID", "POLYDATA")), HasSubstr("line 4"));
   EXPECT_THAT(problem(with("POINTS 5 double", "POINTS 5 int")), AllOf(HasSubstr("line 5"), HasSubstr("float")));
+  EXPECT_THAT(problem(with("4 0 1 2 3", "OFFSETS vtktypeint64")),
+              AllOf(HasSubstr("line 12"), HasSubstr("version 4.2")));
   EXPECT_THAT(problem(with("VECTORS", "TENSORS")), HasSubstr("\"TENSORS\" is not read"));
   EXPECT_THAT(problem(with("region int 1", "region int 3")), HasSubstr("1 component"));
 }
