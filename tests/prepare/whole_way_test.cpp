@@ -50,7 +50,7 @@ TEST(FullScan, BecomesASpecimenWithThePublishedLevers) {
   const char* folder = std::getenv("MYOTACT_CANINE_DIR");
   if (!folder) GTEST_SKIP() << "MYOTACT_CANINE_DIR is not set: the full canine meshes are not there";
   const AnatomyData recipe = read_recipe(data_folder() / "assets" / "canine" / "forelimb.json");
-  const Scan scan = read_scan(std::filesystem::path(folder) / "forelimb_left", recipe);
+  const Scan scan = read_scan({std::filesystem::path(folder) / "forelimb_left"}, recipe);
   LimbWork limb = make_limb(recipe, scan.bones, scan.muscles, two_threads());
   EXPECT_EQ(prepare_limb(limb).muscles.size(), kLevers_m.size());
   check_reports(limb);

@@ -19,7 +19,7 @@ namespace myotact::prepare {
 struct PrepareSettings {
   double tets = 210.0;       // of a muscle, roughly
   double tolerance = 0.005;  // how far repairs may move a surface, as a part of its diagonal
-  int threads = 1;
+  int threads = 2;
 };
 
 struct BoneWork {

@@ -1,83 +1,29 @@
-// The program myotact-prepare: reads the command line, makes one specimen, turns every error into one line and a
-// status.
+// The program myotact-prepare: reads the command line, turns every error into one line and a status.
 
 #include <exception>
-#include <filesystem>
-#include <iostream>
 #include <new>
 
 #include <CLI/CLI.hpp>
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
-#include "anatomy/specimen.h"
-#include "core/data_folder.h"
 #include "core/error.h"
 #include "core/log.h"
-#include "prepare/loft/loft.h"
-#include "prepare/prepare_limb.h"
-#include "prepare/recipe/make_limb.h"
-#include "prepare/recipe/read_recipe.h"
-#include "prepare/recipe/read_scan.h"
-#include "prepare/report/surface_report.h"
+#include "prepare/commands.h"
 
 namespace {
 
 using namespace myotact;
 
-struct Options {
-  std::filesystem::path scan;
-  std::filesystem::path anatomy;  // empty: the project's
-  std::filesystem::path specimen;
-  prepare::PrepareSettings settings;
-  bool json = false;
-};
-
-void add_common(CLI::App& command, Options& options) {
-  command.add_option("-o,--output", options.specimen, "folder of the specimen to write");
+void add_common(CLI::App& command, prepare::Options& options) {
+  command.add_option("-o,--output", options.output, "folder of the specimen to write");
   command.add_option("--tets", options.settings.tets, "tets of a muscle, roughly")
-      ->check(CLI::Range(40.0, 20000.0))
+      ->check(CLI::Range(40.0, 5000.0))
       ->capture_default_str();
+  command.add_option("--threads", options.settings.threads, "the result does not depend on their number")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  command.add_flag("--mirror", options.mirror, "write the limb of the other side");
   command.add_flag("--json", options.json, "report as JSON lines");
-}
-
-prepare::LimbWork read_input(const Options& options, bool loft) {
-  const std::filesystem::path anatomy = options.anatomy.empty() ? data_folder() / "assets" / "canine" : options.anatomy;
-  const prepare::AnatomyData recipe = prepare::read_recipe(anatomy / "forelimb.json");
-  if (loft) {
-    return make_limb(recipe, prepare::loft_bones(anatomy / "forelimb.json"), prepare::loft_muscles(anatomy / "forelimb.json"), options.settings);
-  }
-  const prepare::Scan scan = prepare::read_scan(options.scan, recipe);
-  return make_limb(recipe, scan.bones, scan.muscles, options.settings);
-}
-
-/// Before any work: whether the folder that is to hold the specimen is there, or can be made, and can be written.
-void check_output(const std::filesystem::path& specimen) {
-  std::filesystem::path holder = std::filesystem::absolute(specimen).lexically_normal().parent_path();
-  while (!std::filesystem::exists(holder) && holder.has_relative_path()) {
-    holder = holder.parent_path();
-  }
-  if (std::filesystem::is_directory(holder) && ::access(holder.c_str(), W_OK) == 0) return;
-  throw Error(ExitStatus::InputOutput,
-              holder.string() + ": is not a folder that can be written; name another place for the specimen");
-}
-
-int make_specimen(const Options& options, bool loft) {
-  if (options.specimen.empty()) {
-    throw Error(ExitStatus::Usage, "--output: is missing; name the folder of the specimen to write");
-  }
-  if (!loft && options.scan.empty()) {
-    throw Error(ExitStatus::Usage, "the folder of the scan is missing; name one that holds bones/ and muscles/");
-  }
-  check_output(options.specimen);
-  prepare::LimbWork limb = read_input(options, loft);
-  const anatomy::Specimen specimen = prepare::prepare_limb(limb);
-  anatomy::save_specimen(specimen, options.specimen);
-  std::vector<prepare::SurfaceReport> reports;
-  for (const prepare::BoneWork& bone : limb.bones) reports.push_back(bone.report);
-  for (const prepare::MuscleWork& muscle : limb.muscles) reports.push_back(muscle.report);
-  std::cout << (options.json ? prepare::report_json_lines(reports) : prepare::report_table(reports)) << std::flush;
-  return static_cast<int>(ExitStatus::Done);
 }
 
 int fail(ExitStatus status, const std::string& text) {
@@ -89,13 +35,21 @@ int fail(ExitStatus status, const std::string& text) {
 
 int main(int argc, char** argv) {
   CLI::App program("Turns scans of a limb into a specimen that can be touched. AGPL-3.0-or-later.", "myotact-prepare");
-  Options options;
+  prepare::Options options;
   add_common(program, options);
-  program.add_option("scan", options.scan, "folder with bones/KEY.stl and muscles/KEY.stl, in metres");
-  program.add_option("--anatomy", options.anatomy, "folder with bodies, joints and mechanics of the limb");
-  CLI::App* loft = program.add_subcommand("loft", "make the surfaces from the sections and outlines of the anatomy");
-  loft->add_option("anatomy", options.anatomy, "folder with the anatomy")->required();
+  program.add_option("scan", options.inputs,
+                     "folder with bones/ and muscles/, or surface files: STL, OBJ, PLY, OFF, VTK");
+  program.add_option("--recipe", options.recipe, "JSON file that names parts, joints and attachments");
+  program.add_option("--units", options.units, "of the scan; guessed from its size when left out")
+      ->check(CLI::IsMember({"m", "cm", "mm", "in"}));
+  CLI::App* loft = program.add_subcommand("loft", "make the surfaces from a recipe's own sections and outlines");
+  loft->add_option("recipe", options.recipe, "RECIPE.json")->required();
   add_common(*loft, options);
+  CLI::App* import = program.add_subcommand("import", "make both whole limbs of the canine data set");
+  import->add_option("dataset", options.inputs, "its folder; default: MYOTACT_CANINE_DIR")->expected(0, 1);
+  add_common(*import, options);
+  CLI::App* check = program.add_subcommand("check", "name every violation of a specimen");
+  check->add_option("specimen", options.inputs, "its folder")->required()->expected(1);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -103,7 +57,11 @@ int main(int argc, char** argv) {
   }
   try {
     start_log("info");
-    return make_specimen(options, loft->parsed());
+    prepare::watch_for_interruption();
+    if (loft->parsed()) return prepare_loft(options);
+    if (import->parsed()) return import_canine(options);
+    if (check->parsed()) return check_specimen(options);
+    return prepare_scan(options);
   } catch (const Error& error) {
     return fail(error.status(), error.what());
   } catch (const std::bad_alloc&) {

@@ -1,5 +1,12 @@
 #include "prepare/recipe/read_scan.h"
 
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+#include <fmt/format.h>
+
 #include "core/error.h"
 #include "core/text.h"
 #include "geometry/mesh_files.h"
@@ -8,30 +15,127 @@ namespace myotact::prepare {
 
 namespace {
 
-/// The surfaces of the folder that carry one of the keys, in the keys' order.
-std::vector<NamedSurface> read_named(const std::filesystem::path& folder, const std::vector<std::string>& keys) {
-  if (!std::filesystem::is_directory(folder)) {
-    throw Error(ExitStatus::NoInput, folder.string() + ": is not a folder; it must hold surfaces named KEY.stl");
-  }
-  std::vector<NamedSurface> surfaces;
-  for (const std::string& key : keys) {
-    const std::filesystem::path file = folder / (key + ".stl");
-    if (std::filesystem::exists(file)) surfaces.push_back({key, geometry::read_stl(file)});
-  }
-  if (surfaces.empty()) {
-    throw Error(ExitStatus::NoInput,
-                folder.string() + ": holds none of the surfaces that the anatomy names: " + join(keys) + " (.stl)");
-  }
-  return surfaces;
+namespace fs = std::filesystem;
+
+const std::set<std::string> kExtensions = {".stl", ".obj", ".ply", ".off", ".vtk", ".ele", ".mesh"};
+
+/// A part of the recipe and the name its file should have, without extension: "muscles/brachialis".
+struct Wanted {
+  std::string name;
+  std::string key;
+  bool muscle = false;
+};
+
+std::string without_extension(const std::string& file) {
+  return (fs::path(file).parent_path() / fs::path(file).stem()).string();
 }
+
+std::vector<Wanted> wanted_by(const AnatomyData& recipe) {
+  std::vector<Wanted> wanted;
+  for (const BoneData& bone : recipe.bones) {
+    wanted.push_back({bone.file.empty() ? "bones/" + bone.key : without_extension(bone.file), bone.key, false});
+  }
+  for (const MuscleData& muscle : recipe.muscles) {
+    const std::string& key = muscle.mechanics.key;
+    wanted.push_back({muscle.file.empty() ? "muscles/" + key : without_extension(muscle.file), key, true});
+  }
+  return wanted;
+}
+
+/// All surface files of a folder's bones/ and muscles/, by name, so that the order never depends on the disk.
+std::vector<fs::path> files_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const char* kind : {"bones", "muscles"}) {
+    if (!fs::is_directory(folder / kind)) {
+      throw Error(ExitStatus::NoInput, (folder / kind).string() +
+                                           ": is not a folder; a scan holds bones/ and muscles/ with one surface "
+                                           "file a part");
+    }
+    for (const auto& entry : fs::directory_iterator(folder / kind)) {
+      if (kExtensions.contains(lower(entry.path().extension().string()))) files.push_back(entry.path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// Whether a file's path ends like the wanted name ("muscles/brachialis"), or is named after the key.
+bool fits(const fs::path& file, const Wanted& part) {
+  const fs::path name = part.name;
+  if (file.stem() != name.filename()) return file.stem() == part.key;
+  const std::string holder = file.parent_path().filename().string();
+  const bool other_kind = (holder == "bones" || holder == "muscles") && holder != name.parent_path().filename();
+  return !other_kind;
+}
+
+class Collector {
+ public:
+  explicit Collector(const AnatomyData& recipe) : wanted_(wanted_by(recipe)), found_(wanted_.size()) {
+    for (const LeftOut& left : recipe.leave_out) left_out_.insert(without_extension(left.file));
+  }
+
+  void add(const fs::path& file) {
+    const std::string name = (file.parent_path().filename() / file.stem()).string();
+    if (left_out_.contains(name)) return;
+    const auto part = std::find_if(wanted_.begin(), wanted_.end(), [&](const Wanted& w) { return fits(file, w); });
+    if (part == wanted_.end()) {
+      scan_.notes.push_back(file.string() + ": is not in the recipe; left alone");
+      return;
+    }
+    auto& place = found_[static_cast<std::size_t>(part - wanted_.begin())];
+    if (place) {
+      throw bad_data(file.string(), "",
+                     fmt::format("is the second surface of {}; the first is {}. Remove or rename one", part->key,
+                                 place->string()));
+    }
+    place = file;
+  }
+
+  Scan read() {
+    for (std::size_t i = 0; i < wanted_.size(); ++i) {
+      if (!found_[i]) continue;
+      geometry::SurfaceFile file = geometry::read_surface(*found_[i]);
+      for (const std::string& note : file.notes) scan_.notes.push_back(found_[i]->string() + ": " + note);
+      (wanted_[i].muscle ? scan_.muscles : scan_.bones).push_back({wanted_[i].key, std::move(file.mesh)});
+    }
+    return std::move(scan_);
+  }
+
+  std::string names(bool muscles) const {
+    std::vector<std::string> names;
+    for (const Wanted& part : wanted_) {
+      if (part.muscle == muscles) names.push_back(part.name);
+    }
+    return join(names);
+  }
+
+ private:
+  std::vector<Wanted> wanted_;
+  std::vector<std::optional<fs::path>> found_;
+  std::set<std::string> left_out_;
+  Scan scan_;
+};
 
 }  // namespace
 
-Scan read_scan(const std::filesystem::path& folder, const AnatomyData& anatomy) {
-  std::vector<std::string> bones, muscles;
-  for (const BoneData& bone : anatomy.bones) bones.push_back(bone.key);
-  for (const MuscleData& muscle : anatomy.muscles) muscles.push_back(muscle.mechanics.key);
-  return {read_named(folder / "bones", bones), read_named(folder / "muscles", muscles)};
+Scan read_scan(const std::vector<fs::path>& inputs, const AnatomyData& recipe) {
+  Collector collector(recipe);
+  for (const fs::path& input : inputs) {
+    if (!fs::exists(input)) throw Error(ExitStatus::NoInput, input.string() + ": is not there");
+    if (!fs::is_directory(input)) {
+      collector.add(input);
+      continue;
+    }
+    for (const fs::path& file : files_in(input)) collector.add(file);
+  }
+  Scan scan = collector.read();
+  for (const bool muscles : {false, true}) {
+    if (!(muscles ? scan.muscles : scan.bones).empty()) continue;
+    throw Error(ExitStatus::NoInput,
+                fmt::format("{}: holds none of the recipe's {}; rename the files, or name another recipe. It knows {}",
+                            inputs.front().string(), muscles ? "muscles" : "bones", collector.names(muscles)));
+  }
+  return scan;
 }
 
 }  // namespace myotact::prepare

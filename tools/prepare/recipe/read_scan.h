@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "prepare/recipe/anatomy_data.h"
@@ -8,13 +9,16 @@
 
 namespace myotact::prepare {
 
-/// A folder of scanned surfaces: bones/KEY.stl and muscles/KEY.stl.
+/// The surfaces that were found for the recipe's bones and muscles, in the recipe's order.
 struct Scan {
   std::vector<NamedSurface> bones, muscles;
+  std::vector<std::string> notes;  // what a person should know: odd headers, files that the recipe does not name
 };
 
-/// Reads the surfaces that the anatomy names; other files are left alone. Throws Error: NoInput when a folder is not
-/// there or holds none of them, BadData for a file that is no surface.
-Scan read_scan(const std::filesystem::path& folder, const AnatomyData& anatomy);
+/// Reads folders that hold bones/ and muscles/, or single files, in any format of read_surface(). A file belongs to the
+/// part whose file the recipe names, or whose key its name is; the extension does not matter. Coordinates stay as they
+/// are in the files. Throws Error: NoInput when something is not there or nothing fits the recipe, BadData when a file
+/// is broken or two fit one part.
+Scan read_scan(const std::vector<std::filesystem::path>& inputs, const AnatomyData& recipe);
 
 }  // namespace myotact::prepare

@@ -14,8 +14,8 @@ namespace myotact::prepare {
 /// A closed triangle mesh that is changed step by step and stays what it was: closed, of one genus, free of crossings,
 /// and near the surface it began as. Every change is looked at before it is made; one that would let triangles meet,
 /// fold back on a neighbour or stray beyond the tolerance, in either direction, is refused. Both surfaces are compared
-/// at samples: the reference's vertices, middles of edges and centres of triangles against the mesh, those of the mesh's
-/// new triangles against the reference.
+/// at samples: the reference's vertices, middles of edges and centres of triangles against the mesh, those of the
+/// mesh's new triangles against the reference.
 class GuardedMesh {
  public:
   using Vertex = OpenMesh::VertexHandle;

@@ -32,4 +32,10 @@ SurfaceDistance surface_distance(const geometry::TriangleMesh& a, const geometry
   return result;
 }
 
+SurfaceDistance one_way_distance(const geometry::TriangleMesh& from, const geometry::TriangleMesh& to) {
+  SurfaceDistance result;
+  look(from, to, result);
+  return result;
+}
+
 }  // namespace myotact::prepare

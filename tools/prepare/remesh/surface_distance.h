@@ -15,4 +15,7 @@ struct SurfaceDistance {
 /// the other.
 SurfaceDistance surface_distance(const geometry::TriangleMesh& a, const geometry::TriangleMesh& b);
 
+/// The same from the first to the second only.
+SurfaceDistance one_way_distance(const geometry::TriangleMesh& from, const geometry::TriangleMesh& to);
+
 }  // namespace myotact::prepare

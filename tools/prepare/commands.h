@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "prepare/limb_work.h"
+
+// What the program does, one function a command. Each returns the exit status, or throws Error.
+
+namespace myotact::prepare {
+
+struct Options {
+  std::vector<std::filesystem::path> inputs;
+  std::filesystem::path recipe;  // empty: the built-in one that knows the inputs' names
+  std::filesystem::path output;
+  std::string units;  // empty: guessed
+  bool mirror = false;
+  bool json = false;
+  PrepareSettings settings;
+};
+
+/// Surfaces and a recipe in, a specimen out.
+int prepare_scan(const Options& options);
+/// The recipe's own sections and outlines in, a specimen out.
+int prepare_loft(const Options& options);
+/// The canine data set's two whole limbs, from its full meshes.
+int import_canine(const Options& options);
+/// Every violation of a specimen, with file, place and value.
+int check_specimen(const Options& options);
+
+/// From now on SIGINT and SIGTERM end the work between two parts, with nothing left behind and exit status 130 or 143.
+void watch_for_interruption();
+
+}  // namespace myotact::prepare
