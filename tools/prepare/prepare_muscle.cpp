@@ -13,6 +13,7 @@
 #include "prepare/architecture/muscle_line.h"
 #include "prepare/architecture/sections.h"
 #include "prepare/remesh/cage.h"
+#include "prepare/repair/surface_check.h"
 #include "prepare/repair/surface_pieces.h"
 #include "prepare/tets/tetrahedralise.h"
 
@@ -69,13 +70,21 @@ Vec3 on_bone(const PatchGuide& guide, const Vec3& p) {
   return geometry::TriangleTree(guide.bones).nearest(p, guide.bones.positions_m).point.position_m;
 }
 
+TriangleMesh repaired(const std::string& key, const TriangleMesh& raw, const RepairSettings& settings,
+                      SurfaceReport& report) {
+  check_size(key, raw);
+  RepairResult result = repair_surface(key, raw, settings);
+  report.repairs = std::move(result.steps);
+  report.moved_m = result.hausdorff_m;
+  return std::move(result.mesh);
+}
+
 TriangleMesh clean_muscle(const MuscleData& data, const TriangleMesh& raw, SurfaceReport& report) {
   const std::string& key = data.mechanics.key;
   report.key = key;
   report.muscle = true;
   report.input_triangles = static_cast<int>(raw.triangles.size());
-  TriangleMesh surface = clean_surface(key, raw, &report.repair);
-  refuse_crossings(key, surface);
+  TriangleMesh surface = repaired(key, raw, {}, report);
   report.volume_m3 = geometry::enclosed_volume_m3(surface);
   return surface;
 }
@@ -162,7 +171,9 @@ TriangleMesh prepare_bone(const NamedSurface& raw, SurfaceReport& report) {
   const Watch watch;
   report.key = raw.key;
   report.input_triangles = static_cast<int>(raw.surface.triangles.size());
-  const TriangleMesh surface = clean_surface(raw.key, raw.surface, &report.repair);
+  RepairSettings settings;
+  settings.several_bodies = true;
+  const TriangleMesh surface = repaired(raw.key, raw.surface, settings, report);
   report.volume_m3 = geometry::enclosed_volume_m3(surface);
   // Equilateral triangles of edge h have area sqrt(3)/4 h^2.
   const double budget_m = std::sqrt(geometry::surface_area_m2(surface) / kBoneTriangles * 4.0 / std::sqrt(3.0));

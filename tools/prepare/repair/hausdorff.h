@@ -1,0 +1,22 @@
+#pragma once
+
+#include "geometry/triangle_mesh.h"
+#include "prepare/repair/repair_job.h"
+
+namespace myotact::prepare {
+
+/// The largest of two distances, and where it is.
+///   repaired -> input: from places of the repaired surface to the input's triangles that belong to the body. Patches
+///     over holes do not count: the input has nothing there.
+///   input -> repaired: from places of the input's triangles to the repaired surface. What was dropped on purpose does
+///     not count (fins, inner walls, specks, floaters, cavities, inner shells), nor, where pieces were united, what
+///     lies inside the union.
+/// Places are the corners and a grid on every triangle that is not the same in both, finer than the tolerance; between
+/// them the distance is larger by half a grid step at most.
+struct SurfaceMove {
+  double distance = 0.0;  // diagonals
+  Vec3 place = Vec3::Zero();
+};
+SurfaceMove measure_move(const RepairJob& job, const geometry::TriangleMesh& raw);
+
+}  // namespace myotact::prepare

@@ -1,0 +1,178 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "prepare/repair/edge_table.h"
+#include "prepare/repair/soup.h"
+#include "prepare/repair/stages.h"
+#include "prepare/repair/surface_surgery.h"
+
+namespace myotact::prepare {
+
+namespace {
+
+using geometry::TriangleMesh;
+using Loop = std::vector<int>;  // vertices, in the direction in which a patch is wound
+
+/// Patches of more than this part of the surface are no repair: it is a sheet.
+constexpr double kSheet = 0.35;
+/// More crossings than this are not counted when two patches are compared.
+constexpr int kCompared = 1000;
+
+/// Open edges in the direction of the missing neighbour.
+std::vector<std::vector<int>> open_steps(const TriangleMesh& mesh) {
+  std::vector<std::vector<int>> steps(mesh.positions_m.size());
+  const std::vector<int> opposite = opposite_sides(mesh);
+  for (int side = 0; side < static_cast<int>(opposite.size()); ++side) {
+    if (opposite[at(side)] == kOpen) steps[at(head_of(mesh, side))].push_back(tail_of(mesh, side));
+  }
+  return steps;
+}
+
+/// Walks along open edges; a vertex met again cuts off a loop, so that none touches itself.
+std::vector<Loop> find_loops(const TriangleMesh& mesh) {
+  std::vector<std::vector<int>> steps = open_steps(mesh);
+  std::vector<int> place_on_way(steps.size(), -1);
+  std::vector<Loop> loops;
+  for (int start = 0; start < static_cast<int>(steps.size()); ++start) {
+    while (!steps[at(start)].empty()) {
+      Loop way{start};
+      place_on_way[at(start)] = 0;
+      while (!way.empty() && !steps[at(way.back())].empty()) {
+        const int from = way.back();
+        const int next = steps[at(from)].back();
+        steps[at(from)].pop_back();
+        if (place_on_way[at(next)] < 0) {
+          place_on_way[at(next)] = static_cast<int>(way.size());
+          way.push_back(next);
+          continue;
+        }
+        const auto begin = way.begin() + place_on_way[at(next)];
+        loops.emplace_back(begin, way.end());
+        for (auto v = begin; v != way.end(); ++v) place_on_way[at(*v)] = -1;
+        way.erase(begin, way.end());
+        if (way.empty() && steps[at(next)].empty()) break;
+        place_on_way[at(next)] = static_cast<int>(way.size());
+        way.push_back(next);
+      }
+      for (const int v : way) place_on_way[at(v)] = -1;
+    }
+  }
+  return loops;
+}
+
+Vec3 middle_of(const TriangleMesh& mesh, const Loop& loop) {
+  Vec3 middle = Vec3::Zero();
+  for (const int v : loop) middle += mesh.positions_m[at(v)] / static_cast<double>(loop.size());
+  return middle;
+}
+
+std::vector<std::array<int, 3>> patch_over(const TriangleMesh& mesh, const Loop& loop) {
+  if (loop.size() == 3) return {{loop[0], loop[1], loop[2]}};
+  std::vector<Vec3> points;
+  for (const int v : loop) points.push_back(mesh.positions_m[at(v)]);
+  std::vector<std::array<int, 3>> patch = span_loop(points);
+  for (auto& triangle : patch) {
+    std::sort(triangle.begin(), triangle.end());  // rising along the loop: wound like it
+    for (int& v : triangle) v = loop[at(v)];
+  }
+  return patch;
+}
+
+double area_of(const TriangleMesh& mesh, const std::vector<std::array<int, 3>>& triangles) {
+  return geometry::surface_area_m2({mesh.positions_m, triangles});
+}
+
+/// A patch from a new vertex in the middle of the loop.
+void add_fan(RepairJob& job, const Loop& loop) {
+  const int middle = static_cast<int>(job.mesh.positions_m.size());
+  job.mesh.positions_m.push_back(middle_of(job.mesh, loop));
+  job.vertex_source.push_back(-1);
+  for (std::size_t i = 0; i < loop.size(); ++i)
+    add_triangle(job, {loop[i], loop[(i + 1) % loop.size()], middle}, kFill);
+}
+
+/// Area of the patch, part of the surface's.
+double span_hole(RepairJob& job, const Loop& loop) {
+  const std::size_t before = job.mesh.triangles.size();
+  const std::vector<std::array<int, 3>> patch = patch_over(job.mesh, loop);
+  for (const auto& triangle : patch) add_triangle(job, triangle, kFill);
+  if (patch.empty()) add_fan(job, loop);
+  return area_of(job.mesh,
+                 {job.mesh.triangles.begin() + static_cast<std::ptrdiff_t>(before), job.mesh.triangles.end()});
+}
+
+/// Where a patch runs along an edge that has two triangles already, its loop gets a fan instead.
+void redo_crowded_patches(RepairJob& job, const TriangleMesh& open, const std::vector<Loop>& loops) {
+  if (count_edges(job.mesh).crowded == 0) return;
+  job.mesh = open;
+  job.vertex_source.resize(open.positions_m.size());
+  job.face_source.resize(open.triangles.size());
+  for (const Loop& loop : loops) add_fan(job, loop);
+}
+
+void check_hole(const RepairJob& job, const Loop& loop, double part) {
+  const Vec3 place = middle_of(job.mesh, loop);
+  if (part > kSheet) {
+    throw refusal(
+        job,
+        fmt::format("is open and encloses nothing: closing the edge of {} sides round {{}} would take {:.1f} % "
+                    "of its area; at most {:.1f} %. Export a closed surface",
+                    loop.size(), 100.0 * part, 100.0 * job.settings.largest_hole),
+        place);
+  }
+  if (part > job.settings.largest_hole) {
+    throw refusal(job,
+                  fmt::format("is open: a hole with {} edges near {{}} takes {:.1f} % of its area; at most {:.1f} % is "
+                              "closed. Close the hole and export it again",
+                              loop.size(), 100.0 * part, 100.0 * job.settings.largest_hole),
+                  place);
+  }
+}
+
+/// Gives patches the density and the slope of the surface around them, unless that makes them cross something.
+void blend_patches(RepairJob& job) {
+  std::vector<bool> marked;
+  for (const int source : job.face_source) marked.push_back(source == kFill);
+  const std::optional<TriangleMesh> blended = blend_triangles(job.mesh, marked);
+  if (!blended || geometry::bad_edge_count(*blended) > 0) return;
+  const std::size_t crossings = first_crossings(*blended, kCompared).size();
+  if (crossings > 0 && crossings > first_crossings(job.mesh, kCompared).size()) return;
+  adopt(job, *blended, kFill);
+}
+
+}  // namespace
+
+void close_holes(RepairJob& job) {
+  const TriangleMesh open = job.mesh;
+  const double area = geometry::surface_area_m2(open);
+  const std::vector<Loop> loops = find_loops(open);
+  if (loops.empty()) return;
+  double all = 0.0;
+  for (const Loop& loop : loops) {
+    const double part = span_hole(job, loop) / area;
+    check_hole(job, loop, part);
+    all += part;
+    note(job, "holes closed", 1, middle_of(open, loop));
+  }
+  if (all > job.settings.all_holes) {
+    throw refusal(job,
+                  fmt::format("is open: its {} holes, the first near {{}}, take {:.1f} % of its area; at most {:.1f} % "
+                              "is closed. Close the holes and export it again",
+                              loops.size(), 100.0 * all, 100.0 * job.settings.all_holes),
+                  middle_of(open, loops.front()));
+  }
+  redo_crowded_patches(job, open, loops);
+  split_shared_vertices(job);
+  if (geometry::bad_edge_count(job.mesh) > 0) {
+    throw refusal(job,
+                  fmt::format("is open: its {} holes, the first near {{}}, could not be closed without edges of more "
+                              "than two triangles. Close the holes and export it again",
+                              loops.size()),
+                  middle_of(open, loops.front()));
+  }
+  blend_patches(job);
+}
+
+}  // namespace myotact::prepare
