@@ -80,7 +80,7 @@ bool corners_near(const TriangleMesh& from, const TriangleMesh& to, double reach
 }
 
 bool serves(const RepairJob& job, const TriangleMesh& piece, const std::optional<TriangleMesh>& result) {
-  if (!result || result->triangles.empty() || geometry::bad_edge_count(*result) > 0) return false;
+  if (!result || !is_closed(*result)) return false;
   if (!first_crossings(*result, 1).empty()) return false;
   const double reach = job.settings.tolerance;
   return corners_near(piece, *result, reach) && corners_near(*result, piece, reach);
@@ -100,9 +100,11 @@ TriangleMesh taken_apart(const RepairJob& job, const TriangleMesh& piece, const 
 }  // namespace
 
 void remove_crossings(RepairJob& job) {
+  if (job.crossing_free) return;
   TriangleMesh whole;
   bool changed = false;
-  for (const TriangleMesh& piece : pieces_of(job.mesh)) {
+  const std::vector<TriangleMesh> pieces = pieces_of(job.mesh);
+  for (const TriangleMesh& piece : pieces) {
     const Pairs pairs = first_crossings(piece, kMostPairs);
     if (pairs.empty()) {
       append(whole, piece);
@@ -114,6 +116,7 @@ void remove_crossings(RepairJob& job) {
     changed = true;
   }
   if (changed) adopt(job, whole, kPatch);
+  job.crossing_free = pieces.size() == 1;
 }
 
 }  // namespace myotact::prepare

@@ -39,6 +39,15 @@ std::vector<int> opposite_sides(const geometry::TriangleMesh& mesh) {
   return opposite;
 }
 
+bool is_closed(const geometry::TriangleMesh& mesh) {
+  const std::vector<int> opposite = opposite_sides(mesh);
+  for (int side = 0; side < static_cast<int>(opposite.size()); ++side) {
+    const int other = opposite[at(side)];
+    if (other < 0 || tail_of(mesh, side) != head_of(mesh, other)) return false;
+  }
+  return !opposite.empty();
+}
+
 EdgeCounts count_edges(const geometry::TriangleMesh& mesh) {
   EdgeCounts counts;
   EdgeTable(mesh).for_each_edge([&](int low, int high, std::span<const EdgeUse> uses) {

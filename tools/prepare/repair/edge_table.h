@@ -61,6 +61,9 @@ inline constexpr int kCrowded = -2;  // more than one
 /// For each side the one of the neighbour along the same edge, whichever way it runs; or kOpen, kCrowded.
 std::vector<int> opposite_sides(const geometry::TriangleMesh& mesh);
 
+/// Whether every side has exactly one neighbour, and that runs the other way.
+bool is_closed(const geometry::TriangleMesh& mesh);
+
 /// How many edges have one triangle, and how many more than two.
 struct EdgeCounts {
   int open = 0;

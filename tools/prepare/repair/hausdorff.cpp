@@ -13,9 +13,38 @@ namespace {
 
 using geometry::TriangleMesh;
 
-/// Grid step, part of the tolerance, and most steps along an edge: a twentieth of the body at that.
+/// Grid step, part of the tolerance, and most steps along an edge: a tenth of the body at that.
 constexpr double kStep = 0.5;
 constexpr int kMostSteps = 40;
+constexpr double kWhole = 1e9;  // a step that no triangle needs two of
+/// A triangle whose corners lie this near to one triangle of the other surface, part of the tolerance, lies as near
+/// everywhere, because the distance to a convex set is convex: its corners are enough.
+constexpr double kNear = 0.1;
+
+bool corners_near(const TriangleMesh& mesh, int triangle, const std::array<Vec3, 3>& other, double reach) {
+  const auto& corners = mesh.triangles[at(triangle)];
+  return std::all_of(corners.begin(), corners.end(), [&](int v) {
+    const Vec3& p = mesh.positions_m[at(v)];
+    return (geometry::closest_point_on_triangle(p, other[0], other[1], other[2]).position_m - p).norm() <= reach;
+  });
+}
+
+std::array<Vec3, 3> corners_of(const TriangleMesh& mesh, int triangle) {
+  const auto& [a, b, c] = mesh.triangles[at(triangle)];
+  return {mesh.positions_m[at(a)], mesh.positions_m[at(b)], mesh.positions_m[at(c)]};
+}
+
+/// For each input triangle one of the repaired surface that comes from it or from what was kept instead, or -1.
+std::vector<int> images_of(const RepairJob& job) {
+  std::vector<int> image(job.left_out.size(), -1);
+  for (int t = 0; t < static_cast<int>(job.face_source.size()); ++t) {
+    if (job.face_source[at(t)] >= 0) image[at(job.face_source[at(t)])] = t;
+  }
+  for (auto copy = job.copies.rbegin(); copy != job.copies.rend(); ++copy) {
+    if (copy->first >= 0 && copy->second >= 0) image[at(copy->first)] = image[at(copy->second)];
+  }
+  return image;
+}
 
 /// Calls visit(place) on a grid over the triangle, its corners included.
 template <class Visit>
@@ -81,23 +110,27 @@ void widen(SurfaceMove& move, const Vec3& place, double distance) {
 SurfaceMove measure_move(const RepairJob& job, const TriangleMesh& raw) {
   const std::vector<bool> left_out = triangles_left_out(job);
   const TriangleMesh input = in_working_coordinates(job, raw, left_out);
+  const TriangleMesh all{input.positions_m, raw.triangles};
   const Unchanged same = find_unchanged(job, input, raw);
-  const double step = kStep * job.settings.tolerance;
+  const double step = kStep * job.settings.tolerance, near = kNear * job.settings.tolerance;
   SurfaceMove move;
 
   const geometry::TriangleTree input_tree(input);
   for (int t = 0; t < static_cast<int>(job.face_source.size()); ++t) {
-    if (same.repaired[at(t)] || job.face_source[at(t)] == kFill) continue;
-    visit_places(job.mesh, t, step,
+    const int source = job.face_source[at(t)];
+    if (same.repaired[at(t)] || source == kFill) continue;
+    const bool corners = source >= 0 && corners_near(job.mesh, t, corners_of(all, source), near);
+    visit_places(job.mesh, t, corners ? kWhole : step,
                  [&](const Vec3& p) { widen(move, p, input_tree.nearest(p, input.positions_m).distance_m); });
   }
 
   const geometry::TriangleTree repaired_tree(job.mesh);
-  const TriangleMesh all{input.positions_m, raw.triangles};
+  const std::vector<int> image = images_of(job);
   std::vector<Vec3> far;  // places to be looked at again where pieces were united
   for (int t = 0; t < static_cast<int>(raw.triangles.size()); ++t) {
     if (same.raw[at(t)] || left_out[at(t)]) continue;
-    visit_places(all, t, step, [&](const Vec3& p) {
+    const bool corners = image[at(t)] >= 0 && corners_near(all, t, corners_of(job.mesh, image[at(t)]), near);
+    visit_places(all, t, corners ? kWhole : step, [&](const Vec3& p) {
       const double distance = repaired_tree.nearest(p, job.mesh.positions_m).distance_m;
       if (job.united && distance > move.distance) {
         far.push_back(p);

@@ -11,8 +11,9 @@ namespace myotact::prepare {
 ///   input -> repaired: from places of the input's triangles to the repaired surface. What was dropped on purpose does
 ///     not count (fins, inner walls, specks, floaters, cavities, inner shells), nor, where pieces were united, what
 ///     lies inside the union.
-/// Places are the corners and a grid on every triangle that is not the same in both, finer than the tolerance; between
-/// them the distance is larger by half a grid step at most.
+/// Places are the corners and a grid with half the tolerance as its step on every triangle that is not the same in
+/// both; only the corners where they lie so near to one triangle of the other surface that nothing between them is
+/// farther. Between places of the grid the distance is larger by 0.6 steps at most.
 struct SurfaceMove {
   double distance = 0.0;  // diagonals
   Vec3 place = Vec3::Zero();

@@ -31,36 +31,48 @@ std::vector<std::vector<int>> open_steps(const TriangleMesh& mesh) {
 }
 
 /// Walks along open edges; a vertex met again cuts off a loop, so that none touches itself.
-std::vector<Loop> find_loops(const TriangleMesh& mesh) {
-  std::vector<std::vector<int>> steps = open_steps(mesh);
-  std::vector<int> place_on_way(steps.size(), -1);
-  std::vector<Loop> loops;
-  for (int start = 0; start < static_cast<int>(steps.size()); ++start) {
-    while (!steps[at(start)].empty()) {
-      Loop way{start};
-      place_on_way[at(start)] = 0;
-      while (!way.empty() && !steps[at(way.back())].empty()) {
-        const int from = way.back();
-        const int next = steps[at(from)].back();
-        steps[at(from)].pop_back();
-        if (place_on_way[at(next)] < 0) {
-          place_on_way[at(next)] = static_cast<int>(way.size());
-          way.push_back(next);
-          continue;
-        }
-        const auto begin = way.begin() + place_on_way[at(next)];
-        loops.emplace_back(begin, way.end());
-        for (auto v = begin; v != way.end(); ++v) place_on_way[at(*v)] = -1;
-        way.erase(begin, way.end());
-        if (way.empty() && steps[at(next)].empty()) break;
-        place_on_way[at(next)] = static_cast<int>(way.size());
-        way.push_back(next);
-      }
-      for (const int v : way) place_on_way[at(v)] = -1;
+class LoopWalk {
+ public:
+  explicit LoopWalk(const TriangleMesh& mesh) : steps_(open_steps(mesh)), place_(steps_.size(), -1) {}
+
+  std::vector<Loop> all() {
+    for (int start = 0; start < static_cast<int>(steps_.size()); ++start) {
+      while (!steps_[at(start)].empty()) walk_from(start);
     }
+    return std::move(loops_);
   }
-  return loops;
-}
+
+ private:
+  void walk_from(int start) {
+    reach(start);
+    while (!way_.empty() && !steps_[at(way_.back())].empty()) {
+      std::vector<int>& steps = steps_[at(way_.back())];
+      const int next = steps.back();
+      steps.pop_back();
+      if (place_[at(next)] >= 0) cut_off(next);
+      if (!way_.empty() || !steps_[at(next)].empty()) reach(next);
+    }
+    for (const int v : way_) place_[at(v)] = -1;
+    way_.clear();
+  }
+
+  void reach(int v) {
+    place_[at(v)] = static_cast<int>(way_.size());
+    way_.push_back(v);
+  }
+
+  void cut_off(int first) {
+    const auto begin = way_.begin() + place_[at(first)];
+    loops_.emplace_back(begin, way_.end());
+    for (const int v : loops_.back()) place_[at(v)] = -1;
+    way_.erase(begin, way_.end());
+  }
+
+  std::vector<std::vector<int>> steps_;
+  std::vector<int> place_;  // of each vertex on the way, or -1
+  Loop way_;
+  std::vector<Loop> loops_;
+};
 
 Vec3 middle_of(const TriangleMesh& mesh, const Loop& loop) {
   Vec3 middle = Vec3::Zero();
@@ -136,10 +148,11 @@ void blend_patches(RepairJob& job) {
   std::vector<bool> marked;
   for (const int source : job.face_source) marked.push_back(source == kFill);
   const std::optional<TriangleMesh> blended = blend_triangles(job.mesh, marked);
-  if (!blended || geometry::bad_edge_count(*blended) > 0) return;
+  if (!blended || !is_closed(*blended)) return;
   const std::size_t crossings = first_crossings(*blended, kCompared).size();
   if (crossings > 0 && crossings > first_crossings(job.mesh, kCompared).size()) return;
   adopt(job, *blended, kFill);
+  job.crossing_free = crossings == 0;
 }
 
 }  // namespace
@@ -147,7 +160,7 @@ void blend_patches(RepairJob& job) {
 void close_holes(RepairJob& job) {
   const TriangleMesh open = job.mesh;
   const double area = geometry::surface_area_m2(open);
-  const std::vector<Loop> loops = find_loops(open);
+  const std::vector<Loop> loops = LoopWalk(open).all();
   if (loops.empty()) return;
   double all = 0.0;
   for (const Loop& loop : loops) {
@@ -165,7 +178,7 @@ void close_holes(RepairJob& job) {
   }
   redo_crowded_patches(job, open, loops);
   split_shared_vertices(job);
-  if (geometry::bad_edge_count(job.mesh) > 0) {
+  if (!is_closed(job.mesh)) {
     throw refusal(job,
                   fmt::format("is open: its {} holes, the first near {{}}, could not be closed without edges of more "
                               "than two triangles. Close the holes and export it again",

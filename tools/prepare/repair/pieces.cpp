@@ -66,9 +66,11 @@ std::vector<int> containers_of(const std::vector<Piece>& pieces, const Groups& c
 }
 
 /// Pieces that cross each other, in groups.
-Groups crossing_pieces(const TriangleMesh& mesh) {
+Groups crossing_pieces(const RepairJob& job) {
+  const TriangleMesh& mesh = job.mesh;
   const std::vector<int> piece = piece_of_triangles(mesh);
   Groups groups(piece.empty() ? 0 : static_cast<std::size_t>(*std::max_element(piece.begin(), piece.end())) + 1);
+  if (job.crossing_free) return groups;
   for (const auto& [a, b] : first_crossings(mesh, kMostPairs)) groups.join(piece[at(a)], piece[at(b)]);
   return groups;
 }
@@ -76,7 +78,7 @@ Groups crossing_pieces(const TriangleMesh& mesh) {
 void drop_inner_pieces(RepairJob& job) {
   const std::vector<Piece> pieces = measured_pieces(job.mesh);
   if (pieces.size() < 2) return;
-  const std::vector<int> container = containers_of(pieces, crossing_pieces(job.mesh));
+  const std::vector<int> container = containers_of(pieces, crossing_pieces(job));
   std::vector<bool> keep(pieces.size(), true);
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     if (container[p] < 0) continue;
@@ -117,7 +119,7 @@ TriangleMesh united(const RepairJob& job, const std::vector<Piece>& pieces, Grou
     for (int other = first + 1; other < static_cast<int>(pieces.size()); ++other) {
       if (groups.group_of(other) != first) continue;
       const std::optional<TriangleMesh> both = unite(body, pieces[at(other)].mesh);
-      if (!both || both->triangles.empty() || geometry::bad_edge_count(*both) > 0) {
+      if (!both || !is_closed(*both)) {
         throw refusal(job,
                       "crosses itself: pieces of it cross each other, one of them at {}, and could not be united. "
                       "Unite or part them and export it again",
@@ -133,7 +135,7 @@ TriangleMesh united(const RepairJob& job, const std::vector<Piece>& pieces, Grou
 void unite_crossing(RepairJob& job) {
   const std::vector<Piece> pieces = measured_pieces(job.mesh);
   if (pieces.size() < 2) return;
-  Groups groups = crossing_pieces(job.mesh);
+  Groups groups = crossing_pieces(job);
   int joined = 0;
   Vec3 place = Vec3::Zero();
   for (int p = 0; p < static_cast<int>(pieces.size()); ++p) {
@@ -143,6 +145,7 @@ void unite_crossing(RepairJob& job) {
   if (joined == 0) return;
   adopt(job, united(job, pieces, groups), kPatch);
   job.united = true;
+  job.crossing_free = false;
   note(job, "crossing pieces united with others", joined, place);
 }
 

@@ -36,6 +36,7 @@ struct RepairJob {
   std::vector<bool> left_out;               // input triangles dropped on purpose: not a movement of the surface
   std::vector<std::pair<int, int>> copies;  // input triangle -> the one kept instead
   bool united = false;                      // pieces that overlapped are one: what lay inside is no surface any more
+  bool crossing_free = false;               // found so, and nothing was done since that could change it
   std::vector<RepairStep> steps;
 };
 

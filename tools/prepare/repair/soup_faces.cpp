@@ -48,48 +48,70 @@ void drop_copies(RepairJob& job) {
   note(job, "copies of triangles dropped", copies, place);
 }
 
-void wind_alike(RepairJob& job) {
-  const std::vector<int> opposite = opposite_sides(job.mesh);
-  const std::size_t count = job.mesh.triangles.size();
-  std::vector<signed char> turn(count, 0);  // 0: not met; 1: as it is; -1: to be turned
-  std::vector<int> turned;
-  for (std::size_t seed = 0; seed < count; ++seed) {
-    if (turn[seed] != 0) continue;
-    turn[seed] = 1;
-    std::vector<int> region{static_cast<int>(seed)};
-    std::vector<int> against;
+namespace {
+
+/// Goes from triangle to neighbour and finds those that must be turned.
+class Winder {
+ public:
+  explicit Winder(const RepairJob& job)
+      : job_(job), opposite_(opposite_sides(job.mesh)), turn_(job.mesh.triangles.size(), 0) {}
+
+  std::vector<int> triangles_to_turn() {
+    for (std::size_t seed = 0; seed < turn_.size(); ++seed) {
+      if (turn_[seed] == 0) flood(static_cast<int>(seed));
+    }
+    return std::move(turned_);
+  }
+
+ private:
+  void flood(int seed) {
+    turn_[at(seed)] = 1;
+    std::vector<int> region{seed}, against;
     for (std::size_t next = 0; next < region.size(); ++next) {
       const int here = region[next];
-      if (turn[at(here)] < 0) against.push_back(here);
-      for (int side = 3 * here; side < 3 * here + 3; ++side) {
-        const int other = opposite[at(side)];
-        if (other < 0) continue;
-        const bool alike = tail_of(job.mesh, side) == head_of(job.mesh, other);
-        const auto wanted = static_cast<signed char>(alike ? turn[at(here)] : -turn[at(here)]);
-        signed char& there = turn[at(other / 3)];
-        if (there == 0) region.push_back(other / 3);
-        if (there == -wanted) {
-          throw refusal(job,
-                        "has only one side (like a Moebius strip), so it encloses nothing: going round it near {} ends "
-                        "on the back. Cut it there and export it again",
-                        centroid(job.mesh, here));
-        }
-        there = wanted;
-      }
+      if (turn_[at(here)] < 0) against.push_back(here);
+      for (int side = 3 * here; side < 3 * here + 3; ++side) cross(side, region);
     }
     if (2 * against.size() <= region.size()) {
-      turned.insert(turned.end(), against.begin(), against.end());
-    } else {  // most lie the other way: turn the fewer
-      for (const int t : region) {
-        if (turn[at(t)] > 0) turned.push_back(t);
-      }
+      turned_.insert(turned_.end(), against.begin(), against.end());
+      return;
+    }
+    for (const int t : region) {  // most lie the other way: turn the fewer
+      if (turn_[at(t)] > 0) turned_.push_back(t);
     }
   }
-  for (const int t : turned) std::swap(job.mesh.triangles[at(t)][1], job.mesh.triangles[at(t)][2]);
-  if (!turned.empty()) {
-    note(job, "triangles turned to their neighbours' side", static_cast<int>(turned.size()),
-         centroid(job.mesh, turned.front()));
+
+  /// A neighbour met for the first time joins the region.
+  void cross(int side, std::vector<int>& region) {
+    const int other = opposite_[at(side)];
+    if (other < 0) return;
+    const bool alike = tail_of(job_.mesh, side) == head_of(job_.mesh, other);
+    const int wanted = alike ? turn_[at(side / 3)] : -turn_[at(side / 3)];
+    signed char& there = turn_[at(other / 3)];
+    if (there == 0) region.push_back(other / 3);
+    if (there == -wanted) {
+      throw refusal(job_,
+                    "has only one side (like a Moebius strip), so it encloses nothing: going round it near {} ends on "
+                    "the back. Cut it there and export it again",
+                    centroid(job_.mesh, side / 3));
+    }
+    there = static_cast<signed char>(wanted);
   }
+
+  const RepairJob& job_;
+  std::vector<int> opposite_;
+  std::vector<signed char> turn_;  // 0: not met; 1: as it is; -1: to be turned
+  std::vector<int> turned_;
+};
+
+}  // namespace
+
+void wind_alike(RepairJob& job) {
+  const std::vector<int> turned = Winder(job).triangles_to_turn();
+  if (turned.empty()) return;
+  for (const int t : turned) std::swap(job.mesh.triangles[at(t)][1], job.mesh.triangles[at(t)][2]);
+  note(job, "triangles turned to their neighbours' side", static_cast<int>(turned.size()),
+       centroid(job.mesh, turned.front()));
 }
 
 }  // namespace myotact::prepare
