@@ -112,7 +112,8 @@ void pinch(TriangleMesh& mesh, const TubeBody& body, int ring, double width) {
 
 void add_specks(TriangleMesh& mesh, const TubeBody& body, int count) {
   for (int i = 0; i < count; ++i) {
-    const Vec3 corner(2e-3 * (i % 20), 0.08 + 2e-3 * (i / 20), 0.05);
+    const int row = i / 20;
+    const Vec3 corner(2e-3 * (i % 20), 0.08 + 2e-3 * row, 0.05);
     prepare::append(mesh, box_surface(corner, corner + Vec3::Constant(2e-3 * diagonal_of(body.mesh))));
   }
 }

@@ -28,6 +28,10 @@ void add_holes(std::vector<DirtyKind>& kinds) {
          return without(b.mesh, {b.vertex(3, 1), b.vertex(7, 9), b.vertex(12, 17), b.vertex(16, 5), b.vertex(20, 20)});
        },
        Repaired, "holes closed", 0.02});
+}
+
+void add_odd_holes(std::vector<DirtyKind>& kinds) {
+  using enum Expected;
   kinds.push_back({"holes that touch in a corner", edit([](auto& m, const TubeBody& b, auto&) {
                      const int v = b.vertex(10, 4);
                      std::vector<std::size_t> around;
@@ -192,6 +196,7 @@ std::vector<DirtyKind> body_defects() {
   std::vector<DirtyKind> kinds;
   kinds.push_back({"clean", [](const TubeBody& b, auto&) { return b.mesh; }, Expected::Untouched, "", 0.0});
   add_holes(kinds);
+  add_odd_holes(kinds);
   add_windings_and_copies(kinds);
   add_seams(kinds);
   add_sheets_inside_and_out(kinds);

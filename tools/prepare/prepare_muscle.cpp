@@ -31,6 +31,8 @@ constexpr double kFewestTets = 0.4;
 constexpr double kMostTets = 1.25;
 /// A bone's skin has about at most this many triangles.
 constexpr double kBoneTriangles = 1400.0;
+/// Sesamoid bones have half a hundredth of the area of their paw; specks of a scan are smaller.
+constexpr double kBoneDebris = 1e-3;
 /// Tets with a smaller angle make the solver stiff.
 constexpr double kPoorDihedral_deg = 5.0;
 constexpr double kBadDihedral_deg = 1.0;
@@ -173,6 +175,7 @@ TriangleMesh prepare_bone(const NamedSurface& raw, SurfaceReport& report) {
   report.input_triangles = static_cast<int>(raw.surface.triangles.size());
   RepairSettings settings;
   settings.several_bodies = true;
+  settings.debris = kBoneDebris;
   const TriangleMesh surface = repaired(raw.key, raw.surface, settings, report);
   report.volume_m3 = geometry::enclosed_volume_m3(surface);
   // Equilateral triangles of edge h have area sqrt(3)/4 h^2.

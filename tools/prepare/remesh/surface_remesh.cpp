@@ -18,10 +18,11 @@ constexpr unsigned kRelaxations = 3;
 
 }  // namespace
 
-std::vector<std::pair<int, int>> crossing_triangles(const geometry::TriangleMesh& mesh) {
+std::vector<std::pair<int, int>> crossing_triangles(const geometry::TriangleMesh& mesh, unsigned most) {
   const CgalMesh surface = to_cgal(mesh);
   std::vector<std::pair<Face, Face>> found;
-  CGAL::Polygon_mesh_processing::self_intersections(surface, std::back_inserter(found));
+  CGAL::Polygon_mesh_processing::self_intersections(surface, std::back_inserter(found),
+                                                    CGAL::parameters::maximum_number(most));
   std::vector<std::pair<int, int>> pairs;
   for (const auto& [a, b] : found) pairs.emplace_back(static_cast<int>(a.idx()), static_cast<int>(b.idx()));
   return pairs;

@@ -2,6 +2,7 @@
 #include <set>
 
 #include "geometry/triangle_tree.h"
+#include "prepare/remesh/surface_remesh.h"
 #include "prepare/repair/edge_table.h"
 #include "prepare/repair/stages.h"
 #include "prepare/repair/surface_pieces.h"
@@ -15,7 +16,7 @@ using geometry::TriangleMesh;
 using Pairs = std::vector<std::pair<int, int>>;
 
 /// More pairs than this are not searched: nothing local helps then.
-constexpr int kMostPairs = 20000;
+constexpr unsigned kMostPairs = 20000;
 /// Local repair refills what it takes out, at a cost that grows with the cube: only where crossings are few.
 constexpr std::size_t kMostTriangles = 300;
 constexpr double kMostOfSurface = 0.25;
@@ -63,12 +64,12 @@ void smooth(TriangleMesh& mesh, const std::vector<bool>& marked) {
 std::optional<TriangleMesh> smoothed(const TriangleMesh& mesh) {
   TriangleMesh result = mesh;
   for (int round = 0; round < kRounds; ++round) {
-    const Pairs pairs = first_crossings(result, kMostPairs);
+    const Pairs pairs = crossing_triangles(result, kMostPairs);
     if (pairs.empty()) return result;
     const std::vector<bool> near = vertices_near(result, triangles_in(pairs), round);
     for (int pass = 0; pass < kPasses; ++pass) smooth(result, near);
   }
-  if (!first_crossings(result, 1).empty()) return std::nullopt;
+  if (!crossing_triangles(result, 1).empty()) return std::nullopt;
   return result;
 }
 
@@ -81,7 +82,7 @@ bool corners_near(const TriangleMesh& from, const TriangleMesh& to, double reach
 
 bool serves(const RepairJob& job, const TriangleMesh& piece, const std::optional<TriangleMesh>& result) {
   if (!result || !is_closed(*result)) return false;
-  if (!first_crossings(*result, 1).empty()) return false;
+  if (!crossing_triangles(*result, 1).empty()) return false;
   const double reach = job.settings.tolerance;
   return corners_near(piece, *result, reach) && corners_near(*result, piece, reach);
 }
@@ -105,7 +106,7 @@ void remove_crossings(RepairJob& job) {
   bool changed = false;
   const std::vector<TriangleMesh> pieces = pieces_of(job.mesh);
   for (const TriangleMesh& piece : pieces) {
-    const Pairs pairs = first_crossings(piece, kMostPairs);
+    const Pairs pairs = crossing_triangles(piece, kMostPairs);
     if (pairs.empty()) {
       append(whole, piece);
       continue;

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "prepare/remesh/surface_remesh.h"
 #include "prepare/repair/edge_table.h"
 #include "prepare/repair/soup.h"
 #include "prepare/repair/stages.h"
@@ -18,7 +20,7 @@ using Loop = std::vector<int>;  // vertices, in the direction in which a patch i
 /// Patches of more than this part of the surface are no repair: it is a sheet.
 constexpr double kSheet = 0.35;
 /// More crossings than this are not counted when two patches are compared.
-constexpr int kCompared = 1000;
+constexpr unsigned kCompared = 1000;
 
 /// Open edges in the direction of the missing neighbour.
 std::vector<std::vector<int>> open_steps(const TriangleMesh& mesh) {
@@ -78,6 +80,17 @@ Vec3 middle_of(const TriangleMesh& mesh, const Loop& loop) {
   Vec3 middle = Vec3::Zero();
   for (const int v : loop) middle += mesh.positions_m[at(v)] / static_cast<double>(loop.size());
   return middle;
+}
+
+/// Area of the loop's shadow where that is largest: no patch over it has less.
+double least_area(const TriangleMesh& mesh, const Loop& loop) {
+  const Vec3 middle = middle_of(mesh, loop);
+  Vec3 twice = Vec3::Zero();
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Vec3& next = mesh.positions_m[at(loop[(i + 1) % loop.size()])];
+    twice += (mesh.positions_m[at(loop[i])] - middle).cross(next - middle);
+  }
+  return 0.5 * twice.norm();
 }
 
 std::vector<std::array<int, 3>> patch_over(const TriangleMesh& mesh, const Loop& loop) {
@@ -149,8 +162,8 @@ void blend_patches(RepairJob& job) {
   for (const int source : job.face_source) marked.push_back(source == kFill);
   const std::optional<TriangleMesh> blended = blend_triangles(job.mesh, marked);
   if (!blended || !is_closed(*blended)) return;
-  const std::size_t crossings = first_crossings(*blended, kCompared).size();
-  if (crossings > 0 && crossings > first_crossings(job.mesh, kCompared).size()) return;
+  const std::size_t crossings = crossing_triangles(*blended, kCompared).size();
+  if (crossings > 0 && crossings > crossing_triangles(job.mesh, kCompared).size()) return;
   adopt(job, *blended, kFill);
   job.crossing_free = crossings == 0;
 }
@@ -163,6 +176,7 @@ void close_holes(RepairJob& job) {
   const std::vector<Loop> loops = LoopWalk(open).all();
   if (loops.empty()) return;
   double all = 0.0;
+  for (const Loop& loop : loops) check_hole(job, loop, least_area(open, loop) / area);
   for (const Loop& loop : loops) {
     const double part = span_hole(job, loop) / area;
     check_hole(job, loop, part);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "prepare/remesh/surface_remesh.h"
 #include "prepare/repair/edge_table.h"
 #include "prepare/repair/stages.h"
 #include "prepare/repair/surface_pieces.h"
@@ -17,7 +18,7 @@ using geometry::TriangleMesh;
 /// V <= this times A^1.5 encloses nothing. A sphere has 0.09, a sheet of 100 x 100 x 0.1 mm 3.5e-4.
 constexpr double kNoVolume = 1e-6;
 /// Crossings between pieces beyond this number add nothing.
-constexpr int kMostPairs = 100000;
+constexpr unsigned kMostPairs = 100000;
 
 struct Piece {
   TriangleMesh mesh;
@@ -71,7 +72,7 @@ Groups crossing_pieces(const RepairJob& job) {
   const std::vector<int> piece = piece_of_triangles(mesh);
   Groups groups(piece.empty() ? 0 : static_cast<std::size_t>(*std::max_element(piece.begin(), piece.end())) + 1);
   if (job.crossing_free) return groups;
-  for (const auto& [a, b] : first_crossings(mesh, kMostPairs)) groups.join(piece[at(a)], piece[at(b)]);
+  for (const auto& [a, b] : crossing_triangles(mesh, kMostPairs)) groups.join(piece[at(a)], piece[at(b)]);
   return groups;
 }
 

@@ -67,7 +67,7 @@ TriangleMesh in_metres(const RepairJob& job, const TriangleMesh& raw) {
 void check_result(const RepairJob& job, const RepairResult& result) {
   if (const auto defect = find_defect(result.mesh)) {
     throw bad_data(job.name, "surface",
-                   fmt::format("{}, near {}, and that is after {} kinds of repair. Repair it there and export it again",
+                   fmt::format("{}, near {}, even after {} kinds of repair. Repair it there and export it again",
                                defect->problem, place_text(defect->place_m), result.steps.size()));
   }
   const double limit_m = job.settings.tolerance * job.frame.diagonal_m;

@@ -181,10 +181,13 @@ void check_input(const std::string& name, const TriangleMesh& raw) {
 }
 
 void weld_equal_vertices(RepairJob& job) {
-  const std::size_t listed = job.mesh.positions_m.size();
+  std::vector<bool> used(job.mesh.positions_m.size(), false);
+  for (const auto& [a, b, c] : job.mesh.triangles) used[at(a)] = used[at(b)] = used[at(c)] = true;
+  const auto unused = std::find(used.begin(), used.end(), false);
+  Vec3 place =
+      unused == used.end() ? Vec3::Zero() : job.mesh.positions_m[static_cast<std::size_t>(unused - used.begin())];
+  note(job, "unused vertices dropped", static_cast<int>(std::count(used.begin(), used.end(), false)), place);
   drop_unused_vertices(job);
-  note(job, "unused vertices dropped", static_cast<int>(listed - job.mesh.positions_m.size()), Vec3::Zero());
-  Vec3 place = Vec3::Zero();
   const int welded = weld(job, std::vector<bool>(job.mesh.positions_m.size(), true), kSame, place);
   note(job, "equal vertices welded", welded, place);
   std::vector<bool> keep;

@@ -5,10 +5,10 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "prepare/remesh/surface_remesh.h"
 #include "prepare/repair/edge_table.h"
 #include "prepare/repair/repair_job.h"
 #include "prepare/repair/surface_pieces.h"
-#include "prepare/repair/surface_surgery.h"
 
 namespace myotact::prepare {
 
@@ -23,7 +23,7 @@ constexpr double kLargest_m = 1.5;
 /// A triangle whose height is below this part of the diagonal has none: rounding of its corners.
 constexpr double kFlat = 1e-12;
 /// Crossings are counted up to here.
-constexpr int kMostPairs = 10000;
+constexpr unsigned kMostPairs = 10000;
 
 double diagonal_m(const TriangleMesh& mesh) {
   Eigen::AlignedBox3d box;
@@ -101,7 +101,7 @@ Defect find_inward_piece(const TriangleMesh& mesh) {
 }
 
 Defect find_crossing(const TriangleMesh& mesh) {
-  const auto pairs = first_crossings(mesh, kMostPairs);
+  const auto pairs = crossing_triangles(mesh, kMostPairs);
   if (pairs.empty()) return std::nullopt;
   return SurfaceDefect{fmt::format("crosses itself: {} pairs of triangles cross each other; must be 0", pairs.size()),
                        centroid(mesh, pairs.front().first)};

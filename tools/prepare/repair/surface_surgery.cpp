@@ -6,7 +6,6 @@
 #include <CGAL/Polygon_mesh_processing/fair.h>
 #include <CGAL/Polygon_mesh_processing/refine.h>
 #include <CGAL/Polygon_mesh_processing/repair_self_intersections.h>
-#include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/Side_of_triangle_mesh.h>
 
@@ -21,6 +20,8 @@ using geometry::TriangleMesh;
 
 /// Curvature goes on across the rim of a patch: 1 keeps the slope, which is what a scan's hole needs.
 constexpr unsigned kContinuity = 1;
+/// Longer loops are spanned by Delaunay triangles only: the search of all triangles takes the cube of their length.
+constexpr std::size_t kLongLoop = 300;
 
 /// CGAL's own handler prints what it throws.
 void silent(const char*, const char*, const char*, int, const char*) {}
@@ -58,7 +59,7 @@ std::vector<std::array<int, 3>> span_loop(const std::vector<Vec3>& loop) {
     for (const Vec3& p : loop) points.emplace_back(p.x(), p.y(), p.z());
     std::vector<CGAL::Triple<int, int, int>> found;
     pmp::triangulate_hole_polyline(points, std::back_inserter(found),
-                                   CGAL::parameters::do_not_use_cubic_algorithm(loop.size() > 300));
+                                   CGAL::parameters::do_not_use_cubic_algorithm(loop.size() > kLongLoop));
     std::vector<std::array<int, 3>> triangles;
     for (const auto& [a, b, c] : found) triangles.push_back({a, b, c});
     return triangles;
@@ -107,16 +108,6 @@ std::vector<bool> points_inside(const TriangleMesh& mesh, const std::vector<Vec3
     for (const Vec3& p : points) inside.push_back(side({p.x(), p.y(), p.z()}) != CGAL::ON_UNBOUNDED_SIDE);
     return inside;
   });
-}
-
-std::vector<std::pair<int, int>> first_crossings(const TriangleMesh& mesh, int most) {
-  const CgalMesh surface = to_cgal(mesh);
-  std::vector<std::pair<CgalMesh::Face_index, CgalMesh::Face_index>> found;
-  pmp::self_intersections(surface, std::back_inserter(found),
-                          CGAL::parameters::maximum_number(static_cast<unsigned>(most)));
-  std::vector<std::pair<int, int>> pairs;
-  for (const auto& [a, b] : found) pairs.emplace_back(static_cast<int>(a.idx()), static_cast<int>(b.idx()));
-  return pairs;
 }
 
 }  // namespace myotact::prepare

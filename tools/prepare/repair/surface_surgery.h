@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -14,7 +15,7 @@ namespace myotact::prepare {
 std::vector<std::array<int, 3>> span_loop(const std::vector<Vec3>& loop);
 
 /// Refines some triangles of a closed manifold surface to the density of those around them, and lets the vertices added
-/// there continue the surface smoothly. All other vertices and triangles stay. The marked triangles come last.
+/// there continue the surface smoothly. All other vertices and triangles stay.
 std::optional<geometry::TriangleMesh> blend_triangles(const geometry::TriangleMesh& mesh,
                                                       const std::vector<bool>& marked);
 
@@ -27,8 +28,5 @@ std::optional<geometry::TriangleMesh> untangle(const geometry::TriangleMesh& mes
 
 /// Which points lie inside a closed surface, or on it.
 std::vector<bool> points_inside(const geometry::TriangleMesh& mesh, const std::vector<Vec3>& points);
-
-/// As crossing_triangles, but no more than `most` pairs: a heap of random triangles has millions.
-std::vector<std::pair<int, int>> first_crossings(const geometry::TriangleMesh& mesh, int most);
 
 }  // namespace myotact::prepare
