@@ -90,17 +90,33 @@ void drop_inner_pieces(RepairJob& job) {
   keep_pieces(job, keep);
 }
 
-void wind_outward(RepairJob& job) {
-  const std::vector<int> piece = piece_of_triangles(job.mesh);
+/// Sheets that hung on nothing have become two layers without anything between.
+void drop_empty_pieces(RepairJob& job) {
   const std::vector<Piece> pieces = measured_pieces(job.mesh);
-  for (const Piece& p : pieces) {
-    if (std::abs(p.volume) > kNoVolume * std::pow(p.area, 1.5)) continue;
+  const double area = total_area(pieces);
+  std::vector<bool> keep;
+  int dropped = 0;
+  Vec3 place = Vec3::Zero();
+  for (const Piece& piece : pieces) {
+    const double fullness = std::abs(piece.volume) / std::pow(piece.area, 1.5);
+    keep.push_back(fullness > kNoVolume);
+    if (keep.back()) continue;
+    if (dropped++ == 0) place = piece.mesh.positions_m.front();
+    if (piece.area <= job.settings.floater * area) continue;
     throw refusal(job,
                   fmt::format("encloses nothing: the volume of the piece at {{}} is {:.2g} of its area to the power of "
                               "1.5; must be above {:.0e}. Export a closed body",
-                              std::abs(p.volume) / std::pow(p.area, 1.5), kNoVolume),
-                  p.mesh.positions_m.front());
+                              fullness, kNoVolume),
+                  piece.mesh.positions_m.front());
   }
+  if (dropped == 0) return;
+  keep_pieces(job, keep);
+  note(job, "sheets without volume dropped", dropped, place);
+}
+
+void wind_outward(RepairJob& job) {
+  const std::vector<int> piece = piece_of_triangles(job.mesh);
+  const std::vector<Piece> pieces = measured_pieces(job.mesh);
   int turned = 0;
   Vec3 place = Vec3::Zero();
   for (std::size_t t = 0; t < piece.size(); ++t) {
@@ -204,6 +220,7 @@ void drop_debris(RepairJob& job) {
 }
 
 void settle_pieces(RepairJob& job) {
+  drop_empty_pieces(job);
   drop_inner_pieces(job);
   wind_outward(job);
 }

@@ -3,6 +3,7 @@
 #include <map>
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 
 #include "prepare/repair/edge_table.h"
 #include "prepare/repair/edge_wheel.h"
@@ -105,27 +106,30 @@ void drop_fins_and_walls(RepairJob& job) {
   Cells cells = find_cells(job.mesh);
   std::vector<bool> keep(job.mesh.triangles.size(), true);
   int fins = 0, walls = 0;
+  double fin_area = 0.0;
   Vec3 fin = Vec3::Zero(), wall = Vec3::Zero();
   for (const auto& [first, triangles] : members_of(cells.components, job.mesh.triangles.size())) {
     const int outside = cells.faces.group_of(outermost_face(job.mesh, triangles));
-    std::size_t kept = 0;
     for (const int t : triangles) {
       const bool front = cells.faces.group_of(front_of(t)) == outside;
       const bool back = cells.faces.group_of(back_of(t)) == outside;
       keep[at(t)] = front != back;
-      kept += front != back ? 1u : 0u;
       if (front && back && fins++ == 0) fin = centroid(job.mesh, t);
+      if (front && back) fin_area += 0.5 * area_vector(job.mesh, t).norm();
       if (!front && !back && walls++ == 0) wall = centroid(job.mesh, t);
       if (back && !front) std::swap(job.mesh.triangles[at(t)][1], job.mesh.triangles[at(t)][2]);
     }
-    if (kept == 0) {
-      throw refusal(job,
-                    "encloses nothing: no triangle near {} parts an inside from the outside, though edges there have "
-                    "more than two triangles; at most two may meet. Export the outer skin alone",
-                    centroid(job.mesh, first));
-    }
   }
   if (fins + walls == 0) return;
+  if (fin_area > job.settings.all_fins * geometry::surface_area_m2(job.mesh)) {
+    throw refusal(
+        job,
+        fmt::format("has {} triangles that hang on edges of more than two and part no inside from the "
+                    "outside, the first near {{}}; they have {:.1f} % of its area, and at most {:.1f} % is "
+                    "dropped. Join or remove them and export it again",
+                    fins, 100.0 * fin_area / geometry::surface_area_m2(job.mesh), 100.0 * job.settings.all_fins),
+        fin);
+  }
   keep_triangles(job, keep, Dropped::LeftOut);
   note(job, "triangles of fins dropped", fins, fin);
   note(job, "triangles of inner walls dropped", walls, wall);
