@@ -118,11 +118,18 @@ TEST(RepairSurface, RefusesNothingAtAll) {
 
 TEST(RepairSurface, CutsAFin) {
   TriangleMesh mesh = cube();
-  mesh.positions_m.emplace_back(0.03, 0.03, 0.03);
+  mesh.positions_m.emplace_back(0.01, -0.005, -0.005);
   mesh.triangles.push_back({0, 1, 8});
   const RepairResult result = repair_surface("belly", mesh);
   EXPECT_EQ(count_of(result, "triangles of fins dropped"), 1);
   EXPECT_EQ(result.mesh.triangles, cube().triangles);
+}
+
+TEST(RepairSurface, RefusesALargeFin) {
+  TriangleMesh mesh = cube();
+  mesh.positions_m.emplace_back(0.01, -0.04, -0.04);
+  mesh.triangles.push_back({0, 1, 8});
+  EXPECT_THAT(refusal_of(mesh), HasSubstr("at most 10.0 % is dropped"));
 }
 
 TEST(RepairSurface, TwoBodiesThatTouchInAPointAreRefusedForAMuscleAndPartedForBones) {

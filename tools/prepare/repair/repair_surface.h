@@ -15,7 +15,7 @@ struct RepairSettings {
   double tolerance = 0.005;     // how far the surface may move; a fifth of a usual triangle's edge
   double largest_hole = 0.05;   // area of the smallest patch over a hole; a larger one would be guessed
   double all_holes = 0.15;      // the same for all holes together
-  double all_fins = 0.05;       // more than this hanging outside is rather a part of the body with a hole at its foot
+  double all_fins = 0.10;       // more than this hanging outside is rather a part of the body with a hole at its foot
   double debris = 0.01;         // a loose piece with less area is a speck of the scan
   double all_debris = 0.10;     // more than this in specks: the surface is shattered
   double floater = 0.05;        // a second body with less area goes, when there must be one
