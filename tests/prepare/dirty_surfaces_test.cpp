@@ -88,7 +88,7 @@ class DirtySurfaces : public ::testing::Test {
     }
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     EXPECT_LT(seconds, kLongest_s);
-    std::cout << fmt::format("{:<36} {:<7} {:6.3f} s  {}\n", kind.name, body.name, seconds, outcome);
+    std::cout << fmt::format("{:<36} {:<7} {:6.3f} s  {}\n", kind.name, body.name, seconds, outcome) << std::flush;
   }
 };
 

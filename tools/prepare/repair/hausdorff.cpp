@@ -17,6 +17,8 @@ using geometry::TriangleMesh;
 constexpr double kStep = 0.5;
 constexpr int kMostSteps = 40;
 constexpr double kWhole = 1e9;  // a step that no triangle needs two of
+/// Triangles with all corners inside united pieces are hidden; the grid on them only has to catch a wrong union.
+constexpr double kHidden = 10.0;
 /// A triangle whose corners lie this near to one triangle of the other surface, part of the tolerance, lies as near
 /// everywhere, because the distance to a convex set is convex: its corners are enough.
 constexpr double kNear = 0.1;
@@ -126,18 +128,27 @@ SurfaceMove measure_move(const RepairJob& job, const TriangleMesh& raw) {
 
   const geometry::TriangleTree repaired_tree(job.mesh);
   const std::vector<int> image = images_of(job);
+  const std::vector<bool> hidden = job.united ? points_inside(job.mesh, all.positions_m) : std::vector<bool>();
+  const auto is_hidden = [&](int t) {
+    const auto& [a, b, c] = all.triangles[at(t)];
+    return !hidden.empty() && hidden[at(a)] && hidden[at(b)] && hidden[at(c)];
+  };
   std::vector<Vec3> far;  // places to be looked at again where pieces were united
   for (int t = 0; t < static_cast<int>(raw.triangles.size()); ++t) {
     if (same.raw[at(t)] || left_out[at(t)]) continue;
     const bool corners = image[at(t)] >= 0 && corners_near(all, t, corners_of(job.mesh, image[at(t)]), near);
-    visit_places(all, t, corners ? kWhole : step, [&](const Vec3& p) {
-      const double distance = repaired_tree.nearest(p, job.mesh.positions_m).distance_m;
-      if (job.united && distance > move.distance) {
-        far.push_back(p);
-      } else {
-        widen(move, p, distance);
-      }
-    });
+    visit_places(all, t,
+                 corners        ? kWhole
+                 : is_hidden(t) ? kHidden * step
+                                : step,
+                 [&](const Vec3& p) {
+                   const double distance = repaired_tree.nearest(p, job.mesh.positions_m).distance_m;
+                   if (job.united && distance > move.distance) {
+                     far.push_back(p);
+                   } else {
+                     widen(move, p, distance);
+                   }
+                 });
   }
   const std::vector<bool> inside = far.empty() ? std::vector<bool>() : points_inside(job.mesh, far);
   for (std::size_t i = 0; i < far.size(); ++i) {
