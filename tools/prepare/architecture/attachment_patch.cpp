@@ -96,6 +96,52 @@ void finish(const TriangleMesh& surface, const std::vector<double>& bone_distanc
   }
 }
 
+/// What a patch must reach.
+struct PatchGoal {
+  double area_m2 = 0.0;
+  std::size_t triangles = 0;
+};
+
+/// The triangles of a patch that grows from the cheapest free triangle, always by the cheapest neighbour. Where the
+/// free surface around it is too small, its triangles join `blocked`. Fewer than the goal's: there is no room anywhere.
+std::vector<int> grow(const TriangleMesh& surface, const std::vector<std::vector<int>>& around,
+                      const std::vector<double>& costs_m, const PatchGoal& goal, std::set<int> blocked) {
+  using Candidate = std::pair<double, int>;  // cost, triangle
+  const auto candidate = [&](int t) {
+    double cost_m = 0.0;
+    for (const int v : surface.triangles[static_cast<std::size_t>(t)]) {
+      cost_m += costs_m[static_cast<std::size_t>(v)] / 3.0;
+    }
+    return Candidate(cost_m, t);
+  };
+  while (true) {
+    Candidate seed{std::numeric_limits<double>::infinity(), -1};
+    for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
+      if (!blocked.contains(t)) seed = std::min(seed, candidate(t));
+    }
+    if (seed.second < 0) return {};
+    std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> frontier;
+    std::set<int> seen = blocked;
+    seen.insert(seed.second);
+    frontier.push(seed);
+    std::vector<int> patch;
+    double area_m2 = 0.0;
+    while (!frontier.empty() && (area_m2 < goal.area_m2 || patch.size() < goal.triangles)) {
+      const int t = frontier.top().second;
+      frontier.pop();
+      patch.push_back(t);
+      area_m2 += triangle_area_m2(surface, t);
+      for (const int v : surface.triangles[static_cast<std::size_t>(t)]) {
+        for (const int next : around[static_cast<std::size_t>(v)]) {
+          if (seen.insert(next).second) frontier.push(candidate(next));
+        }
+      }
+    }
+    if (patch.size() >= goal.triangles) return patch;
+    blocked.insert(patch.begin(), patch.end());
+  }
+}
+
 }  // namespace
 
 AttachmentPatch grow_patch(const std::string& name, const TriangleMesh& surface, const PatchGuide& guide,
@@ -103,47 +149,24 @@ AttachmentPatch grow_patch(const std::string& name, const TriangleMesh& surface,
   std::vector<double> bone_distance_m;
   const std::vector<double> costs_m = vertex_costs_m(surface, guide, bone_distance_m);
   const auto around = triangles_of_vertices(surface);
-  const std::set<int> blocked = blocked_by(surface, around, taken);
+  std::set<int> blocked = blocked_by(surface, around, taken);
+  blocked.insert(guide.covered.begin(), guide.covered.end());
   const double whole_m2 = geometry::surface_area_m2(surface);
-  const double wanted_m2 = std::clamp(guide.area_m2, kLeastArea * whole_m2, kMostArea * whole_m2) / guide.sites;
-
-  const auto triangle_cost_m = [&](int t) {
-    const auto& c = surface.triangles[static_cast<std::size_t>(t)];
-    return (costs_m[static_cast<std::size_t>(c[0])] + costs_m[static_cast<std::size_t>(c[1])] +
-            costs_m[static_cast<std::size_t>(c[2])]) /
-           3.0;
-  };
-  using Candidate = std::pair<double, int>;  // cost, triangle
-  std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> frontier;
-  std::set<int> seen = blocked;
-  const auto offer = [&](int t) {
-    if (seen.insert(t).second) frontier.emplace(triangle_cost_m(t), t);
-  };
-  Candidate seed{std::numeric_limits<double>::infinity(), -1};
-  for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
-    if (!blocked.contains(t)) seed = std::min(seed, Candidate(triangle_cost_m(t), t));
-  }
-  if (seed.second >= 0) offer(seed.second);
-  const std::size_t least = std::max(kLeastTriangles / static_cast<std::size_t>(guide.sites), kLeastTrianglesOfSite);
+  const PatchGoal goal{std::clamp(guide.area_m2, kLeastArea * whole_m2, kMostArea * whole_m2) / guide.sites,
+                       std::max(kLeastTriangles / static_cast<std::size_t>(guide.sites), kLeastTrianglesOfSite)};
   AttachmentPatch patch;
-  while (!frontier.empty() && (patch.area_m2 < wanted_m2 || patch.triangles.size() < least)) {
-    const int t = frontier.top().second;
-    frontier.pop();
-    patch.triangles.push_back(t);
-    patch.area_m2 += triangle_area_m2(surface, t);
-    for (const int v : surface.triangles[static_cast<std::size_t>(t)]) {
-      for (const int next : around[static_cast<std::size_t>(v)]) offer(next);
-    }
-  }
-  if (patch.triangles.size() < least) {
+  patch.triangles = grow(surface, around, costs_m, goal, blocked);
+  if (patch.triangles.empty() && !guide.covered.empty()) return {};
+  if (patch.triangles.empty()) {
     throw bad_data(name, "attachments", "the surface has too few triangles for two attachments; ask for more tets");
   }
+  for (const int t : patch.triangles) patch.area_m2 += triangle_area_m2(surface, t);
   finish(surface, bone_distance_m, patch);
   if (patch.bone_distance_m > kFarthest_m) {
     throw bad_data(
         name, "attachments",
         fmt::format("the muscle ends {:.1f} mm from its bone; must be at most {:.0f} mm. Check the bones and "
-                    "the attachment point of the muscle in the anatomy files",
+                    "the attachment point of the muscle in the recipe",
                     1e3 * patch.bone_distance_m, 1e3 * kFarthest_m));
   }
   return patch;

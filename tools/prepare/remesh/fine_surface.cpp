@@ -1,5 +1,6 @@
 #include "prepare/remesh/fine_surface.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "prepare/field/level_set.h"
@@ -13,10 +14,12 @@ namespace {
 /// Surfaces of fewer triangles are left alone.
 constexpr std::size_t kFewTriangles = 6000;
 /// Surfaces of more are resampled on a lattice.
-constexpr std::size_t kManyTriangles = 150'000;
-/// Triangles of a resampled surface, roughly, and per square of the lattice's spacing (measured on spheres).
+constexpr std::size_t kManyTriangles = 400'000;
+/// Triangles of a resampled surface, roughly, and per square of the lattice's spacing (measured on spheres). Where the
+/// body is thin, the spacing is at most this part of the mean thickness 2 V / A.
 constexpr double kResampledTriangles = 60000.0;
 constexpr double kTrianglesPerCell = 8.0;
+constexpr double kMostOfThickness = 0.22;
 constexpr double kFineTolerance_m = 1.5e-4;
 constexpr double kFineEdge_m = 2.5e-3;
 /// How far a skin may lie from the fine surface: less than a tenth of the tool's radius of 3 mm is not felt.
@@ -26,7 +29,9 @@ constexpr double kSkinEdge_m = 5.5e-3;
 
 geometry::TriangleMesh resample(const geometry::TriangleMesh& surface) {
   const SignedDistance distance(surface);
-  const double spacing_m = std::sqrt(kTrianglesPerCell * geometry::surface_area_m2(surface) / kResampledTriangles);
+  const double area_m2 = geometry::surface_area_m2(surface);
+  const double spacing_m = std::min(std::sqrt(kTrianglesPerCell * area_m2 / kResampledTriangles),
+                                    kMostOfThickness * 2.0 * distance.volume_m3() / area_m2);
   return extract_level_set([&](const Vec3& p) { return distance(p); }, distance.box(), spacing_m);
 }
 

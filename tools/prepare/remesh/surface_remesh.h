@@ -7,8 +7,9 @@
 
 namespace myotact::prepare {
 
-/// Pairs of triangles that cross each other, or that touch without sharing a corner or an edge. Exact predicates.
-std::vector<std::pair<int, int>> crossing_triangles(const geometry::TriangleMesh& mesh);
+/// Pairs of triangles that cross each other, or that touch without sharing a corner or an edge, and no more than `most`
+/// of them: a heap of random triangles has millions. Exact predicates. Manifold mesh.
+std::vector<std::pair<int, int>> crossing_triangles(const geometry::TriangleMesh& mesh, unsigned most = 1'000'000);
 
 /// Triangles of nearly even size on the same surface: edges are split, collapsed, flipped and smoothed towards
 /// `edge_m`, vertices projected back onto the input (Botsch and Kobbelt 2004). The input is closed and manifold. The

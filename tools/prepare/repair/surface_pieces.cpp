@@ -62,6 +62,19 @@ std::vector<TriangleMesh> pieces_of(const TriangleMesh& mesh) {
   return pieces;
 }
 
+std::vector<int> piece_of_triangles(const TriangleMesh& mesh) {
+  const std::vector<int> root = roots_of(mesh);
+  std::vector<int> piece_of_root(mesh.positions_m.size(), -1);
+  std::vector<int> pieces;
+  int count = 0;
+  for (const auto& triangle : mesh.triangles) {
+    int& piece = piece_of_root[static_cast<std::size_t>(root[static_cast<std::size_t>(triangle[0])])];
+    if (piece < 0) piece = count++;
+    pieces.push_back(piece);
+  }
+  return pieces;
+}
+
 void append(TriangleMesh& mesh, const TriangleMesh& part) {
   const int base = static_cast<int>(mesh.positions_m.size());
   mesh.positions_m.insert(mesh.positions_m.end(), part.positions_m.begin(), part.positions_m.end());

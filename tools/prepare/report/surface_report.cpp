@@ -11,13 +11,14 @@ nlohmann::ordered_json json_of(const SurfaceReport& r) {
   nlohmann::ordered_json json = {{"key", r.key},
                                  {"kind", r.muscle ? "muscle" : "bone"},
                                  {"input_triangles", r.input_triangles},
-                                 {"welded_vertices", r.repair.welded_vertices},
-                                 {"dropped_triangles", r.repair.dropped_triangles},
-                                 {"turned_triangles", r.repair.turned_triangles},
-                                 {"dropped_pieces", r.repair.dropped_pieces},
+                                 {"repairs", nlohmann::ordered_json::array()},
+                                 {"moved_m", r.moved_m},
                                  {"skin_triangles", r.skin_triangles},
                                  {"volume_m3", r.volume_m3},
                                  {"notes", r.notes}};
+  for (const RepairStep& step : r.repairs) {
+    json["repairs"].push_back({{"what", step.what}, {"count", step.count}, {"place_m", to_array(step.place_m)}});
+  }
   if (!r.muscle) return json;
   json.update({{"tets", r.tets.tets},
                {"smallest_dihedral_deg", r.tets.smallest_dihedral_deg},
@@ -67,6 +68,7 @@ std::string report_table(const std::vector<SurfaceReport>& reports) {
                       1e3 * r.origin_gap_m, 1e3 * r.insertion_gap_m, r.filled_tets, 1e3 * r.belly_m, 1e3 * r.path_m);
       text += levers_text(r);
     }
+    for (const RepairStep& step : r.repairs) text += "  [" + step_text(step) + "]";
     for (const std::string& note : r.notes) text += "  [" + note + "]";
     text += "\n";
   }

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "prepare/repair/surface_check.h"
+#include "prepare/repair/repair_surface.h"
 #include "prepare/tets/tet_quality.h"
 
 namespace myotact::prepare {
@@ -13,7 +13,8 @@ struct SurfaceReport {
   std::string key;
   bool muscle = false;
   int input_triangles = 0;
-  SurfaceRepair repair;
+  std::vector<RepairStep> repairs;  // empty: went in as it was
+  double moved_m = 0.0;             // by the repairs, at most
   int skin_triangles = 0;
   double volume_m3 = 0.0;          // of the repaired and parted surface
   std::vector<std::string> notes;  // what a person should look at

@@ -43,17 +43,37 @@ PatchGuide guide_for(const LimbWork& limb, const std::string& name, const Attach
   return guide;
 }
 
-void attach_end(const LimbWork& limb, const std::string& name, const std::vector<AttachmentSite>& sites,
-                const geometry::TriangleMesh& cage, std::vector<int>& taken, AttachmentPatches& patches,
-                std::vector<int>& bodies) {
+/// One end of a muscle, as it is found.
+struct AttachedEnd {
+  AttachmentPatches patches;
+  std::vector<int> bodies;
+  std::vector<int> triangles;  // of all patches
+};
+
+AttachedEnd attach_end(const LimbWork& limb, MuscleWork& muscle, const std::vector<AttachmentSite>& sites,
+                       const std::vector<int>& other_end) {
+  const std::string& name = muscle.data.mechanics.key;
+  AttachedEnd end;
+  int without_room = 0;
   for (const AttachmentSite& site : sites) {
     int body = -1;
     PatchGuide guide = guide_for(limb, name, site, body);
     guide.sites = static_cast<int>(sites.size());
-    patches.push_back(grow_patch(name, cage, guide, taken));
-    bodies.push_back(body);
-    taken.insert(taken.end(), patches.back().triangles.begin(), patches.back().triangles.end());
+    guide.covered = end.triangles;
+    AttachmentPatch patch = grow_patch(name, muscle.cage.surface, guide, other_end);
+    if (patch.triangles.empty()) {
+      ++without_room;
+      continue;
+    }
+    end.triangles.insert(end.triangles.end(), patch.triangles.begin(), patch.triangles.end());
+    end.patches.push_back(std::move(patch));
+    end.bodies.push_back(body);
   }
+  if (without_room > 0) {
+    muscle.report.notes.push_back(
+        fmt::format("{} of {} sites of one end found no room of their own on the cage", without_room, sites.size()));
+  }
+  return end;
 }
 
 void report_end(const AttachmentPatches& patches, double& area_m2, double& gap_m) {
@@ -98,11 +118,12 @@ void fill_cages(LimbWork& limb, const PartDone& done) {
 
 void attach_muscles(LimbWork& limb, const PartDone& done) {
   for_each_muscle(limb, done, [&](MuscleWork& muscle) {
-    const std::string& name = muscle.data.mechanics.key;
-    std::vector<int> taken;
-    attach_end(limb, name, muscle.data.insertions, muscle.cage.surface, taken, muscle.insertions,
-               muscle.insertion_bodies);
-    attach_end(limb, name, muscle.data.origins, muscle.cage.surface, taken, muscle.origins, muscle.origin_bodies);
+    AttachedEnd insertion = attach_end(limb, muscle, muscle.data.insertions, {});
+    AttachedEnd origin = attach_end(limb, muscle, muscle.data.origins, insertion.triangles);
+    muscle.insertions = std::move(insertion.patches);
+    muscle.insertion_bodies = std::move(insertion.bodies);
+    muscle.origins = std::move(origin.patches);
+    muscle.origin_bodies = std::move(origin.bodies);
     report_end(muscle.origins, muscle.report.origin_area_m2, muscle.report.origin_gap_m);
     report_end(muscle.insertions, muscle.report.insertion_area_m2, muscle.report.insertion_gap_m);
   });

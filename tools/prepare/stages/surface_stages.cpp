@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "prepare/parallel.h"
 #include "prepare/remesh/fine_surface.h"
+#include "prepare/repair/repair_surface.h"
 #include "prepare/repair/surface_check.h"
 #include "prepare/repair/surface_pieces.h"
 #include "prepare/stages/stages.h"
@@ -28,10 +29,17 @@ void for_each_part(LimbWork& limb, const PartDone& done, Task&& task) {
   });
 }
 
-void repair(const std::string& key, TriangleMesh& surface, SurfaceReport& report) {
+/// Sesamoid bones have half a hundredth of the area of their paw; specks of a scan are smaller.
+constexpr double kBoneDebris = 1e-3;
+
+void repair(const std::string& key, TriangleMesh& surface, const RepairSettings& settings, SurfaceReport& report) {
   report.key = key;
   report.input_triangles = static_cast<int>(surface.triangles.size());
-  surface = clean_surface(key, surface, &report.repair);
+  check_size(key, surface);
+  RepairResult result = repair_surface(key, surface, settings);
+  surface = std::move(result.mesh);
+  report.repairs = std::move(result.steps);
+  report.moved_m = result.hausdorff_m;
   report.volume_m3 = geometry::enclosed_volume_m3(surface);
 }
 
@@ -62,16 +70,17 @@ void report_parting(const PartReport& part, SurfaceReport& report) {
 }  // namespace
 
 void repair_surfaces(LimbWork& limb, const PartDone& done) {
-  for (MuscleWork& muscle : limb.muscles) muscle.report.muscle = true;
-  for_each_index(limb.bones.size(), limb.settings.threads, [&](std::size_t b) {
-    repair(limb.bones[b].data.key, limb.bones[b].surface, limb.bones[b].report);
-    done();
-  });
-  for_each_index(limb.muscles.size(), limb.settings.threads, [&](std::size_t m) {
-    MuscleWork& muscle = limb.muscles[m];
-    repair(muscle.data.mechanics.key, muscle.surface, muscle.report);
-    refuse_crossings(muscle.data.mechanics.key, muscle.surface);
-    done();
+  for_each_part(limb, done, [&](auto& part) {
+    RepairSettings settings;
+    settings.tolerance = limb.settings.tolerance;
+    if constexpr (std::is_same_v<std::decay_t<decltype(part)>, BoneWork>) {
+      settings.several_bodies = true;
+      settings.debris = kBoneDebris;
+      repair(part.data.key, part.surface, settings, part.report);
+    } else {
+      part.report.muscle = true;
+      repair(part.data.mechanics.key, part.surface, settings, part.report);
+    }
   });
 }
 

@@ -1,0 +1,123 @@
+#include <algorithm>
+#include <set>
+
+#include "geometry/triangle_tree.h"
+#include "prepare/remesh/surface_remesh.h"
+#include "prepare/repair/edge_table.h"
+#include "prepare/repair/stages.h"
+#include "prepare/repair/surface_pieces.h"
+#include "prepare/repair/surface_surgery.h"
+
+namespace myotact::prepare {
+
+namespace {
+
+using geometry::TriangleMesh;
+using Pairs = std::vector<std::pair<int, int>>;
+
+/// More pairs than this are not searched: nothing local helps then.
+constexpr unsigned kMostPairs = 20000;
+/// Local repair refills what it takes out, at a cost that grows with the cube: only where crossings are few.
+constexpr std::size_t kMostTriangles = 300;
+constexpr double kMostOfSurface = 0.25;
+/// Rounds of smoothing; each takes a ring of triangles more.
+constexpr int kRounds = 5;
+constexpr int kPasses = 4;
+
+std::set<int> triangles_in(const Pairs& pairs) {
+  std::set<int> triangles;
+  for (const auto& [a, b] : pairs) triangles.insert({a, b});
+  return triangles;
+}
+
+/// Vertices of the crossing triangles and `rings` rings around them.
+std::vector<bool> vertices_near(const TriangleMesh& mesh, const std::set<int>& triangles, int rings) {
+  std::vector<bool> near(mesh.positions_m.size(), false);
+  for (const int t : triangles) {
+    for (const int v : mesh.triangles[at(t)]) near[at(v)] = true;
+  }
+  for (int ring = 0; ring < rings; ++ring) {
+    std::vector<bool> wider = near;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      if (near[at(a)] || near[at(b)] || near[at(c)]) wider[at(a)] = wider[at(b)] = wider[at(c)] = true;
+    }
+    near = std::move(wider);
+  }
+  return near;
+}
+
+/// Moves the marked vertices to the middle of their neighbours.
+void smooth(TriangleMesh& mesh, const std::vector<bool>& marked) {
+  std::vector<Vec3> sum(mesh.positions_m.size(), Vec3::Zero());
+  std::vector<int> count(mesh.positions_m.size(), 0);
+  for (const auto& triangle : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      sum[at(triangle[k])] += mesh.positions_m[at(triangle[(k + 1) % 3])];
+      ++count[at(triangle[k])];
+    }
+  }
+  for (std::size_t v = 0; v < sum.size(); ++v) {
+    if (marked[v] && count[v] > 0) mesh.positions_m[v] = sum[v] / count[v];
+  }
+}
+
+std::optional<TriangleMesh> smoothed(const TriangleMesh& mesh) {
+  TriangleMesh result = mesh;
+  for (int round = 0; round < kRounds; ++round) {
+    const Pairs pairs = crossing_triangles(result, kMostPairs);
+    if (pairs.empty()) return result;
+    const std::vector<bool> near = vertices_near(result, triangles_in(pairs), round);
+    for (int pass = 0; pass < kPasses; ++pass) smooth(result, near);
+  }
+  if (!crossing_triangles(result, 1).empty()) return std::nullopt;
+  return result;
+}
+
+/// Whether each corner of `from` lies near `to`. The denser measure comes at the end of the repair.
+bool corners_near(const TriangleMesh& from, const TriangleMesh& to, double reach) {
+  const geometry::TriangleTree tree(to);
+  return std::all_of(from.positions_m.begin(), from.positions_m.end(),
+                     [&](const Vec3& p) { return tree.nearest(p, to.positions_m, reach).triangle >= 0; });
+}
+
+bool serves(const RepairJob& job, const TriangleMesh& piece, const std::optional<TriangleMesh>& result) {
+  if (!result || !is_closed(*result)) return false;
+  if (!crossing_triangles(*result, 1).empty()) return false;
+  const double reach = job.settings.tolerance;
+  return corners_near(piece, *result, reach) && corners_near(*result, piece, reach);
+}
+
+/// The piece without crossings.
+TriangleMesh taken_apart(const RepairJob& job, const TriangleMesh& piece, const Pairs& pairs) {
+  const std::set<int> crossing = triangles_in(pairs);
+  const double part = static_cast<double>(crossing.size()) / static_cast<double>(piece.triangles.size());
+  if (crossing.size() <= kMostTriangles && part <= kMostOfSurface) {
+    if (const auto result = untangle(piece); serves(job, piece, result)) return *result;
+  }
+  if (const auto result = smoothed(piece); serves(job, piece, result)) return *result;
+  return resample(job, piece, crossing.size(), centroid(piece, pairs.front().first));
+}
+
+}  // namespace
+
+void remove_crossings(RepairJob& job) {
+  if (job.crossing_free) return;
+  TriangleMesh whole;
+  bool changed = false;
+  const std::vector<TriangleMesh> pieces = pieces_of(job.mesh);
+  for (const TriangleMesh& piece : pieces) {
+    const Pairs pairs = crossing_triangles(piece, kMostPairs);
+    if (pairs.empty()) {
+      append(whole, piece);
+      continue;
+    }
+    append(whole, taken_apart(job, piece, pairs));
+    note(job, "crossings of triangles taken apart", static_cast<int>(pairs.size()),
+         centroid(piece, pairs.front().first));
+    changed = true;
+  }
+  if (changed) adopt(job, whole, kPatch);
+  job.crossing_free = pieces.size() == 1;
+}
+
+}  // namespace myotact::prepare
