@@ -49,7 +49,7 @@ PrepareSettings two_threads() {
 TEST(FullScan, BecomesASpecimenWithThePublishedLevers) {
   const char* folder = std::getenv("MYOTACT_CANINE_DIR");
   if (!folder) GTEST_SKIP() << "MYOTACT_CANINE_DIR is not set: the full canine meshes are not there";
-  const AnatomyData recipe = read_recipe(data_folder() / "assets" / "canine" / "forelimb.json");
+  const AnatomyData recipe = read_recipe(data_folder() / "assets" / "canine" / "elbow.json");
   const Scan scan = read_scan({std::filesystem::path(folder) / "forelimb_left"}, recipe);
   LimbWork limb = make_limb(recipe, scan.bones, scan.muscles, two_threads());
   EXPECT_EQ(prepare_limb(limb).muscles.size(), kLevers_m.size());
@@ -57,8 +57,9 @@ TEST(FullScan, BecomesASpecimenWithThePublishedLevers) {
 }
 
 LimbWork lofted_limb() {
-  const std::filesystem::path recipe = data_folder() / "assets" / "canine" / "forelimb.json";
-  return make_limb(read_recipe(recipe), loft_bones(recipe), loft_muscles(recipe), two_threads());
+  const std::filesystem::path folder = data_folder() / "assets" / "canine";
+  return make_limb(read_recipe(folder / "elbow.json"), loft_bones(folder / "forelimb.json"),
+                   loft_muscles(folder / "forelimb.json"), two_threads());
 }
 
 TEST(Loft, BecomesASpecimenWithThePublishedLevers) {

@@ -159,6 +159,7 @@ geometry::TriangleMesh decimate(const geometry::TriangleMesh& surface, const Dec
   GuardedMesh guarded(surface, surface, settings.tolerance_m, settings.edge_m);
   Decimator(guarded, settings, Order::LeastChange).run();
   even_out(guarded, settings.edge_m, kEveningRounds);
+  restore_volume(guarded, geometry::enclosed_volume_m3(surface));  // chords of round parts lie inside
   return guarded.take();
 }
 

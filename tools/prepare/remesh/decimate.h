@@ -12,7 +12,8 @@ struct DecimateSettings {
 
 /// Fewer triangles on the same surface: edges are collapsed, those first that matter least to the shape (quadric
 /// error, Garland and Heckbert 1997), as long as the result stays closed, free of crossings and within the tolerance.
-/// Then triangles are evened by flips and by moves along the surface. Closed manifold input without crossings.
+/// Then triangles are evened by flips and by moves along the surface, and the enclosed volume is given back. Closed
+/// manifold input without crossings.
 geometry::TriangleMesh decimate(const geometry::TriangleMesh& surface, const DecimateSettings& settings);
 
 /// Even triangles of edges near `edge_m` about a surface that may be thinner than they are long: the shortest edges are

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "prepare/field/level_set.h"
 #include "prepare/field/signed_distance.h"
 #include "prepare/remesh/decimate.h"
@@ -21,11 +23,20 @@ constexpr double kResampledTriangles = 60000.0;
 constexpr double kTrianglesPerCell = 8.0;
 constexpr double kMostOfThickness = 0.22;
 constexpr double kFineTolerance_m = 1.5e-4;
+/// Small bodies get parts of their diagonal instead.
+constexpr double kFineTolerance = 1.5e-3;
+constexpr double kSkinTolerance = 2.5e-3;
 constexpr double kFineEdge_m = 2.5e-3;
 /// How far a skin may lie from the fine surface: less than a tenth of the tool's radius of 3 mm is not felt.
 constexpr double kSkinTolerance_m = 2.5e-4;
 /// Longest edge of skins, roughly: triangles smaller than the tool only cost time.
 constexpr double kSkinEdge_m = 5.5e-3;
+
+double diagonal_m(const geometry::TriangleMesh& surface) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& p : surface.positions_m) box.extend(p);
+  return box.diagonal().norm();
+}
 
 geometry::TriangleMesh resample(const geometry::TriangleMesh& surface) {
   const SignedDistance distance(surface);
@@ -39,12 +50,12 @@ geometry::TriangleMesh resample(const geometry::TriangleMesh& surface) {
 
 geometry::TriangleMesh fine_surface(const geometry::TriangleMesh& surface) {
   if (surface.triangles.size() <= kFewTriangles) return surface;
-  const DecimateSettings settings{kFineEdge_m, kFineTolerance_m};
+  const DecimateSettings settings{kFineEdge_m, std::min(kFineTolerance_m, kFineTolerance * diagonal_m(surface))};
   return decimate(surface.triangles.size() <= kManyTriangles ? surface : resample(surface), settings);
 }
 
 geometry::TriangleMesh skin_surface(const geometry::TriangleMesh& fine) {
-  return decimate(fine, {kSkinEdge_m, kSkinTolerance_m});
+  return decimate(fine, {kSkinEdge_m, std::min(kSkinTolerance_m, kSkinTolerance * diagonal_m(fine))});
 }
 
 }  // namespace myotact::prepare
