@@ -26,7 +26,8 @@ TEST(FullScan, RunsTheElbow) {
   TemporaryFolder folder;
   const std::string specimen = (folder.path() / "specimen").string();
   const std::string out = (folder.path() / "out").string();
-  const std::string prepare = std::string(MYOTACT_PREPARE) + " " + canine + "/forelimb_left -o " + specimen;
+  const std::string prepare = std::string(MYOTACT_PREPARE) + " " + canine + "/forelimb_left --recipe " +
+                              MYOTACT_SOURCE_DIR + "/assets/canine/elbow.json -o " + specimen;
   ASSERT_EQ(std::system((prepare + " > " + specimen + ".log 2>&1").c_str()), 0) << prepare;
 
   const Outcome outcome =
