@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "anatomy/read_body.h"
 #include "anatomy/specimen.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -47,19 +48,6 @@ void refuse_twin(const JsonValue& value, const std::vector<Part>& parts) {
   for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
     if (parts[i].key == parts.back().key) throw value.error(fmt::format("the key \"{}\" is used twice", parts[i].key));
   }
-}
-
-Body read_body(const JsonValue& value) {
-  JsonObject fields(value);
-  Body body;
-  body.key = fields.at("key").string();
-  body.mass_kg = fields.at("mass_kg").number_between(1e-6, 1e3);
-  body.com_m = fields.at("com_m").vec3();
-  const auto inertia = fields.at("inertia_kg_m2").elements(6);
-  for (std::size_t i = 0; i < 6; ++i) body.inertia_kg_m2[i] = inertia[i].number();
-  body.estimated = fields.boolean_or("estimated", true);
-  fields.finish();
-  return body;
 }
 
 Bone read_bone(const JsonValue& value, const Loader& loader) {

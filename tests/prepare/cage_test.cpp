@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "prepare/remesh/surface_remesh.h"
+#include "prepare/remesh/crossing_triangles.h"
 #include "prepare/shapes.h"
 
 namespace myotact::prepare {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "prepare/remesh/surface_distance.h"
-#include "prepare/remesh/surface_remesh.h"
+#include "prepare/remesh/crossing_triangles.h"
 #include "prepare/remesh/triangle_crossing.h"
 #include "prepare/shapes.h"
 

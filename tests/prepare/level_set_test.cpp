@@ -8,7 +8,7 @@
 
 #include "prepare/field/local_radius.h"
 #include "prepare/field/signed_distance.h"
-#include "prepare/remesh/surface_remesh.h"
+#include "prepare/remesh/crossing_triangles.h"
 #include "prepare/shapes.h"
 
 namespace myotact::prepare {

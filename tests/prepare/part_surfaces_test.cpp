@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "prepare/field/signed_distance.h"
 #include "prepare/part/overlap_measure.h"
-#include "prepare/remesh/surface_remesh.h"
+#include "prepare/remesh/crossing_triangles.h"
 #include "prepare/shapes.h"
 
 namespace myotact::prepare {

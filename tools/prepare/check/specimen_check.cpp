@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "geometry/tet_topology.h"
+#include "prepare/remesh/crossing_triangles.h"
 #include "prepare/remesh/surface_distance.h"
-#include "prepare/remesh/surface_remesh.h"
 #include "prepare/tets/tet_quality.h"
 
 namespace myotact::prepare {

@@ -22,6 +22,9 @@ constexpr double kClearOfNodes = 0.02;
 /// Steps of false position on an edge; more move the vertices by less than a hundredth of it.
 constexpr int kRootSteps = 4;
 
+constexpr double kTrianglesPerCell = 8.0;
+constexpr double kMostOfThickness = 0.22;
+
 /// Six tets that fill a cube, all around its diagonal from corner 0 to corner 7 (corner = x + 2 y + 4 z). Neighbouring
 /// cubes agree on the diagonals of their common face.
 constexpr std::array<std::array<int, 4>, 6> kKuhnTets = {
@@ -187,6 +190,14 @@ TriangleMesh extract_level_set(const BodyField& field, const Eigen::AlignedBox3d
   Extractor extractor(field, wide.min(), spacing_m);
   extractor.visit({0, 0, 0}, root);
   return extractor.take();
+}
+
+double spacing_for_triangles_m(double area_m2, double triangles) {
+  return std::sqrt(kTrianglesPerCell * area_m2 / triangles);
+}
+
+double spacing_for_thickness_m(double area_m2, double volume_m3) {
+  return kMostOfThickness * 2.0 * volume_m3 / area_m2;
 }
 
 }  // namespace myotact::prepare

@@ -20,4 +20,10 @@ using BodyField = std::function<double(const Vec3&)>;
 /// spacing may be missed.
 geometry::TriangleMesh extract_level_set(const BodyField& field, const Eigen::AlignedBox3d& box, double spacing_m);
 
+/// Spacing at which a surface of that area is extracted with about so many triangles (eight to a square of the spacing,
+/// measured on spheres).
+double spacing_for_triangles_m(double area_m2, double triangles);
+/// Spacing at which a body's tendons are seen: a part of its mean thickness 2 V / A.
+double spacing_for_thickness_m(double area_m2, double volume_m3);
+
 }  // namespace myotact::prepare

@@ -37,8 +37,8 @@ class SignedDistance {
   Eigen::AlignedBox3d box_;
   double volume_m3_ = 0.0;
   std::vector<Vec3> face_normals_;
-  std::vector<Vec3> vertex_normals_;                 // sums weighted by the angles of their faces
-  std::vector<std::array<int, 3>> face_neighbours_;  // across edges 01, 12, 20
+  std::vector<Vec3> vertex_normals_;  // sums weighted by the angles of their faces
+  std::vector<int> opposite_sides_;   // of the triangles' sides (edge_table.h)
 };
 
 }  // namespace myotact::prepare

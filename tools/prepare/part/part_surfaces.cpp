@@ -23,13 +23,10 @@ using geometry::TriangleMesh;
 
 /// Overlaps below this volume are grazing contacts: the clearance alone sees to them [m3].
 constexpr double kLeastOverlap_m3 = 1e-12;
-/// Triangles that a parted surface is extracted with, roughly, and per square of the lattice's spacing (measured on
-/// spheres). Limb muscles get lattices of 0.5 to 1.7 mm.
+/// Triangles that a parted surface is extracted with, roughly; where the body is thin, up to the larger number. Limb
+/// muscles get lattices of 0.5 to 1.7 mm.
 constexpr double kTriangles = 22000.0;
-constexpr double kTrianglesPerCell = 8.0;
-/// The spacing is at most this part of the mean thickness 2 V / A, so that tendons are seen.
-constexpr double kMostOfThickness = 0.22;
-constexpr double kMostTriangles = 90000.0;  // for that
+constexpr double kMostTriangles = 90000.0;
 constexpr double kFinestSpacing_m = 4e-4;
 /// The field that is extracted is flattened by this: the local radius, which it is scaled by, varies in space, so that
 /// the field itself may change a little faster than distance does.
@@ -81,10 +78,9 @@ double parted_m(const Body& own, const std::vector<Taker>& takers, double half_g
 
 double spacing_for_m(const SignedDistance& body) {
   const double area_m2 = geometry::surface_area_m2(body.surface());
-  const auto for_triangles_m = [&](double count) { return std::sqrt(kTrianglesPerCell * area_m2 / count); };
-  const double by_thickness_m = kMostOfThickness * 2.0 * body.volume_m3() / area_m2;
   return std::max(
-      {kFinestSpacing_m, for_triangles_m(kMostTriangles), std::min(for_triangles_m(kTriangles), by_thickness_m)});
+      {kFinestSpacing_m, spacing_for_triangles_m(area_m2, kMostTriangles),
+       std::min(spacing_for_triangles_m(area_m2, kTriangles), spacing_for_thickness_m(area_m2, body.volume_m3()))});
 }
 
 /// The largest piece; adds what the others enclosed to `dropped_m3`.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "anatomy/read_body.h"
 #include "core/json_reader.h"
 #include "core/text.h"
 
@@ -19,19 +20,6 @@ int index_of(const JsonValue& name, const std::vector<Part>& parts, const char* 
   }
   throw name.error(
       fmt::format("names the {} \"{}\" that is not there; the nearest is \"{}\"", kind, key, nearest_word(key, keys)));
-}
-
-anatomy::Body read_body(const JsonValue& value) {
-  JsonObject fields(value);
-  anatomy::Body body;
-  body.key = fields.at("key").string();
-  body.mass_kg = fields.at("mass_kg").number_between(1e-6, 1e3);
-  body.com_m = fields.at("com_m").vec3();
-  const auto inertia = fields.at("inertia_kg_m2").elements(6);
-  for (std::size_t i = 0; i < 6; ++i) body.inertia_kg_m2[i] = inertia[i].number();
-  body.estimated = fields.boolean_or("estimated", true);
-  fields.finish();
-  return body;
 }
 
 BoneData read_bone(const JsonValue& value, const AnatomyData& data) {
@@ -182,7 +170,7 @@ AnatomyData read_recipe(const std::filesystem::path& file) {
   data.side = root.at("side").one_of({"left", "right"});
   data.source = root.at("source").string();
   data.licence = root.at("licence").string();
-  for (const JsonValue& v : root.at("bodies").elements()) data.bodies.push_back(read_body(v));
+  for (const JsonValue& v : root.at("bodies").elements()) data.bodies.push_back(anatomy::read_body(v));
   for (const JsonValue& v : root.at("bones").elements()) data.bones.push_back(read_bone(v, data));
   for (const JsonValue& v : root.at("joints").elements()) data.joints.push_back(read_joint(v, data));
   for (const JsonValue& v : root.at("muscles").elements()) data.muscles.push_back(read_muscle(v, data));

@@ -1,7 +1,6 @@
 #include "prepare/remesh/fine_surface.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <Eigen/Geometry>
 
@@ -17,11 +16,8 @@ namespace {
 constexpr std::size_t kFewTriangles = 6000;
 /// Surfaces of more are resampled on a lattice.
 constexpr std::size_t kManyTriangles = 400'000;
-/// Triangles of a resampled surface, roughly, and per square of the lattice's spacing (measured on spheres). Where the
-/// body is thin, the spacing is at most this part of the mean thickness 2 V / A.
+/// Triangles of a resampled surface, roughly; thin bodies get more.
 constexpr double kResampledTriangles = 60000.0;
-constexpr double kTrianglesPerCell = 8.0;
-constexpr double kMostOfThickness = 0.22;
 constexpr double kFineTolerance_m = 1.5e-4;
 /// Small bodies get parts of their diagonal instead.
 constexpr double kFineTolerance = 1.5e-3;
@@ -41,8 +37,8 @@ double diagonal_m(const geometry::TriangleMesh& surface) {
 geometry::TriangleMesh resample(const geometry::TriangleMesh& surface) {
   const SignedDistance distance(surface);
   const double area_m2 = geometry::surface_area_m2(surface);
-  const double spacing_m = std::min(std::sqrt(kTrianglesPerCell * area_m2 / kResampledTriangles),
-                                    kMostOfThickness * 2.0 * distance.volume_m3() / area_m2);
+  const double spacing_m = std::min(spacing_for_triangles_m(area_m2, kResampledTriangles),
+                                    spacing_for_thickness_m(area_m2, distance.volume_m3()));
   return extract_level_set([&](const Vec3& p) { return distance(p); }, distance.box(), spacing_m);
 }
 

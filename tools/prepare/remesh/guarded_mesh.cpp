@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "geometry/closest_point.h"
+#include "prepare/remesh/surface_distance.h"
 
 namespace myotact::prepare {
 
@@ -23,14 +24,8 @@ constexpr std::size_t kFewTriangles = 6000;
 std::vector<Vec3> sample(const TriangleMesh& mesh) {
   std::vector<Vec3> places_m = mesh.positions_m;
   if (mesh.triangles.size() > kFewTriangles) return places_m;
-  for (const auto& corners : mesh.triangles) {
-    std::array<Vec3, 3> x;
-    for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.positions_m[static_cast<std::size_t>(corners[k])];
-    places_m.push_back((x[0] + x[1] + x[2]) / 3.0);
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (corners[k] < corners[(k + 1) % 3]) places_m.push_back(0.5 * (x[k] + x[(k + 1) % 3]));
-    }
-  }
+  const std::vector<Vec3> within_m = places_within_triangles_m(mesh);
+  places_m.insert(places_m.end(), within_m.begin(), within_m.end());
   return places_m;
 }
 
@@ -108,8 +103,8 @@ bool GuardedMesh::try_collapse(HalfEdge from_to, const Vec3& place_m, double lea
     }
     made.push_back(next);
   }
-  if (made.size() < 3 || !fits(old, made, least_shape)) return false;
-  const auto samples = reassign(old, made);
+  if (made.size() < 3) return false;
+  const auto samples = accept(old, made, least_shape);
   if (!samples) return false;
   forget(old);
   mesh_.collapse(from_to);
@@ -133,8 +128,7 @@ bool GuardedMesh::try_flip(Edge e, double least_shape) {
   for (const std::array<int, 3>& vertices : {std::array<int, 3>{a, right, left}, std::array<int, 3>{b, left, right}}) {
     made.push_back({vertices, corners_of(vertices)});
   }
-  if (!fits(old, made, least_shape)) return false;
-  const auto samples = reassign(old, made);
+  const auto samples = accept(old, made, least_shape);
   if (!samples) return false;
   forget(old);
   mesh_.flip(e);
@@ -166,8 +160,7 @@ bool GuardedMesh::try_split(Edge e, const Vec3& place_m, double least_shape) {
     }
     made.push_back(face);
   }
-  if (!fits(old, made, least_shape)) return false;
-  const auto samples = reassign(old, made);
+  const auto samples = accept(old, made, least_shape);
   if (!samples) return false;
   forget(old);
   const Vertex v = mesh_.add_vertex(to_openmesh(place_m));
@@ -198,8 +191,7 @@ bool GuardedMesh::try_move(Vertex v, const Vec3& place_m, double least_shape) {
     }
     made.push_back(next);
   }
-  if (!fits(old, made, least_shape)) return false;
-  const auto samples = reassign(old, made);
+  const auto samples = accept(old, made, least_shape);
   if (!samples) return false;
   forget(old);
   mesh_.set_point(v, to_openmesh(place_m));
@@ -232,9 +224,8 @@ GuardedMesh::Faces GuardedMesh::faces_around(Vertex v) const {
   return faces;
 }
 
-std::optional<std::vector<std::pair<int, int>>> GuardedMesh::reassign(const Faces& old,
-                                                                      const std::vector<NewFace>& made) const {
-  std::vector<std::pair<int, int>> assigned;
+std::optional<GuardedMesh::Samples> GuardedMesh::reassign(const Faces& old, const std::vector<NewFace>& made) const {
+  Samples assigned;
   for (const int face : old) {
     for (const int sample : samples_[static_cast<std::size_t>(face)]) {
       const Vec3& p = sample_places_m_[static_cast<std::size_t>(sample)];
@@ -302,6 +293,11 @@ bool GuardedMesh::fits(const Faces& old, const std::vector<NewFace>& made, doubl
          std::all_of(made.begin(), made.end(), [&](const NewFace& face) { return is_free(face, old); });
 }
 
+std::optional<GuardedMesh::Samples> GuardedMesh::accept(const Faces& old, const std::vector<NewFace>& made,
+                                                        double least_shape) const {
+  return fits(old, made, least_shape) ? reassign(old, made) : std::nullopt;
+}
+
 void GuardedMesh::forget(const Faces& old) {
   for (const int face : old) {
     grid_.remove(face);
@@ -309,7 +305,7 @@ void GuardedMesh::forget(const Faces& old) {
   }
 }
 
-void GuardedMesh::learn(const Faces& made, const std::vector<std::pair<int, int>>& samples) {
+void GuardedMesh::learn(const Faces& made, const Samples& samples) {
   for (const int face : made) grid_.insert(face, corners_of(vertices_of(face)));
   for (const auto& [sample, place] : samples) {
     samples_[static_cast<std::size_t>(made[static_cast<std::size_t>(place)])].push_back(sample);

@@ -50,17 +50,20 @@ class GuardedMesh {
     Corners corners;
   };
   using Faces = std::vector<int>;
+  using Samples = std::vector<std::pair<int, int>>;  // sample, and the new face nearest to it
 
   Faces faces_around(Vertex v) const;
-  /// Samples of `old`, each with the new face nearest to it; nothing when one strays.
-  std::optional<std::vector<std::pair<int, int>>> reassign(const Faces& old, const std::vector<NewFace>& made) const;
+  /// What becomes of the samples when `made` take the place of `old`; nothing when that must not be.
+  std::optional<Samples> accept(const Faces& old, const std::vector<NewFace>& made, double least_shape) const;
+  /// Nothing when a sample of `old` would stray.
+  std::optional<Samples> reassign(const Faces& old, const std::vector<NewFace>& made) const;
   bool fits(const Faces& old, const std::vector<NewFace>& made, double least_shape) const;
   bool shapes_hold(const Faces& old, const std::vector<NewFace>& made, double least_shape) const;
   bool stays_near(const NewFace& face) const;
   bool is_free(const NewFace& face, const Faces& old) const;
   void forget(const Faces& old);
   /// Puts the changed faces, now in the mesh, into the grid and hands them their samples.
-  void learn(const Faces& made, const std::vector<std::pair<int, int>>& samples);
+  void learn(const Faces& made, const Samples& samples);
 
   geometry::TriangleMesh reference_;
   geometry::TriangleTree tree_;

@@ -13,17 +13,23 @@ void look(const geometry::TriangleMesh& from, const geometry::TriangleMesh& to, 
     if (distance_m > result.largest_m) result = {distance_m, p};
   };
   for (const Vec3& p : from.positions_m) measure(p);
-  for (const auto& corners : from.triangles) {
-    std::array<Vec3, 3> x;
-    for (std::size_t k = 0; k < 3; ++k) x[k] = from.positions_m[static_cast<std::size_t>(corners[k])];
-    measure((x[0] + x[1] + x[2]) / 3.0);
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (corners[k] < corners[(k + 1) % 3]) measure(0.5 * (x[k] + x[(k + 1) % 3]));
-    }
-  }
+  for (const Vec3& p : places_within_triangles_m(from)) measure(p);
 }
 
 }  // namespace
+
+std::vector<Vec3> places_within_triangles_m(const geometry::TriangleMesh& mesh) {
+  std::vector<Vec3> places_m;
+  for (const auto& corners : mesh.triangles) {
+    std::array<Vec3, 3> x;
+    for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.positions_m[static_cast<std::size_t>(corners[k])];
+    places_m.push_back((x[0] + x[1] + x[2]) / 3.0);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (corners[k] < corners[(k + 1) % 3]) places_m.push_back(0.5 * (x[k] + x[(k + 1) % 3]));
+    }
+  }
+  return places_m;
+}
 
 SurfaceDistance surface_distance(const geometry::TriangleMesh& a, const geometry::TriangleMesh& b) {
   SurfaceDistance result;

@@ -1,9 +1,14 @@
 #pragma once
 
+#include <vector>
+
 #include "core/vector.h"
 #include "geometry/triangle_mesh.h"
 
 namespace myotact::prepare {
+
+/// Centres of all triangles and middles of all edges (closed mesh), in the triangles' order.
+std::vector<Vec3> places_within_triangles_m(const geometry::TriangleMesh& mesh);
 
 /// How far two surfaces lie apart.
 struct SurfaceDistance {

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cstddef>
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <Eigen/Geometry>
+
+#include "prepare/cgal_mesh.h"
 
 namespace myotact::prepare {
 
 namespace {
-
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 Kernel::Point_3 to_point(const Vec3& p) {
   return {p.x(), p.y(), p.z()};

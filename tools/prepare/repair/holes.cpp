@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "prepare/remesh/surface_remesh.h"
+#include "prepare/remesh/crossing_triangles.h"
 #include "prepare/repair/edge_table.h"
 #include "prepare/repair/soup.h"
 #include "prepare/repair/stages.h"

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "prepare/remesh/surface_remesh.h"
+#include "prepare/remesh/crossing_triangles.h"
 #include "prepare/repair/edge_table.h"
 #include "prepare/repair/stages.h"
 #include "prepare/repair/surface_pieces.h"

@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "prepare/remesh/surface_remesh.h"
+#include "prepare/remesh/crossing_triangles.h"
 #include "prepare/repair/edge_table.h"
 #include "prepare/repair/repair_job.h"
 #include "prepare/repair/surface_pieces.h"

@@ -1,8 +1,8 @@
 #include "prepare/repair/surface_pieces.h"
 
-#include <algorithm>
 #include <map>
-#include <numeric>
+
+#include "prepare/repair/edge_table.h"
 
 namespace myotact::prepare {
 
@@ -10,27 +10,15 @@ namespace {
 
 using geometry::TriangleMesh;
 
-/// Lowest vertex that hangs together with `v`; shortens the way for the next call.
-int root_of(std::vector<int>& parent, int v) {
-  while (parent[static_cast<std::size_t>(v)] != v) {
-    int& up = parent[static_cast<std::size_t>(v)];
-    up = parent[static_cast<std::size_t>(up)];
-    v = up;
-  }
-  return v;
-}
-
+/// The lowest vertex that each one hangs together with.
 std::vector<int> roots_of(const TriangleMesh& mesh) {
-  std::vector<int> parent(mesh.positions_m.size());
-  std::iota(parent.begin(), parent.end(), 0);
+  Groups groups(mesh.positions_m.size());
   for (const auto& triangle : mesh.triangles) {
-    for (std::size_t k = 1; k < 3; ++k) {
-      const int a = root_of(parent, triangle[0]), b = root_of(parent, triangle[k]);
-      parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-    }
+    for (std::size_t k = 1; k < 3; ++k) groups.join(triangle[0], triangle[k]);
   }
-  for (int v = 0; v < static_cast<int>(parent.size()); ++v) parent[static_cast<std::size_t>(v)] = root_of(parent, v);
-  return parent;
+  std::vector<int> roots;
+  for (int v = 0; v < static_cast<int>(mesh.positions_m.size()); ++v) roots.push_back(groups.group_of(v));
+  return roots;
 }
 
 }  // namespace

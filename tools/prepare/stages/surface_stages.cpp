@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "core/text.h"
 #include "prepare/parallel.h"
 #include "prepare/remesh/fine_surface.h"
 #include "prepare/repair/repair_surface.h"
@@ -50,17 +50,11 @@ TriangleMesh bone_skin(const TriangleMesh& surface) {
   return skin;
 }
 
-std::string key_list(const std::vector<std::string>& keys) {
-  std::string text;
-  for (const std::string& key : keys) text += (text.empty() ? "" : ", ") + key;
-  return text;
-}
-
 void report_parting(const PartReport& part, SurfaceReport& report) {
   report.parted_loss_m3 = part.volume_lost_m3;
   report.volume_m3 = part.volume_before_m3 - part.volume_lost_m3;
   for (const auto& [volume_m3, key] : part.gave_way) report.gave_way.emplace_back(key, volume_m3);
-  if (!part.hosts.empty()) report.notes.push_back("nested in " + key_list(part.hosts) + ": keeps its shape");
+  if (!part.hosts.empty()) report.notes.push_back("nested in " + join(part.hosts) + ": keeps its shape");
   if (part.kept_core) report.notes.push_back("would be cut in two by its neighbours: its core stays and overlaps them");
   if (part.dropped_m3 > 1e-9) {
     report.notes.push_back(fmt::format("{:.2f} cm3 of loose ends dropped in parting", 1e6 * part.dropped_m3));

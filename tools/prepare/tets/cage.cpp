@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "prepare/remesh/crossing_triangles.h"
 #include "prepare/remesh/decimate.h"
 #include "prepare/remesh/surface_distance.h"
-#include "prepare/remesh/surface_remesh.h"
 #include "prepare/tets/smooth_tets.h"
 #include "prepare/tets/tetrahedralise.h"
 
