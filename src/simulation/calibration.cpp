@@ -11,7 +11,8 @@ namespace myotact::simulation {
 namespace {
 
 constexpr double kActivation = 0.5;  // the middle of the range: the rest lies on both sides
-constexpr int kMostRounds = 16;
+/// Most muscles need some ten; the thickest ones creep.
+constexpr int kMostRounds = 40;
 /// Agreement at which the rounds end. Under half of the 5 % that a specimen is allowed.
 constexpr double kCloseEnough = 0.02;
 /// Out-of-balance share to which each round is solved.

@@ -20,6 +20,10 @@ constexpr double kTimeGrowth = 4.0, kTimeCut = 0.25;
 /// A step ends where the forces along it have fallen to this part of what they were, or still point onwards.
 constexpr double kLineSearchDrop = 0.5;
 constexpr int kMostCuts = 12;
+/// Where a whole step leaves the forces along it almost as they were, the safe tangent is far too stiff (a slack muscle
+/// that unbuckles creeps for hundreds of steps): the step is doubled as long as that holds.
+constexpr double kStillSteep = 0.8;
+constexpr double kLongestStep = 1024.0;
 /// A guess that folds elements over farther than this is not looked at.
 constexpr double kSmallestJ = -0.5;
 
@@ -49,6 +53,13 @@ bool find_direction(const Skeleton& skeleton, TissueLoad load, double time_s, Li
   return pivots == Pivots::Positive && direction.allFinite();
 }
 
+/// What lies at a part of `direction` from `start`: the force along it (> 0: the energy still falls) and whether the
+/// place can be looked at.
+struct Outlook {
+  double force = 0.0;
+  bool seen = false;
+};
+
 /// Goes along `direction` as far as the energy falls: every force has a potential in a static solve, and its slope
 /// along the way is residual . direction, so the slope alone tells where to stop. Returns the part gone, 0 when none
 /// helps.
@@ -56,17 +67,32 @@ double search_line(const Skeleton& skeleton, const TissueLoad& load, const Eigen
                    LimbMuscle& muscle) {
   const double slope = -muscle.system.residual_N.dot(direction);
   const Eigen::VectorXd start = muscle.state.now.position_m;
-  double part = 1.0;
-  for (int cut = 0; cut < kMostCuts; ++cut) {
+  const auto at = [&](double part) {
+    muscle.state.now.position_m = start;
     move_free_nodes(muscle, part * direction);
     compute_forces(muscle.tissue, skeleton, load, muscle.state, muscle.system);
-    const double there = -muscle.system.residual_N.dot(direction);  // > 0: still falling
-    const bool seen = std::isfinite(there) && muscle.system.smallest_J > kSmallestJ;
-    if (seen && there > -kLineSearchDrop * slope) return part;
-    muscle.state.now.position_m = start;
-    part *= seen ? std::clamp(slope / (slope - there), 0.1, 0.7) : 0.3;
+    const double force = -muscle.system.residual_N.dot(direction);
+    return Outlook{force, std::isfinite(force) && muscle.system.smallest_J > kSmallestJ};
+  };
+  const auto go_on = [&](double part) {
+    while (part < kLongestStep) {
+      const Outlook there = at(2.0 * part);
+      if (!there.seen || there.force < 0.0) break;
+      part *= 2.0;
+      if (there.force < kStillSteep * slope) return part;
+    }
+    at(part);
+    return part;
+  };
+  double part = 1.0;
+  for (int cut = 0; cut < kMostCuts; ++cut) {
+    const Outlook there = at(part);
+    if (there.seen && there.force > -kLineSearchDrop * slope) {
+      return there.force > kStillSteep * slope && part == 1.0 ? go_on(part) : part;
+    }
+    part *= there.seen ? std::clamp(slope / (slope - there.force), 0.1, 0.7) : 0.3;
   }
-  compute_forces(muscle.tissue, skeleton, load, muscle.state, muscle.system);
+  at(0.0);
   return 0.0;
 }
 
@@ -134,7 +160,7 @@ bool settle_muscle(const Skeleton& skeleton, const Vec3& gravity_m_s2, double wa
     if (!find_direction(skeleton, load, time_s, muscle, direction)) return false;
     const double part = search_line(skeleton, load, direction, muscle);
     if (part == 0.0 && time_s <= kShortestTime_s) break;
-    const double change = part == 1.0 ? kTimeGrowth : part < 0.3 ? kTimeCut : 1.0;
+    const double change = part >= 1.0 ? kTimeGrowth : part < 0.3 ? kTimeCut : 1.0;
     time_s = std::clamp(time_s * change, kShortestTime_s, kLongestTime_s);
   }
   return rest_share(muscle) < wanted_share;
