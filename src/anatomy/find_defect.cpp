@@ -14,6 +14,12 @@ namespace {
 /// No limb is larger; what lies farther out was probably written in millimetres.
 constexpr double kFarthest_m = 10.0;
 
+using Defects = std::vector<std::string>;
+
+void add(Defects& defects, std::string defect) {
+  if (!defect.empty()) defects.push_back(std::move(defect));
+}
+
 bool is_near(const Vec3& position_m) {
   return position_m.allFinite() && position_m.norm() <= kFarthest_m;
 }
@@ -33,50 +39,41 @@ std::string defect_of_key(const std::string& kind, const std::string& key) {
                      key.substr(0, kLongestKey), kLongestKey);
 }
 
-std::string defect_of_keys(const Specimen& specimen) {
-  for (const Body& body : specimen.bodies) {
-    if (auto defect = defect_of_key("body", body.key); !defect.empty()) return defect;
-  }
-  for (const Bone& bone : specimen.bones) {
-    if (auto defect = defect_of_key("bone", bone.key); !defect.empty()) return defect;
-  }
-  for (const Joint& joint : specimen.joints) {
-    if (auto defect = defect_of_key("joint", joint.key); !defect.empty()) return defect;
-  }
-  for (const Muscle& muscle : specimen.muscles) {
-    if (auto defect = defect_of_key("muscle", muscle.key); !defect.empty()) return defect;
-  }
-  return "";
+void find_key_defects(const Specimen& specimen, Defects& defects) {
+  for (const Body& body : specimen.bodies) add(defects, defect_of_key("body", body.key));
+  for (const Bone& bone : specimen.bones) add(defects, defect_of_key("bone", bone.key));
+  for (const Joint& joint : specimen.joints) add(defects, defect_of_key("joint", joint.key));
+  for (const Muscle& muscle : specimen.muscles) add(defects, defect_of_key("muscle", muscle.key));
 }
 
 /// References between the parts; the other checks rely on them.
-std::string defect_of_references(const Specimen& specimen) {
+void find_reference_defects(const Specimen& specimen, Defects& defects) {
   const std::size_t bodies = specimen.bodies.size();
   for (const Bone& bone : specimen.bones) {
-    if (!is_index(bone.body, bodies))
-      return fmt::format("bone {}: its body is {}; there are {}", bone.key, bone.body, bodies);
+    if (is_index(bone.body, bodies)) continue;
+    defects.push_back(fmt::format("bone {}: its body is {}; there are {}", bone.key, bone.body, bodies));
   }
   for (const Joint& joint : specimen.joints) {
-    if (!is_index(joint.parent, bodies) || !is_index(joint.child, bodies)) {
-      return fmt::format("joint {}: its bodies are {} and {}; there are {}", joint.key, joint.parent, joint.child,
-                         bodies);
-    }
+    if (is_index(joint.parent, bodies) && is_index(joint.child, bodies)) continue;
+    defects.push_back(
+        fmt::format("joint {}: its bodies are {} and {}; there are {}", joint.key, joint.parent, joint.child, bodies));
   }
   const auto is_muscle = [&](int m) { return is_index(m, specimen.muscles.size()); };
   for (const MuscleLine& line : specimen.lines) {
-    if (!is_muscle(line.muscle))
-      return fmt::format("a line names muscle {}; there are {}", line.muscle, specimen.muscles.size());
+    if (!is_muscle(line.muscle)) {
+      defects.push_back(fmt::format("a line names muscle {}; there are {}", line.muscle, specimen.muscles.size()));
+    }
     for (const LinePoint& point : line.points) {
-      if (!is_index(point.body, bodies)) return fmt::format("a line names body {}; there are {}", point.body, bodies);
+      if (is_index(point.body, bodies)) continue;
+      defects.push_back(fmt::format("a line names body {}; there are {}", point.body, bodies));
     }
   }
   for (const MuscleGroup& group : specimen.groups) {
     const bool known = is_index(group.joint, specimen.joints.size()) &&
                        std::all_of(group.flexors.begin(), group.flexors.end(), is_muscle) &&
                        std::all_of(group.extensors.begin(), group.extensors.end(), is_muscle);
-    if (!known) return "a group names a joint or a muscle that is not there";
+    if (!known) defects.push_back("a group names a joint or a muscle that is not there");
   }
-  return "";
 }
 
 std::string defect_of_body(const Body& body) {
@@ -126,18 +123,13 @@ std::string defect_of_joint(const Joint& joint) {
   return "";
 }
 
-std::string defect_of_skeleton(const Specimen& specimen) {
-  if (specimen.bodies.empty()) return "bodies: is empty; a specimen needs at least one body";
-  for (const Body& body : specimen.bodies) {
-    if (auto defect = defect_of_body(body); !defect.empty()) return defect;
-  }
-  for (const Joint& joint : specimen.joints) {
-    if (auto defect = defect_of_joint(joint); !defect.empty()) return defect;
-  }
-  return "";
+void find_skeleton_defects(const Specimen& specimen, Defects& defects) {
+  if (specimen.bodies.empty()) defects.push_back("bodies: is empty; a specimen needs at least one body");
+  for (const Body& body : specimen.bodies) add(defects, defect_of_body(body));
+  for (const Joint& joint : specimen.joints) add(defects, defect_of_joint(joint));
 }
 
-std::string defect_of_mechanics(const Muscle& muscle) {
+void find_mechanics_defects(const Muscle& muscle, Defects& defects) {
   struct Bound {
     const char* name;
     double value, lowest, highest;
@@ -151,11 +143,10 @@ std::string defect_of_mechanics(const Muscle& muscle) {
         Bound{"activation_tau_s", muscle.activation_tau_s, 1e-3, 1.0},
         Bound{"deactivation_tau_s", muscle.deactivation_tau_s, 1e-3, 1.0}}) {
     if (!(b.value >= b.lowest && b.value <= b.highest)) {
-      return fmt::format("muscle {}: {} is {}; must be between {} and {}", muscle.key, b.name, to_text(b.value),
-                         to_text(b.lowest), to_text(b.highest));
+      defects.push_back(fmt::format("muscle {}: {} is {}; must be between {} and {}", muscle.key, b.name,
+                                    to_text(b.value), to_text(b.lowest), to_text(b.highest)));
     }
   }
-  return "";
 }
 
 /// Largest distance of a mid-side node from the middle of its edge, over the edge's length. At a quarter the element's
@@ -179,7 +170,7 @@ std::string defect_of_midsides(const Muscle& muscle, std::size_t t) {
 }
 
 /// Every node belongs to a tet, lies within reach, and the muscle hangs on something.
-std::string defect_of_nodes(const Muscle& muscle, std::size_t body_count) {
+void find_node_defects(const Muscle& muscle, std::size_t body_count, Defects& defects) {
   const auto& tets = muscle.tets;
   std::vector<bool> used(tets.nodes_m.size(), false);
   for (const auto& tet : tets.corners) {
@@ -190,46 +181,51 @@ std::string defect_of_nodes(const Muscle& muscle, std::size_t body_count) {
   }
   bool attached = false;
   for (std::size_t n = 0; n < tets.nodes_m.size(); ++n) {
-    if (!used[n]) return fmt::format("muscle {}: node {} belongs to no tet; remove it", muscle.key, n);
+    if (!used[n]) defects.push_back(fmt::format("muscle {}: node {} belongs to no tet; remove it", muscle.key, n));
     if (!is_near(tets.nodes_m[n])) {
-      return fmt::format("muscle {}: node {} must lie within 10 m; are the units metres?", muscle.key, n);
+      defects.push_back(fmt::format("muscle {}: node {} must lie within 10 m; are the units metres?", muscle.key, n));
     }
     if (muscle.attachments[n] < -1 || muscle.attachments[n] >= static_cast<int>(body_count)) {
-      return fmt::format("muscle {}: node {} is attached to body {}; must be -1 .. {}", muscle.key, n,
-                         muscle.attachments[n], static_cast<int>(body_count) - 1);
+      defects.push_back(fmt::format("muscle {}: node {} is attached to body {}; must be -1 .. {}", muscle.key, n,
+                                    muscle.attachments[n], static_cast<int>(body_count) - 1));
     }
     attached |= muscle.attachments[n] >= 0;
   }
-  return attached ? "" : fmt::format("muscle {}: no node is attached to a body; it would float away", muscle.key);
+  if (!attached) {
+    defects.push_back(fmt::format("muscle {}: no node is attached to a body; it would float away", muscle.key));
+  }
 }
 
-std::string defect_of_tets(const Muscle& muscle, std::size_t body_count) {
+std::string defect_of_tet(const Muscle& muscle, std::size_t t) {
+  const double volume = geometry::corner_volume_m3(muscle.tets, t);
+  if (!(volume > 0.0)) {
+    return fmt::format("muscle {}: tet {} has volume {} m^3; must be > 0. Run myotact-prepare on the surface again",
+                       muscle.key, t, to_text(volume));
+  }
+  if (muscle.tets.quadratic()) {
+    if (auto defect = defect_of_midsides(muscle, t); !defect.empty()) return defect;
+  }
+  if (!(std::abs(muscle.fibres[t].norm() - 1.0) <= 1e-6)) {
+    return fmt::format("muscle {}: the fibre of tet {} is not of length 1", muscle.key, t);
+  }
+  if (!muscle.sections_m2.empty() && !(muscle.sections_m2[t] > 0.0 && muscle.sections_m2[t] < 1.0)) {
+    return fmt::format("muscle {}: the section of tet {} must be > 0 and < 1 m^2", muscle.key, t);
+  }
+  return "";
+}
+
+void find_tet_defects(const Muscle& muscle, std::size_t body_count, Defects& defects) {
   const auto& tets = muscle.tets;
-  if (tets.corners.empty()) return fmt::format("muscle {}: has no tets", muscle.key);
+  if (tets.corners.empty()) return add(defects, fmt::format("muscle {}: has no tets", muscle.key));
   if (muscle.fibres.size() != tets.corners.size() || muscle.regions.size() != tets.corners.size() ||
       (!muscle.sections_m2.empty() && muscle.sections_m2.size() != tets.corners.size())) {
-    return fmt::format("muscle {}: must have one fibre, region and section a tet", muscle.key);
+    return add(defects, fmt::format("muscle {}: must have one fibre, region and section a tet", muscle.key));
   }
   if (muscle.attachments.size() != tets.nodes_m.size()) {
-    return fmt::format("muscle {}: must have one attachment a node", muscle.key);
+    return add(defects, fmt::format("muscle {}: must have one attachment a node", muscle.key));
   }
-  for (std::size_t t = 0; t < tets.corners.size(); ++t) {
-    const double volume = geometry::corner_volume_m3(tets, t);
-    if (!(volume > 0.0)) {
-      return fmt::format("muscle {}: tet {} has volume {} m^3; must be > 0. Run myotact-prepare on the surface again",
-                         muscle.key, t, to_text(volume));
-    }
-    if (tets.quadratic()) {
-      if (auto defect = defect_of_midsides(muscle, t); !defect.empty()) return defect;
-    }
-    if (!(std::abs(muscle.fibres[t].norm() - 1.0) <= 1e-6)) {
-      return fmt::format("muscle {}: the fibre of tet {} is not of length 1", muscle.key, t);
-    }
-    if (!muscle.sections_m2.empty() && !(muscle.sections_m2[t] > 0.0 && muscle.sections_m2[t] < 1.0)) {
-      return fmt::format("muscle {}: the section of tet {} must be > 0 and < 1 m^2", muscle.key, t);
-    }
-  }
-  return defect_of_nodes(muscle, body_count);
+  for (std::size_t t = 0; t < tets.corners.size(); ++t) add(defects, defect_of_tet(muscle, t));
+  find_node_defects(muscle, body_count, defects);
 }
 
 std::string defect_of_surface(const std::string& what, const geometry::TriangleMesh& surface) {
@@ -241,45 +237,61 @@ std::string defect_of_surface(const std::string& what, const geometry::TriangleM
   return bad == 0 ? "" : fmt::format("{}: is not closed ({} bad edges); close it and prepare it again", what, bad);
 }
 
-std::string defect_of_lines(const Specimen& specimen) {
-  std::vector<int> lines_of_muscle(specimen.muscles.size(), 0);
-  for (const MuscleLine& line : specimen.lines) {
-    const std::string& key = specimen.muscles[static_cast<std::size_t>(line.muscle)].key;
-    if (line.points.size() < 2) return fmt::format("line of {}: needs at least two points", key);
-    if (line.points.front().kind != LinePointKind::Origin || line.points.back().kind != LinePointKind::Insertion) {
-      return fmt::format("line of {}: must begin with an origin and end with an insertion", key);
-    }
-    for (std::size_t p = 0; p < line.points.size(); ++p) {
-      if (!is_near(line.points[p].position_m)) return fmt::format("line of {}: point {} must lie within 10 m", key, p);
-      if (p > 0 && line.points[p].position_m == line.points[p - 1].position_m) {
-        return fmt::format("line of {}: points {} and {} are the same; remove one", key, p - 1, p);
-      }
-    }
-    ++lines_of_muscle[static_cast<std::size_t>(line.muscle)];
+std::string defect_of_line(const MuscleLine& line, const std::string& key) {
+  if (line.points.size() < 2) return fmt::format("line of {}: needs at least two points", key);
+  if (line.points.front().kind != LinePointKind::Origin || line.points.back().kind != LinePointKind::Insertion) {
+    return fmt::format("line of {}: must begin with an origin and end with an insertion", key);
   }
-  for (std::size_t m = 0; m < specimen.muscles.size(); ++m) {
-    if (lines_of_muscle[m] != 1) {
-      return fmt::format("muscle {}: has {} lines; must have one", specimen.muscles[m].key, lines_of_muscle[m]);
+  for (std::size_t p = 0; p < line.points.size(); ++p) {
+    if (!is_near(line.points[p].position_m)) return fmt::format("line of {}: point {} must lie within 10 m", key, p);
+    if (p > 0 && line.points[p].position_m == line.points[p - 1].position_m) {
+      return fmt::format("line of {}: points {} and {} are the same; remove one", key, p - 1, p);
     }
   }
   return "";
 }
 
+void find_line_defects(const Specimen& specimen, Defects& defects) {
+  std::vector<int> lines_of_muscle(specimen.muscles.size(), 0);
+  for (const MuscleLine& line : specimen.lines) {
+    add(defects, defect_of_line(line, specimen.muscles[static_cast<std::size_t>(line.muscle)].key));
+    ++lines_of_muscle[static_cast<std::size_t>(line.muscle)];
+  }
+  for (std::size_t m = 0; m < specimen.muscles.size(); ++m) {
+    if (lines_of_muscle[m] == 1) continue;
+    defects.push_back(
+        fmt::format("muscle {}: has {} lines; must have one", specimen.muscles[m].key, lines_of_muscle[m]));
+  }
+}
+
 }  // namespace
 
-std::string find_defect(const Specimen& specimen) {
-  if (auto defect = defect_of_keys(specimen); !defect.empty()) return defect;
-  if (auto defect = defect_of_references(specimen); !defect.empty()) return defect;
-  if (auto defect = defect_of_skeleton(specimen); !defect.empty()) return defect;
-  for (const Bone& bone : specimen.bones) {
-    if (auto defect = defect_of_surface("bone " + bone.key, bone.surface); !defect.empty()) return defect;
-  }
+std::vector<std::string> find_defects(const Muscle& muscle, std::size_t body_count) {
+  Defects defects;
+  find_mechanics_defects(muscle, defects);
+  find_tet_defects(muscle, body_count, defects);
+  add(defects, defect_of_surface("skin of " + muscle.key, muscle.skin));
+  return defects;
+}
+
+std::vector<std::string> find_defects(const Specimen& specimen) {
+  Defects defects;
+  find_key_defects(specimen, defects);
+  find_reference_defects(specimen, defects);
+  if (!defects.empty()) return defects;
+  find_skeleton_defects(specimen, defects);
+  for (const Bone& bone : specimen.bones) add(defects, defect_of_surface("bone " + bone.key, bone.surface));
   for (const Muscle& muscle : specimen.muscles) {
-    if (auto defect = defect_of_mechanics(muscle); !defect.empty()) return defect;
-    if (auto defect = defect_of_tets(muscle, specimen.bodies.size()); !defect.empty()) return defect;
-    if (auto defect = defect_of_surface("skin of " + muscle.key, muscle.skin); !defect.empty()) return defect;
+    const Defects found = find_defects(muscle, specimen.bodies.size());
+    defects.insert(defects.end(), found.begin(), found.end());
   }
-  return defect_of_lines(specimen);
+  find_line_defects(specimen, defects);
+  return defects;
+}
+
+std::string find_defect(const Specimen& specimen) {
+  const Defects defects = find_defects(specimen);
+  return defects.empty() ? "" : defects.front();
 }
 
 }  // namespace myotact::anatomy

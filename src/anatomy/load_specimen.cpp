@@ -20,6 +20,29 @@ constexpr double kLargestLength_m = 10.0;
 struct Loader {
   std::filesystem::path folder;
   Specimen specimen;
+  std::vector<std::string>* defects = nullptr;  // where they are collected; without, the first one is thrown
+  std::vector<std::string> lost;                // keys of parts that could not be read
+
+  /// Calls read(); collects what it throws, if that is wanted.
+  template <class Read>
+  bool attempt(Read&& read) {
+    try {
+      read();
+      return true;
+    } catch (const Error& defect) {
+      if (!defects) throw;
+      const bool known = std::find(defects->begin(), defects->end(), defect.what()) != defects->end();
+      if (!known) defects->push_back(defect.what());
+      return false;
+    }
+  }
+
+  /// Whether a part speaks of one that was lost: what is wrong with it then is not its own fault.
+  bool speaks_of_lost(const JsonValue& value) const {
+    const std::string text = value.raw().dump();
+    return std::any_of(lost.begin(), lost.end(),
+                       [&](const std::string& key) { return text.find('"' + key + '"') != std::string::npos; });
+  }
 
   /// A mesh file named in the specimen: a relative path that stays inside the folder.
   std::filesystem::path part(const JsonValue& name) const {
@@ -177,28 +200,52 @@ Overlap read_overlap(const JsonValue& value) {
 }
 
 /// A file that changed since the specimen was made no longer fits the numbers beside it.
-void check_sums(const JsonValue& files, const Loader& loader) {
+void check_sum(const std::string& name, const JsonValue& sum, const Loader& loader) {
+  const nlohmann::json name_json = name;
+  if (sha256(read_file(loader.part(JsonValue(name_json, sum.file(), sum.pointer())))) != sum.string()) {
+    throw sum.error(fmt::format("{} has another SHA-256 than recorded; prepare the specimen again", name));
+  }
+}
+
+void check_sums(const JsonValue& files, Loader& loader) {
   JsonObject object(files);
   for (const auto& [name, sum] : object.entries()) {
-    const nlohmann::json name_json = name;
-    if (sha256(read_file(loader.part(JsonValue(name_json, files.file(), sum.pointer())))) != sum.string()) {
-      throw sum.error(fmt::format("{} has another SHA-256 than recorded; prepare the specimen again", name));
-    }
+    loader.attempt([&, &name = name, &sum = sum] { check_sum(name, sum, loader); });
   }
+}
+
+/// Takes the place of a body that cannot be read, so that what refers to it can be looked at.
+Body stand_in(const JsonValue& value) {
+  Body body;
+  if (const auto key = value.raw().find("key"); key != value.raw().end() && key->is_string()) body.key = *key;
+  body.mass_kg = 1.0;
+  body.inertia_kg_m2 = {1.0, 1.0, 1.0, 0.0, 0.0, 0.0};
+  return body;
 }
 
 void read_lists(JsonObject& root, Loader& loader) {
   Specimen& s = loader.specimen;
   const auto each = [&](const char* key, auto& list, auto&& reader) {
-    for (const JsonValue& value : root.at(key).elements()) list.push_back(reader(value));
+    for (const JsonValue& value : root.at(key).elements()) {
+      if (loader.speaks_of_lost(value)) continue;
+      loader.attempt([&] { list.push_back(reader(value)); });
+    }
   };
   const auto each_keyed = [&](const char* key, auto& list, auto&& reader) {
     for (const JsonValue& value : root.at(key).elements()) {
-      list.push_back(reader(value));
-      refuse_twin(value, list);
+      const bool read = loader.attempt([&] {
+        list.push_back(reader(value));
+        refuse_twin(value, list);
+      });
+      const auto named = value.raw().find("key");
+      if (!read && named != value.raw().end() && named->is_string()) loader.lost.push_back(*named);
     }
   };
-  each_keyed("bodies", s.bodies, read_body);
+  each_keyed("bodies", s.bodies, [&](const JsonValue& v) {
+    Body body;
+    if (!loader.attempt([&] { body = read_body(v); })) body = stand_in(v);
+    return body;
+  });
   each_keyed("bones", s.bones, [&](const JsonValue& v) { return read_bone(v, loader); });
   each_keyed("joints", s.joints, [&](const JsonValue& v) { return read_joint(v, loader); });
   each_keyed("muscles", s.muscles, [&](const JsonValue& v) { return read_muscle(v, loader); });
@@ -207,14 +254,8 @@ void read_lists(JsonObject& root, Loader& loader) {
   if (root.find("overlaps")) each("overlaps", s.overlaps, read_overlap);
 }
 
-}  // namespace
-
-Specimen parse_specimen(const std::string& text, const std::filesystem::path& folder) {
-  const std::string file = (folder / "specimen.json").string();
-  const nlohmann::json json = parse_json(text, file);
-  JsonObject root(JsonValue(json, file));
+void read_specimen(JsonObject& root, Loader& loader) {
   root.at("schema").integer_between(1, 1);
-  Loader loader{folder, {}};
   if (const auto files = root.find("files")) check_sums(*files, loader);
   Specimen& specimen = loader.specimen;
   specimen.name = root.at("name").string();
@@ -226,19 +267,45 @@ Specimen parse_specimen(const std::string& text, const std::filesystem::path& fo
   specimen.created_by = root.string_or("created_by", "");
   read_lists(root, loader);
   root.finish();
-  if (const std::string defect = find_defect(specimen); !defect.empty()) throw bad_data(file, "", defect);
+}
+
+std::filesystem::path specimen_file(const std::filesystem::path& folder) {
+  const auto file = folder / "specimen.json";
+  std::error_code failure;  // a path that cannot even be examined is no specimen either
+  if (std::filesystem::exists(file, failure)) return file;
+  throw Error(ExitStatus::NoInput, folder.string() +
+                                       ": is no specimen folder: specimen.json is missing; make one "
+                                       "with myotact-prepare");
+}
+
+}  // namespace
+
+Specimen parse_specimen(const std::string& text, const std::filesystem::path& folder) {
+  const std::string file = (folder / "specimen.json").string();
+  const nlohmann::json json = parse_json(text, file);
+  JsonObject root(JsonValue(json, file));
+  Loader loader{folder, {}, nullptr, {}};
+  read_specimen(root, loader);
+  if (const std::string defect = find_defect(loader.specimen); !defect.empty()) throw bad_data(file, "", defect);
   return std::move(loader.specimen);
 }
 
 Specimen load_specimen(const std::filesystem::path& folder) {
-  const auto file = folder / "specimen.json";
-  std::error_code failure;  // a path that cannot even be examined is no specimen either
-  if (!std::filesystem::exists(file, failure)) {
-    throw Error(ExitStatus::NoInput, folder.string() +
-                                         ": is no specimen folder: specimen.json is missing; make one "
-                                         "with myotact-prepare");
-  }
-  return parse_specimen(read_file(file), folder);
+  return parse_specimen(read_file(specimen_file(folder)), folder);
+}
+
+SpecimenSurvey survey_specimen(const std::filesystem::path& folder) {
+  const std::string file = specimen_file(folder).string();
+  SpecimenSurvey survey;
+  Loader loader{folder, {}, &survey.defects, {}};
+  loader.attempt([&] {
+    const nlohmann::json json = parse_json(read_file(file), file);
+    JsonObject root(JsonValue(json, file));
+    read_specimen(root, loader);
+  });
+  for (const std::string& defect : find_defects(loader.specimen)) survey.defects.push_back(file + ": " + defect);
+  survey.specimen = std::move(loader.specimen);
+  return survey;
 }
 
 }  // namespace myotact::anatomy

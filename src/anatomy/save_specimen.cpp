@@ -163,7 +163,7 @@ void refuse_foreign_folder(const std::filesystem::path& target) {
 
 }  // namespace
 
-void save_specimen(const Specimen& specimen, const std::filesystem::path& folder) {
+void save_specimen(const Specimen& specimen, const std::filesystem::path& folder, const CompanionFiles& companions) {
   namespace fs = std::filesystem;
   if (const std::string defect = find_defect(specimen); !defect.empty()) throw bad_data(folder.string(), "", defect);
   const fs::path given = fs::absolute(folder).lexically_normal();
@@ -175,6 +175,7 @@ void save_specimen(const Specimen& specimen, const std::filesystem::path& folder
     make_writable_folder(target.parent_path());
     make_writable_folder(temporary);
     write_parts(specimen, temporary);
+    for (const auto& [name, bytes] : companions) write_file(temporary / name, bytes);
     swap_in(temporary, target);
   } catch (const fs::filesystem_error& failure) {
     fs::remove_all(temporary, ignored);

@@ -108,12 +108,30 @@ Specimen load_specimen(const std::filesystem::path& folder);
 /// The same with `text` in the place of specimen.json; the meshes it names are read from the folder.
 Specimen parse_specimen(const std::string& text, const std::filesystem::path& folder);
 
+/// A file that is put beside a specimen's own: its name and its bytes.
+using CompanionFiles = std::vector<std::pair<std::string, std::string>>;
+
+/// What can be read of a specimen folder, and all that is wrong with it, one sentence each: what load_specimen() would
+/// refuse, file by file and part by part.
+struct SpecimenSurvey {
+  Specimen specimen;
+  std::vector<std::string> defects;
+};
+/// Throws Error NoInput when there is no specimen.json.
+SpecimenSurvey survey_specimen(const std::filesystem::path& folder);
+
 /// Writes the folder completely, or throws Error (InputOutput; BadData for a specimen with a defect) and leaves nothing
 /// half-written: the files go to a temporary folder beside it that is renamed at the end. An existing specimen folder
 /// is replaced.
-void save_specimen(const Specimen& specimen, const std::filesystem::path& folder);
+void save_specimen(const Specimen& specimen, const std::filesystem::path& folder,
+                   const CompanionFiles& companions = {});
 
-/// What makes a specimen unusable, as one sentence with place, value and remedy; empty when all is well.
+/// What makes a specimen unusable, one sentence a defect with place, value and remedy; empty when all is well. Where
+/// keys or references are wrong, the rest is not looked at.
+std::vector<std::string> find_defects(const Specimen& specimen);
+/// Those of one muscle alone, in a specimen of so many bodies.
+std::vector<std::string> find_defects(const Muscle& muscle, std::size_t body_count);
+/// The first of them, or an empty text.
 std::string find_defect(const Specimen& specimen);
 
 /// Index of the muscle with that key, or -1.

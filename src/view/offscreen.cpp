@@ -106,12 +106,13 @@ OffscreenRenderer::OffscreenRenderer(const anatomy::Specimen& specimen, int widt
 
 OffscreenRenderer::~OffscreenRenderer() = default;
 
-Image OffscreenRenderer::render(const messages::SceneFrame& frame, const Camera& camera) {
+Image OffscreenRenderer::render(const messages::SceneFrame& frame, const Camera& camera,
+                                const std::vector<SceneMark>& marks) {
   const int width = impl_->width;
   const int height = impl_->height;
   impl_->context.make_current();
   glBindFramebuffer(GL_FRAMEBUFFER, impl_->sampled.frame());
-  impl_->renderer.draw(frame, camera, width, height);
+  impl_->renderer.draw(frame, camera, width, height, marks);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, impl_->sampled.frame());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, impl_->plain.frame());
   glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
@@ -131,10 +132,14 @@ Image flipped(int width, int height, const std::vector<std::uint8_t>& rgb) {
   return image;
 }
 
-void write_png(const std::filesystem::path& path, const Image& image) {
+std::string png_bytes(const Image& image) {
   std::string bytes;
   stbi_write_png_to_func(append_bytes, &bytes, image.width, image.height, 3, image.rgb.data(), 3 * image.width);
-  write_file(path, bytes);
+  return bytes;
+}
+
+void write_png(const std::filesystem::path& path, const Image& image) {
+  write_file(path, png_bytes(image));
 }
 
 }  // namespace myotact::view

@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "anatomy/specimen.h"
 #include "messages/scene_frame.h"
 #include "view/camera.h"
+#include "view/scene_mark.h"
 
 namespace myotact::view {
 
@@ -23,12 +25,14 @@ class OffscreenRenderer {
   OffscreenRenderer(const anatomy::Specimen& specimen, int width, int height);
   ~OffscreenRenderer();
 
-  Image render(const messages::SceneFrame& frame, const Camera& camera);
+  Image render(const messages::SceneFrame& frame, const Camera& camera, const std::vector<SceneMark>& marks = {});
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+std::string png_bytes(const Image& image);
 
 /// PNG by temporary file and rename. Throws Error InputOutput.
 void write_png(const std::filesystem::path& path, const Image& image);

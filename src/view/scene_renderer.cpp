@@ -114,7 +114,8 @@ SceneRenderer::SceneRenderer(const anatomy::Specimen& specimen)
   grid_.upload(grid_mesh(bounds_of(specimen)));
 }
 
-void SceneRenderer::draw(const messages::SceneFrame& frame, const Camera& camera, int width, int height) {
+void SceneRenderer::draw(const messages::SceneFrame& frame, const Camera& camera, int width, int height,
+                         const std::vector<SceneMark>& marks) {
   glViewport(0, 0, width, height);
   glEnable(GL_DEPTH_TEST);
   glEnable(GL_BLEND);
@@ -133,6 +134,7 @@ void SceneRenderer::draw(const messages::SceneFrame& frame, const Camera& camera
   surface_.set("world_from_model", glm::mat4(1.0f));
   draw_lines_and_tools(frame);
   draw_muscles(frame);
+  draw_marks(marks);
 }
 
 void SceneRenderer::draw_bones(const messages::SceneFrame& frame) {
@@ -175,6 +177,17 @@ void SceneRenderer::draw_lines_and_tools(const messages::SceneFrame& frame) {
   }
   overlay_.upload(scratch_);
   overlay_.draw(GL_TRIANGLES);
+}
+
+void SceneRenderer::draw_marks(const std::vector<SceneMark>& marks) {
+  if (marks.empty()) return;
+  scratch_.vertices.clear();
+  scratch_.indices.clear();
+  for (const SceneMark& mark : marks) add_sphere(scratch_, mark.place_world_m, mark.radius_m, mark.colour);
+  overlay_.upload(scratch_);
+  glDisable(GL_DEPTH_TEST);
+  overlay_.draw(GL_TRIANGLES);
+  glEnable(GL_DEPTH_TEST);
 }
 
 }  // namespace myotact::view

@@ -9,6 +9,7 @@
 #include "view/camera.h"
 #include "view/drawable.h"
 #include "view/gl_program.h"
+#include "view/scene_mark.h"
 
 namespace myotact::view {
 
@@ -18,18 +19,21 @@ inline constexpr float kArrowLength_m_N = 0.02f;  // the force arrow
 /// Box around the specimen at the file pose.
 ViewBox bounds_of(const anatomy::Specimen& specimen);
 
-/// Draws bones, muscles coloured by activation, muscle lines, tool, proxy and force arrow into the bound framebuffer.
+/// Draws bones, muscles coloured by activation, muscle lines, tool, proxy, force arrow and marks into the bound
+/// framebuffer.
 /// Needs a current OpenGL 3.3 core context from first to last.
 class SceneRenderer {
  public:
   explicit SceneRenderer(const anatomy::Specimen& specimen);
 
-  void draw(const messages::SceneFrame& frame, const Camera& camera, int width, int height);
+  void draw(const messages::SceneFrame& frame, const Camera& camera, int width, int height,
+            const std::vector<SceneMark>& marks = {});
 
  private:
   void draw_bones(const messages::SceneFrame& frame);
   void draw_muscles(const messages::SceneFrame& frame);
   void draw_lines_and_tools(const messages::SceneFrame& frame);
+  void draw_marks(const std::vector<SceneMark>& marks);
 
   const anatomy::Specimen* specimen_;
   GlProgram surface_, flat_;

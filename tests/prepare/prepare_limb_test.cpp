@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "prepare/recipe/make_limb.h"
+#include "prepare/report/html_report.h"
 #include "prepare/shapes.h"
 
 namespace myotact::prepare {
@@ -33,6 +34,18 @@ TEST(PrepareLimb, MakesAMuscleThatHangsOnBothBodiesAndFlexes) {
   EXPECT_NEAR(report.levers_m[0].second, 0.02, 0.003);
   EXPECT_NEAR(geometry::total_volume_m3(rod.tets), report.volume_m3, 0.01 * report.volume_m3);
   EXPECT_NEAR(report.volume_m3 + report.parted_loss_m3, geometry::enclosed_volume_m3(testing::rod_surface({})), 1e-9);
+}
+
+TEST(HtmlReport, StandsAloneAndShowsEveryPart) {
+  LimbWork limb = work_on(testing::small_limb());
+  limb.muscles[0].report.notes.emplace_back("a < b");
+  const anatomy::Specimen specimen = prepare_limb(limb);
+  const std::string html = html_report(limb, specimen, {"something is wrong"});
+  for (const char* part : {"rod", "upper", "something is wrong", "a &lt; b", "dihedral angles", "Stages"}) {
+    EXPECT_THAT(html, HasSubstr(part));
+  }
+  EXPECT_THAT(html, ::testing::Not(HasSubstr("src=\"http")));
+  EXPECT_EQ(html, html_report(limb, specimen, {"something is wrong"}));
 }
 
 TEST(PrepareLimb, GivesTheSameBitsWithOneAndTwoThreads) {

@@ -21,6 +21,7 @@
 #include "prepare/recipe/read_recipe.h"
 #include "prepare/recipe/read_scan.h"
 #include "prepare/recipe/units_and_frame.h"
+#include "prepare/report/html_report.h"
 
 namespace myotact::prepare {
 
@@ -112,9 +113,10 @@ void make_specimen(LimbWork& limb, const Options& options, const fs::path& outpu
       bar.show(progress);
     });
   }();
+  const std::string report = html_report(limb, specimen, find_violations(specimen));
   if (options.mirror) specimen = mirrored(std::move(specimen));
   stop_when_interrupted();
-  anatomy::save_specimen(specimen, output);
+  anatomy::save_specimen(specimen, output, {{"report.html", report}});
   print_report(limb, options.json);
 }
 
@@ -125,6 +127,7 @@ void prepare_folder(const Options& options, const fs::path& recipe_file, const s
   set_units_and_frame(scan, recipe, options.units);
   for (const std::string& note : scan.notes) spdlog::info("{}", note);
   LimbWork limb = make_limb(recipe, scan.bones, scan.muscles, options.settings);
+  limb.notes = std::move(scan.notes);
   make_specimen(limb, options, output);
 }
 
@@ -161,8 +164,10 @@ int prepare_scan(const Options& options) {
 int prepare_loft(const Options& options) {
   check_output(options.output, "specimen");
   return unless_interrupted([&] {
-    LimbWork limb = make_limb(read_recipe(options.recipe), loft_bones(options.recipe), loft_muscles(options.recipe),
-                              options.settings);
+    const AnatomyData recipe = read_recipe(options.recipe);
+    const fs::path shapes =
+        recipe.shapes.empty() ? options.recipe : options.recipe.parent_path() / (recipe.shapes + ".json");
+    LimbWork limb = make_limb(recipe, loft_bones(shapes), loft_muscles(shapes), options.settings);
     make_specimen(limb, options, options.output);
   });
 }
@@ -183,7 +188,9 @@ int import_canine(const Options& options) {
 }
 
 int check_specimen(const Options& options) {
-  const std::vector<std::string> violations = find_violations(anatomy::load_specimen(options.inputs.front()));
+  const anatomy::SpecimenSurvey survey = anatomy::survey_specimen(options.inputs.front());
+  std::vector<std::string> violations = survey.defects;
+  for (std::string& violation : find_violations(survey.specimen)) violations.push_back(std::move(violation));
   for (const std::string& violation : violations) std::cout << violation << "\n";
   if (!violations.empty()) return static_cast<int>(ExitStatus::CheckFailed);
   std::cout << options.inputs.front().string() << ": no violation\n";

@@ -48,6 +48,7 @@ struct LimbWork {
   PrepareSettings settings;
   std::vector<BoneWork> bones;
   std::vector<MuscleWork> muscles;
+  std::vector<std::string> notes;                             // on reading, units and frame
   std::vector<anatomy::Overlap> overlaps;                     // between skins, left after parting
   std::vector<std::pair<std::string, double>> stage_seconds;  // wall time
 };

@@ -54,6 +54,10 @@ void add_muscle(const MuscleWork& work, anatomy::Specimen& specimen) {
   muscle.fibres = work.fibres.direction;
   muscle.sections_m2 = work.profile.tet_section_m2;
   muscle.regions = mark_regions(work.profile, work.belly);
+  if (muscle.pennation_rad > 0.0) {
+    mark_aponeuroses(work.cage.tets, work.origins, muscle.regions);
+    mark_aponeuroses(work.cage.tets, work.insertions, muscle.regions);
+  }
   muscle.attachments = attach_nodes(work);
   muscle.skin = work.skin;
   anatomy::MuscleLine line = work.line;

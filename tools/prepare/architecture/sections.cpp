@@ -130,4 +130,17 @@ std::vector<anatomy::TissueRegion> mark_regions(const MuscleProfile& profile, co
   return regions;
 }
 
+void mark_aponeuroses(const geometry::TetMesh& tets, const AttachmentPatches& patches,
+                      std::vector<anatomy::TissueRegion>& regions) {
+  for (const AttachmentPatch& patch : patches) {
+    for (std::size_t t = 0; t < regions.size(); ++t) {
+      const auto on_patch = std::count_if(tets.corners[t].begin(), tets.corners[t].end(), [&](int n) {
+        return std::binary_search(patch.vertices.begin(), patch.vertices.end(), n);
+      });
+      const bool has_face = on_patch >= 3;
+      if (has_face && regions[t] == anatomy::TissueRegion::Belly) regions[t] = anatomy::TissueRegion::Aponeurosis;
+    }
+  }
+}
+
 }  // namespace myotact::prepare

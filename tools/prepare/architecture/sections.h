@@ -35,4 +35,8 @@ BellySpan find_belly(const MuscleProfile& profile);
 /// Belly or tendon, one a tet.
 std::vector<anatomy::TissueRegion> mark_regions(const MuscleProfile& profile, const BellySpan& belly);
 
+/// Makes the belly's tets that lie on a patch with a face aponeurosis: of a pennate muscle, whose fibres end there.
+void mark_aponeuroses(const geometry::TetMesh& tets, const AttachmentPatches& patches,
+                      std::vector<anatomy::TissueRegion>& regions);
+
 }  // namespace myotact::prepare

@@ -58,6 +58,7 @@ struct AnatomyData {
   std::vector<GroupData> groups;
   std::vector<BandData> built;
   std::vector<LeftOut> leave_out;
+  std::string shapes;  // recipe whose sections and outlines are lofted; empty: its own
 };
 
 }  // namespace myotact::prepare

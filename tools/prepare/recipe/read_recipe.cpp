@@ -178,6 +178,10 @@ AnatomyData read_recipe(const std::filesystem::path& file) {
   if (const auto built = root.find("built")) {
     for (const JsonValue& v : built->elements()) data.built.push_back(read_band(v, data));
   }
+  data.shapes = root.string_or("shapes", "");
+  if (data.shapes.find('/') != std::string::npos) {
+    throw root.at("shapes").error("must be the name of a recipe beside this one, without a path");
+  }
   if (const auto left = root.find("leave_out")) {
     for (const JsonValue& v : left->elements()) data.leave_out.push_back(read_left_out(v));
   }

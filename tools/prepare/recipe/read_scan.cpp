@@ -71,15 +71,18 @@ bool fits(const fs::path& file, const Wanted& part) {
 class Collector {
  public:
   explicit Collector(const AnatomyData& recipe) : wanted_(wanted_by(recipe)), found_(wanted_.size()) {
-    for (const LeftOut& left : recipe.leave_out) left_out_.insert(without_extension(left.file));
+    for (const LeftOut& left : recipe.leave_out) left_out_.emplace(without_extension(left.file), left.why);
   }
 
   void add(const fs::path& file) {
     const std::string name = (file.parent_path().filename() / file.stem()).string();
-    if (left_out_.contains(name)) return;
+    if (const auto left = left_out_.find(name); left != left_out_.end()) {
+      scan_.notes.push_back(name + ": left out: " + left->second);
+      return;
+    }
     const auto part = std::find_if(wanted_.begin(), wanted_.end(), [&](const Wanted& w) { return fits(file, w); });
     if (part == wanted_.end()) {
-      scan_.notes.push_back(file.string() + ": is not in the recipe; left alone");
+      strangers_.push_back(name);
       return;
     }
     auto& place = found_[static_cast<std::size_t>(part - wanted_.begin())];
@@ -95,9 +98,10 @@ class Collector {
     for (std::size_t i = 0; i < wanted_.size(); ++i) {
       if (!found_[i]) continue;
       geometry::SurfaceFile file = geometry::read_surface(*found_[i]);
-      for (const std::string& note : file.notes) scan_.notes.push_back(found_[i]->string() + ": " + note);
+      for (const std::string& note : file.notes) scan_.notes.push_back(wanted_[i].name + ": " + note);
       (wanted_[i].muscle ? scan_.muscles : scan_.bones).push_back({wanted_[i].key, std::move(file.mesh)});
     }
+    if (!strangers_.empty()) scan_.notes.push_back("not in the recipe, left alone: " + join(strangers_));
     return std::move(scan_);
   }
 
@@ -112,7 +116,8 @@ class Collector {
  private:
   std::vector<Wanted> wanted_;
   std::vector<std::optional<fs::path>> found_;
-  std::set<std::string> left_out_;
+  std::map<std::string, std::string> left_out_;  // name -> why
+  std::vector<std::string> strangers_;
   Scan scan_;
 };
 

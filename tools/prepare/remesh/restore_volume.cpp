@@ -1,5 +1,6 @@
 #include "prepare/remesh/restore_volume.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -38,7 +39,7 @@ VolumeGradient measure(const GuardedMesh& guarded) {
 
 }  // namespace
 
-double restore_volume(GuardedMesh& guarded, double volume_m3) {
+double restore_volume(GuardedMesh& guarded, double volume_m3, std::vector<double> room_m) {
   for (int pass = 0; pass < kPasses; ++pass) {
     const VolumeGradient now = measure(guarded);
     if (std::abs(now.volume_m3 / volume_m3 - 1.0) < kCloseEnough) break;
@@ -48,7 +49,10 @@ double restore_volume(GuardedMesh& guarded, double volume_m3) {
     for (std::size_t v = 0; v < now.area_m2.size(); ++v) {
       const OpenMesh::VertexHandle handle(static_cast<int>(v));
       if (guarded.mesh().status(handle).deleted()) continue;
-      guarded.try_move(handle, guarded.position_m(handle) + offset_m * now.area_m2[v].normalized(), kLeastShape);
+      const double way_m = room_m.empty() ? offset_m : std::min(offset_m, room_m[v]);
+      const bool moved =
+          guarded.try_move(handle, guarded.position_m(handle) + way_m * now.area_m2[v].normalized(), kLeastShape);
+      if (moved && !room_m.empty()) room_m[v] -= way_m;
     }
   }
   return measure(guarded).volume_m3 / volume_m3 - 1.0;

@@ -50,7 +50,7 @@ void note(RepairJob& job, std::string_view what, int count, const Vec3& place) {
 }
 
 std::string place_text(const Vec3& place_m) {
-  return fmt::format("({}, {}, {}) m", to_text(place_m.x()), to_text(place_m.y()), to_text(place_m.z()));
+  return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", place_m.x(), place_m.y(), place_m.z());
 }
 
 Error refusal(const RepairJob& job, std::string_view problem, const Vec3& place) {

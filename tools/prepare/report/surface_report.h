@@ -8,6 +8,14 @@
 
 namespace myotact::prepare {
 
+enum class MarkKind { Repair, Overlap, Tet, Origin, Insertion };
+
+/// A place that the report's pictures point out.
+struct ReportMark {
+  MarkKind kind = MarkKind::Repair;
+  Vec3 place_m = Vec3::Zero();
+};
+
 /// What came out for one surface, for people who decide whether to trust it.
 struct SurfaceReport {
   std::string key;
@@ -18,6 +26,7 @@ struct SurfaceReport {
   int skin_triangles = 0;
   double volume_m3 = 0.0;          // of the repaired and parted surface
   std::vector<std::string> notes;  // what a person should look at
+  std::vector<ReportMark> marks;   // where
   // Muscles only.
   double parted_loss_m3 = 0.0;
   std::vector<std::pair<std::string, double>> gave_way;  // bones and muscles it overlapped, volumes [m3]

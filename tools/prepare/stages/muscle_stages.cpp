@@ -90,7 +90,20 @@ void check_quality(const std::string& name, SurfaceReport& report) {
                    fmt::format("the smallest angle is {:.2f} degrees; must be at least {:.0f}. Ask for more tets",
                                angle_deg, kBadDihedral_deg));
   }
+  report.marks.push_back({MarkKind::Tet, report.tets.flattest_m});
   if (angle_deg < kPoorDihedral_deg) report.notes.push_back(fmt::format("flat tet, {:.1f} degrees", angle_deg));
+}
+
+void mark_ends(MuscleWork& muscle) {
+  const auto mark = [&](const AttachmentPatches& patches, MarkKind kind) {
+    for (const AttachmentPatch& patch : patches) {
+      Vec3 middle_m = Vec3::Zero();
+      for (const int v : patch.vertices) middle_m += muscle.cage.surface.positions_m[static_cast<std::size_t>(v)];
+      muscle.report.marks.push_back({kind, middle_m / static_cast<double>(patch.vertices.size())});
+    }
+  };
+  mark(muscle.origins, MarkKind::Origin);
+  mark(muscle.insertions, MarkKind::Insertion);
 }
 
 /// The point of the bones nearest to the site's, or the site's own point where no bone carries it.
@@ -126,6 +139,7 @@ void attach_muscles(LimbWork& limb, const PartDone& done) {
     muscle.origin_bodies = std::move(origin.bodies);
     report_end(muscle.origins, muscle.report.origin_area_m2, muscle.report.origin_gap_m);
     report_end(muscle.insertions, muscle.report.insertion_area_m2, muscle.report.insertion_gap_m);
+    mark_ends(muscle);
   });
 }
 

@@ -31,6 +31,8 @@ void for_each_part(LimbWork& limb, const PartDone& done, Task&& task) {
 
 /// Sesamoid bones have half a hundredth of the area of their paw; specks of a scan are smaller.
 constexpr double kBoneDebris = 1e-3;
+/// Of what parting cut loose and dropped [m3].
+constexpr double kWorthANote_m3 = 1e-8;
 
 void repair(const std::string& key, TriangleMesh& surface, const RepairSettings& settings, SurfaceReport& report) {
   report.key = key;
@@ -40,6 +42,7 @@ void repair(const std::string& key, TriangleMesh& surface, const RepairSettings&
   surface = std::move(result.mesh);
   report.repairs = std::move(result.steps);
   report.moved_m = result.hausdorff_m;
+  for (const RepairStep& step : report.repairs) report.marks.push_back({MarkKind::Repair, step.place_m});
   report.volume_m3 = geometry::enclosed_volume_m3(surface);
 }
 
@@ -56,7 +59,7 @@ void report_parting(const PartReport& part, SurfaceReport& report) {
   for (const auto& [volume_m3, key] : part.gave_way) report.gave_way.emplace_back(key, volume_m3);
   if (!part.hosts.empty()) report.notes.push_back("nested in " + join(part.hosts) + ": keeps its shape");
   if (part.kept_core) report.notes.push_back("would be cut in two by its neighbours: its core stays and overlaps them");
-  if (part.dropped_m3 > 1e-9) {
+  if (part.dropped_m3 > kWorthANote_m3) {
     report.notes.push_back(fmt::format("{:.2f} cm3 of loose ends dropped in parting", 1e6 * part.dropped_m3));
   }
 }

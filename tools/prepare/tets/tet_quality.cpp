@@ -20,13 +20,6 @@ double volume_m3(const TetCorners& x) {
   return (x[1] - x[0]).dot((x[2] - x[0]).cross(x[3] - x[0])) / 6.0;
 }
 
-/// 12 (3 V)^(2/3) over the sum of the squared edges.
-double mean_ratio_of(const TetCorners& x) {
-  double squares_m2 = 0.0;
-  for (const auto& [a, b, c, d] : kEdges) squares_m2 += (x[b] - x[a]).squaredNorm();
-  return 12.0 * std::pow(3.0 * std::max(volume_m3(x), 0.0), 2.0 / 3.0) / squares_m2;
-}
-
 double smallest_height_m(const TetCorners& x) {
   double largest_m2 = 0.0;  // face
   for (std::size_t skip = 0; skip < 4; ++skip) {
@@ -37,6 +30,12 @@ double smallest_height_m(const TetCorners& x) {
 }
 
 }  // namespace
+
+double mean_ratio_of(const TetCorners& x) {
+  double squares_m2 = 0.0;
+  for (const auto& [a, b, c, d] : kEdges) squares_m2 += (x[b] - x[a]).squaredNorm();
+  return 12.0 * std::pow(3.0 * std::max(volume_m3(x), 0.0), 2.0 / 3.0) / squares_m2;
+}
 
 std::array<double, 6> dihedrals_deg(const TetCorners& x) {
   std::array<double, 6> angles_deg{};
@@ -50,16 +49,26 @@ std::array<double, 6> dihedrals_deg(const TetCorners& x) {
   return angles_deg;
 }
 
+TetCorners corners_of(const geometry::TetMesh& mesh, std::size_t tet) {
+  TetCorners x;
+  for (std::size_t k = 0; k < 4; ++k) x[k] = mesh.nodes_m[static_cast<std::size_t>(mesh.corners[tet][k])];
+  return x;
+}
+
 TetQuality measure_tets(const geometry::TetMesh& mesh) {
   TetQuality quality;
   quality.tets = static_cast<int>(mesh.corners.size());
   quality.volume_m3 = geometry::total_volume_m3(mesh);
   quality.shortest_edge_m = quality.smallest_height_m = std::numeric_limits<double>::infinity();
   std::vector<double> angles_deg;
-  for (const auto& corners : mesh.corners) {
-    TetCorners x;
-    for (std::size_t k = 0; k < 4; ++k) x[k] = mesh.nodes_m[static_cast<std::size_t>(corners[k])];
+  for (std::size_t t = 0; t < mesh.corners.size(); ++t) {
+    const TetCorners x = corners_of(mesh, t);
     const auto angles = dihedrals_deg(x);
+    if (const double smallest_deg = *std::min_element(angles.begin(), angles.end());
+        angles_deg.empty() || smallest_deg < quality.smallest_dihedral_deg) {
+      quality.smallest_dihedral_deg = smallest_deg;
+      quality.flattest_m = 0.25 * (x[0] + x[1] + x[2] + x[3]);
+    }
     angles_deg.insert(angles_deg.end(), angles.begin(), angles.end());
     quality.mean_ratio += mean_ratio_of(x) / static_cast<double>(mesh.corners.size());
     quality.smallest_height_m = std::min(quality.smallest_height_m, smallest_height_m(x));
@@ -69,7 +78,6 @@ TetQuality measure_tets(const geometry::TetMesh& mesh) {
   }
   if (angles_deg.empty()) return quality;
   std::sort(angles_deg.begin(), angles_deg.end());
-  quality.smallest_dihedral_deg = angles_deg.front();
   quality.first_percentile_dihedral_deg = angles_deg[angles_deg.size() / 100];
   return quality;
 }
