@@ -131,11 +131,44 @@ TEST(FindInSpecimen, ByKeyOrNothing) {
   EXPECT_EQ(find_body(specimen, ""), -1);
 }
 
-TEST(CanineForelimb, TheCommittedSpecimenLoads) {
-  const Specimen limb = load_specimen(data_folder() / "meshes/canine_forelimb");
-  EXPECT_EQ(limb.muscles.size(), 7u);
-  EXPECT_GE(find_muscle(limb, "biceps_brachii"), 0);
-  EXPECT_GE(find_joint(limb, "elbow"), 0);
+TEST(EmbeddedSpecimens, HoldTheMusclesOfTheirJoints) {
+  struct Expected {
+    const char* name;
+    std::size_t muscles;
+    const char* muscle;
+    const char* joint;
+  };
+  for (const Expected& expected : {Expected{"canine_elbow", 7, "biceps_brachii", "elbow"},
+                                   Expected{"canine_forelimb", 25, "supraspinatus", "elbow"},
+                                   Expected{"canine_hindlimb", 12, "gastrocnemius", "stifle"}}) {
+    const Specimen limb = load_specimen(data_folder() / "meshes" / expected.name);
+    EXPECT_EQ(limb.muscles.size(), expected.muscles) << expected.name;
+    EXPECT_GE(find_muscle(limb, expected.muscle), 0);
+    EXPECT_GE(find_joint(limb, expected.joint), 0);
+  }
+}
+
+TEST(SurveySpecimen, NamesEveryDefectAndReadsTheRest) {
+  const myotact::testing::TemporaryFolder folder;
+  const auto copy = folder / "elbow";
+  std::filesystem::copy(data_folder() / "meshes/canine_elbow", copy, std::filesystem::copy_options::recursive);
+  std::filesystem::remove(copy / "skins/anconeus.ply");
+  std::string text = read_file(copy / "specimen.json");
+  const auto spoil = [&](const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+  };
+  spoil("\"pennation_rad\": 0.", "\"pennation_rad\": 9.");  // the biceps'
+  spoil("\"type\": \"hinge\"", "\"type\": \"hindge\"");
+  write_file(copy / "specimen.json", text);
+  const SpecimenSurvey survey = survey_specimen(copy);
+  EXPECT_EQ(survey.specimen.muscles.size(), 6u);
+  std::string all;
+  for (const std::string& defect : survey.defects) all += defect + "\n";
+  for (const char* told : {"anconeus.ply", "hinge", "biceps_brachii: pennation_rad"}) {
+    EXPECT_THAT(all, ::testing::HasSubstr(told));
+  }
 }
 
 }  // namespace

@@ -45,16 +45,15 @@ TEST_F(BadInput, SyntaxErrorNamesLineAndColumn) {
 }
 
 TEST_F(BadInput, WrongTypesNameTheirPointer) {
-  const Outcome outcome = run_program(
-      "run " + scene(R"({"schema": 1, "name": "x", "specimen": "canine_forelimb", "dt_s": "fast"})") + out());
+  const Outcome outcome =
+      run_program("run " + scene(R"({"schema": 1, "name": "x", "specimen": "canine_elbow", "dt_s": "fast"})") + out());
   EXPECT_EQ(outcome.status, 65);
   EXPECT_THAT(outcome.output, HasSubstr("/dt_s: is \"fast\"; must be a number"));
 }
 
 TEST_F(BadInput, UnknownMuscleNamesTheNearest) {
   const Outcome outcome = run_program(
-      "run " +
-      scene(R"({"schema": 1, "name": "x", "specimen": "canine_forelimb", "activations": {"biceps_brachi": 1}})") +
+      "run " + scene(R"({"schema": 1, "name": "x", "specimen": "canine_elbow", "activations": {"biceps_brachi": 1}})") +
       out());
   EXPECT_EQ(outcome.status, 65);
   EXPECT_THAT(outcome.output, HasSubstr("nearest is \"biceps_brachii\""));

@@ -236,7 +236,7 @@ int main(int argc, char** argv) {
   using namespace myotact;
   benchmark::Initialize(&argc, argv);
   const std::filesystem::path built_in = data_folder() / "meshes";
-  std::vector<std::filesystem::path> folders{built_in / "canine_forelimb", built_in / "canine_forelimb_fine"};
+  std::vector<std::filesystem::path> folders{built_in / "canine_elbow", built_in / "canine_forelimb"};
   for (int i = 1; i < argc; ++i) folders.emplace_back(argv[i]);
   std::vector<anatomy::Specimen> specimens;
   for (const auto& folder : folders) specimens.push_back(anatomy::load_specimen(folder));

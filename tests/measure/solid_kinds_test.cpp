@@ -68,7 +68,7 @@ TEST(SolidKinds, LongQuadraticBeamBendsAsTimoshenkoSays) {
 
 /// Loads and ends must mean the same on the cage and on its refinement.
 TEST(NestedMuscle, KeepsEndsAndLoadsWhenRefined) {
-  const NestedMuscle cage = read_nested_muscle("canine_forelimb", "biceps_brachii"), fine = refine_muscle(cage);
+  const NestedMuscle cage = read_nested_muscle("canine_elbow", "biceps_brachii"), fine = refine_muscle(cage);
   EXPECT_EQ(fine.mesh.corners.size(), 8 * cage.mesh.corners.size());
   const auto solid_of = [](const NestedMuscle& muscle, simulation::ElementKind kind) {
     ElementChoice choice;

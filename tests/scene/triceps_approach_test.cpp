@@ -34,7 +34,7 @@ double winding_number(const geometry::TriangleMesh& mesh, std::span<const Vec3> 
 
 class Triceps {
  public:
-  Triceps() : specimen(anatomy::load_specimen(data_folder() / "meshes" / "canine_forelimb")), simulation(specimen, {}) {
+  Triceps() : specimen(anatomy::load_specimen(data_folder() / "meshes" / "canine_elbow")), simulation(specimen, {}) {
     for (int m = 0; m < static_cast<int>(specimen.muscles.size()); ++m) {
       if (specimen.muscles[static_cast<std::size_t>(m)].key == "triceps_brachii_long") muscle = m;
     }

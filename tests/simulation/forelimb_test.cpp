@@ -19,7 +19,7 @@ struct Forelimb {
   explicit Forelimb(TissueModel model = TissueModel::Fem)
       : simulation(specimen, {.tissue = std::vector<TissueModel>(specimen.muscles.size(), model)}) {}
 
-  anatomy::Specimen specimen = anatomy::load_specimen(MYOTACT_SOURCE_DIR "/meshes/canine_forelimb");
+  anatomy::Specimen specimen = anatomy::load_specimen(MYOTACT_SOURCE_DIR "/meshes/canine_elbow");
   int elbow = anatomy::find_joint(specimen, "elbow");
   Simulation simulation;
 
@@ -106,7 +106,7 @@ TEST_P(ForelimbOf, StandsJumpsOfActivationAndAYankedSkin) {
 }
 
 TEST(Forelimb, WorkersDoNotChangeABit) {
-  const anatomy::Specimen specimen = anatomy::load_specimen(MYOTACT_SOURCE_DIR "/meshes/canine_forelimb");
+  const anatomy::Specimen specimen = anatomy::load_specimen(MYOTACT_SOURCE_DIR "/meshes/canine_elbow");
   std::vector<std::uint64_t> hashes;
   for (int workers : {1, 2, 8}) {
     SimulationSettings settings;

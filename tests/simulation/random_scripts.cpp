@@ -10,7 +10,7 @@
 namespace myotact::simulation {
 namespace {
 
-constexpr const char* kSpecimen = MYOTACT_SOURCE_DIR "/meshes/canine_forelimb";
+constexpr const char* kSpecimen = MYOTACT_SOURCE_DIR "/meshes/canine_elbow";
 /// Nothing that a hand does throws tissue faster than this.
 constexpr double kFastest_m_s = 30.0;
 

@@ -14,7 +14,7 @@ namespace myotact::simulation {
 namespace {
 
 const anatomy::Specimen& specimen() {
-  static const anatomy::Specimen loaded = anatomy::load_specimen(MYOTACT_SOURCE_DIR "/meshes/canine_forelimb");
+  static const anatomy::Specimen loaded = anatomy::load_specimen(MYOTACT_SOURCE_DIR "/meshes/canine_elbow");
   return loaded;
 }
 

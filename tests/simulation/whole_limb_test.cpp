@@ -1,0 +1,79 @@
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "simulation/line_model.h"
+#include "simulation/simulation.h"
+
+// One muscle, one mechanics: in both embedded whole limbs, every muscle of finite elements pulls as its line does.
+
+namespace myotact::simulation {
+namespace {
+
+constexpr double kTurn_rad = 0.5 * 3.14159265358979323846 / 180.0;
+constexpr double kAgreement = 0.05;
+/// With less leverage a joint's turn hardly changes the length, and rounding would be divided by it.
+constexpr double kLeastLever_m = 2e-3;
+constexpr double kActivation = 0.5;
+
+class WholeLimb : public ::testing::TestWithParam<const char*> {
+ protected:
+  /// The muscles' forces [N] at equilibrium with one joint turned; empty when there is none.
+  std::vector<double> forces_N(int joint, double angle_rad) {
+    std::vector<double> angles(specimen_.joints.size(), 0.0);
+    if (joint >= 0) angles[static_cast<std::size_t>(joint)] = angle_rad;
+    if (!simulation_.settle(angles, std::vector<double>(specimen_.muscles.size(), kActivation))) return {};
+    std::vector<double> forces;
+    for (int m = 0; m < static_cast<int>(specimen_.muscles.size()); ++m)
+      forces.push_back(simulation_.muscle_force_N(m));
+    return forces;
+  }
+
+  /// The hinge that changes a muscle's length most, with its lever; none when the muscle crosses no hinge.
+  std::pair<int, double> best_lever_m(std::size_t muscle) const {
+    LineGeometry geometry;
+    for (const anatomy::MuscleLine& line : specimen_.lines) {
+      if (line.muscle == static_cast<int>(muscle)) measure_line(line, Skeleton(specimen_), geometry);
+    }
+    std::pair<int, double> best{-1, kLeastLever_m};
+    for (int j = 0; j < static_cast<int>(specimen_.joints.size()); ++j) {
+      if (std::abs(geometry.slope_m_rad[j]) > std::abs(best.second)) best = {j, geometry.slope_m_rad[j]};
+    }
+    return best;
+  }
+
+  anatomy::Specimen specimen_ = anatomy::load_specimen(std::string(MYOTACT_SOURCE_DIR "/meshes/") + GetParam());
+  Simulation simulation_{
+      specimen_, {.workers = 2, .tissue = std::vector<TissueModel>(specimen_.muscles.size(), TissueModel::Fem)}};
+};
+INSTANTIATE_TEST_SUITE_P(Embedded, WholeLimb, ::testing::Values("canine_forelimb", "canine_hindlimb"));
+
+TEST_P(WholeLimb, IsometricForcesAreTheLines) {
+  const std::vector<double> forces = forces_N(-1, 0.0);
+  ASSERT_EQ(forces.size(), specimen_.muscles.size());
+  for (std::size_t m = 0; m < forces.size(); ++m) {
+    const LineForce line = line_force(specimen_.muscles[m], 0.0, 0.0, kActivation);
+    EXPECT_NEAR(forces[m] / line.force_N, 1.0, kAgreement) << specimen_.muscles[m].key;
+  }
+}
+
+TEST_P(WholeLimb, ForcesChangeWithLengthAsTheLinesDo) {
+  for (int j = 0; j < static_cast<int>(specimen_.joints.size()); ++j) {
+    if (specimen_.joints[static_cast<std::size_t>(j)].type != anatomy::JointType::Hinge) continue;
+    const std::vector<double> flexed = forces_N(j, kTurn_rad), extended = forces_N(j, -kTurn_rad);
+    ASSERT_EQ(flexed.size(), specimen_.muscles.size());
+    ASSERT_EQ(extended.size(), specimen_.muscles.size());
+    for (std::size_t m = 0; m < flexed.size(); ++m) {
+      const auto [joint, lever] = best_lever_m(m);
+      if (joint != j) continue;
+      const double stiffness = (flexed[m] - extended[m]) / (2.0 * kTurn_rad * lever);
+      const LineForce line = line_force(specimen_.muscles[m], 0.0, 0.0, kActivation);
+      EXPECT_NEAR(stiffness / line.stiffness_N_m, 1.0, kAgreement)
+          << specimen_.muscles[m].key << " across " << specimen_.joints[static_cast<std::size_t>(j)].key;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace myotact::simulation
