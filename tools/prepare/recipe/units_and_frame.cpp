@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -21,9 +23,11 @@ struct Unit {
 };
 constexpr std::array<Unit, 4> kUnits = {{{"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}}};
 
-/// A scan is the recipe's limb when its diagonal lies between these multiples of the spread of the attachments: a foot
-/// or the trunk's muscles may be missing from either.
-constexpr double kSmallest = 0.4, kLargest = 2.5;
+/// A scan's muscles are the recipe's when their diagonals are, in the median, between these multiples of the spread of
+/// their attachments: sheets are wider than that, and the model may end short.
+constexpr double kSmallest = 0.4, kLargest = 4.0;
+/// Attachments that lie nearer to each other say little of a muscle's size [m].
+constexpr double kLeastSpread_m = 5e-3;
 /// Smallest and largest diagonal of a dog's limb [m].
 constexpr double kSmallestLimb_m = 0.05, kLargestLimb_m = 3.0;
 /// Attachments of a muscle lie on it, but for what the model lacks [m].
@@ -77,24 +81,35 @@ double attachment_distance_m(const Scan& scan, const AnatomyData& recipe, double
   return distances_m[distances_m.size() / 2];
 }
 
+/// Median over the muscles of a muscle's diagonal, in the scan's unit, over the spread of its attachments [1/m].
+std::optional<double> size_ratio(const Scan& scan, const AnatomyData& recipe) {
+  std::vector<double> ratios;
+  for (const NamedSurface& part : scan.muscles) {
+    const Scan alone{{}, {part}, {}};
+    const double spread_m = box_of(recipe, alone).diagonal().norm();
+    if (spread_m >= kLeastSpread_m) ratios.push_back(box_of(alone).diagonal().norm() / spread_m);
+  }
+  if (ratios.empty()) return {};
+  std::sort(ratios.begin(), ratios.end());
+  return ratios[ratios.size() / 2];
+}
+
 Unit unit_of(const Scan& scan, const AnatomyData& recipe, const std::string& units) {
   for (const Unit& unit : kUnits) {
     if (units == unit.name) return unit;
   }
-  const double diagonal = box_of(scan).diagonal().norm();
-  const double expected_m = box_of(recipe, scan).diagonal().norm();
-  std::optional<Unit> best;
-  const auto misfit = [&](const Unit& unit) { return std::abs(std::log(diagonal * unit.metres / expected_m)); };
-  for (const Unit& unit : kUnits) {
-    if (!best || misfit(unit) < misfit(*best)) best = unit;
+  const auto ratio = size_ratio(scan, recipe);
+  if (!ratio) {
+    throw bad_data("units", "", "the recipe's attachments say nothing of the size; name the unit with --units");
   }
-  const double ratio = diagonal * best->metres / expected_m;
-  if (ratio >= kSmallest && ratio <= kLargest) return *best;
-  throw bad_data(
-      "units", "",
-      fmt::format("the scan's diagonal is {} in its own unit, the recipe's attachments span {:.3f} m: no unit "
-                  "of m, cm, mm, in makes them fit. Name it with --units, or another recipe",
-                  to_text(diagonal), expected_m));
+  const auto misfit = [&](const Unit& unit) { return std::abs(std::log(*ratio * unit.metres)); };
+  const Unit best = *std::min_element(kUnits.begin(), kUnits.end(),
+                                      [&](const Unit& a, const Unit& b) { return misfit(a) < misfit(b); });
+  if (*ratio * best.metres >= kSmallest && *ratio * best.metres <= kLargest) return best;
+  throw bad_data("units", "",
+                 fmt::format("the muscles are {:.3g} times as large as the recipe's if the unit is {}, the nearest of "
+                             "m, cm, mm, in; must be {} .. {} times. Name it with --units, or another recipe",
+                             *ratio * best.metres, best.name, kSmallest, kLargest));
 }
 
 void scale(Scan& scan, double factor) {
