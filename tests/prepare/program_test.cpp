@@ -1,6 +1,5 @@
 // The program myotact-prepare from outside: exit statuses, what it writes and what it leaves behind.
 
-#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -95,24 +94,6 @@ TEST_F(Program, SaysThatItCannotWrite) {
   EXPECT_EQ(run("loft " + assets + " -o " + scan() + "/blocker/specimen"), status(ExitStatus::InputOutput));
   EXPECT_THAT(error_, HasSubstr("blocker"));
   EXPECT_TRUE(nothing_left_behind());
-}
-
-TEST_F(Program, FindsNothingWrongWithTheEmbeddedLimbs) {
-  for (const char* limb : {"canine_forelimb", "canine_hindlimb"}) {
-    EXPECT_EQ(run(std::string("check ") + MYOTACT_SOURCE_DIR + "/meshes/" + limb), status(ExitStatus::Done))
-        << read_file(folder_ / "stdout");
-  }
-}
-
-TEST_F(Program, NamesEveryViolationOfABrokenSpecimen) {
-  fs::copy(fs::path(MYOTACT_SOURCE_DIR) / "meshes" / "canine_hindlimb", specimen(), fs::copy_options::recursive);
-  fs::remove(folder_ / "specimen" / "skins" / "gracilis.ply");
-  fs::remove(folder_ / "specimen" / "muscles" / "vastus_medialis.vtk");
-  EXPECT_EQ(run("check " + specimen()), status(ExitStatus::CheckFailed));
-  const std::string said = read_file(folder_ / "stdout");
-  EXPECT_THAT(said, HasSubstr("skins/gracilis.ply"));
-  EXPECT_THAT(said, HasSubstr("muscles/vastus_medialis.vtk"));
-  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 2) << said;
 }
 
 }  // namespace
