@@ -1,10 +1,9 @@
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "anatomy/specimen.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/folder.h"
 #include "geometry/mesh_files.h"
 
 namespace myotact::anatomy {
@@ -138,53 +137,14 @@ void write_parts(const Specimen& specimen, const std::filesystem::path& folder) 
   write_file(folder / "specimen.json", json.dump(1) + "\n");
 }
 
-/// Puts the whole folder `fresh` in the place of `target`. What stood there is removed last, and comes back on failure.
-void swap_in(const std::filesystem::path& fresh, const std::filesystem::path& target) {
-  const std::filesystem::path old = fresh.string() + ".old";
-  const bool replaces = std::filesystem::exists(target);
-  if (replaces) std::filesystem::rename(target, old);
-  std::error_code failure;
-  std::filesystem::rename(fresh, target, failure);
-  if (failure) {
-    if (replaces) std::filesystem::rename(old, target);
-    throw std::filesystem::filesystem_error("cannot be put in place", fresh, target, failure);
-  }
-  std::filesystem::remove_all(old);
-}
-
-/// An empty folder, a specimen or nothing may be overwritten; anything else is not ours to remove.
-void refuse_foreign_folder(const std::filesystem::path& target) {
-  namespace fs = std::filesystem;
-  if (!fs::exists(target)) return;
-  if (fs::is_directory(target) && (fs::is_empty(target) || fs::exists(target / "specimen.json"))) return;
-  throw Error(ExitStatus::InputOutput,
-              target.string() + ": holds something that is no specimen; name another folder for the specimen");
-}
-
 }  // namespace
 
 void save_specimen(const Specimen& specimen, const std::filesystem::path& folder, const CompanionFiles& companions) {
-  namespace fs = std::filesystem;
   if (const std::string defect = find_defect(specimen); !defect.empty()) throw bad_data(folder.string(), "", defect);
-  const fs::path given = fs::absolute(folder).lexically_normal();
-  const fs::path target = given.has_filename() ? given : given.parent_path();
-  const fs::path temporary = target.string() + fmt::format(".{}.new", ::getpid());
-  std::error_code ignored;
-  try {
-    refuse_foreign_folder(target);
-    make_writable_folder(target.parent_path());
-    make_writable_folder(temporary);
-    write_parts(specimen, temporary);
-    for (const auto& [name, bytes] : companions) write_file(temporary / name, bytes);
-    swap_in(temporary, target);
-  } catch (const fs::filesystem_error& failure) {
-    fs::remove_all(temporary, ignored);
-    throw Error(ExitStatus::InputOutput,
-                target.string() + ": " + failure.what() + ". Check the folder and its permissions.");
-  } catch (...) {
-    fs::remove_all(temporary, ignored);
-    throw;
-  }
+  write_folder(folder, "specimen.json", [&](const std::filesystem::path& fresh) {
+    write_parts(specimen, fresh);
+    for (const auto& [name, bytes] : companions) write_file(fresh / name, bytes);
+  });
 }
 
 }  // namespace myotact::anatomy

@@ -256,6 +256,17 @@ void add_units(std::vector<DirtyKind>& kinds) {
                    Repaired, "holes closed"});
 }
 
+/// A body along x from -half to half, as a ring that closes and goes on for 6 % of a turn.
+TriangleMesh bent_round(TriangleMesh m) {
+  double half_m = 0.0;
+  for (const Vec3& p : m.positions_m) half_m = std::max(half_m, p.x());
+  for (Vec3& p : m.positions_m) {
+    const double turn = 1.06 * std::numbers::pi * p.x() / half_m, radius_m = 1.5 * half_m + p.z();
+    p = Vec3(radius_m * std::sin(turn), p.y(), radius_m * std::cos(turn));
+  }
+  return m;
+}
+
 }  // namespace
 
 std::vector<DirtyKind> piece_defects() {
@@ -290,6 +301,9 @@ std::vector<DirtyKind> lone_surfaces() {
   box_with_half_a_side.triangles.pop_back();
 
   return {{"nothing", fixed({}), Refused, "is empty"},
+          {"a sphere bent until its ends are in each other", fixed(bent_round(sphere_body().mesh)), Repaired,
+           "winding number", 0.0, 0.0},
+          {"a muscle bent until its ends are in each other", fixed(bent_round(muscle_body().mesh)), Refused, "cross"},
           {"a tetrahedron", fixed(tetrahedron), Untouched, "", 0.0, 0.0},
           {"a tetrahedron without a side", fixed(three), Refused, "is open"},
           {"a box without half a side", fixed(box_with_half_a_side), Refused, "hole with 3 edges"},

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "prepare/field/signed_distance.h"
+#include "prepare/part/film.h"
 #include "prepare/part/overlap_measure.h"
 #include "prepare/remesh/crossing_triangles.h"
 #include "prepare/shapes.h"
@@ -92,6 +93,39 @@ TEST(PartSurfaces, KeepsTheCoreOfAMuscleThatABoneWouldCutInTwo) {
   for (const Vec3& p : muscles[0].surface.positions_m) box.extend(p);
   EXPECT_GT(box.sizes().x(), 0.99 * thin.length_m);
   EXPECT_GT(reports[0].volume_lost_m3, 0.0);
+}
+
+/// 2 mm thick, in the plane z = 0.
+NamedSurface thin_sheet() {
+  return {"sheet", testing::sheet_surface({})};
+}
+
+TEST(PartSurfaces, CoversANestedMuscleThatStandsOutOfBothFacesOfASheet) {
+  std::vector<NamedSurface> muscles{thin_sheet(), ball("ball", 0.0, 0.0012)};
+  const auto reports = part_surfaces(muscles, {});
+  EXPECT_THAT(reports[1].hosts, ElementsAre("sheet"));
+  EXPECT_TRUE(reports[0].filmed);
+  EXPECT_EQ(reports[0].tunnels, 0);
+  EXPECT_EQ(tunnels(muscles[0].surface), 0);
+  expect_whole(muscles[0].surface);
+  EXPECT_LT(measure_overlap(SignedDistance(muscles[0].surface), SignedDistance(muscles[1].surface)).depth_m, 1e-4);
+}
+
+TEST(PartSurfaces, CoversBoneThatStandsOutOfASheet) {
+  std::vector<NamedSurface> muscles{thin_sheet()};
+  const std::vector<NamedSurface> bones{{"bone", testing::sphere_surface({0.0, 0.0, -0.006}, 0.008, 3)}};
+  const auto reports = part_surfaces(muscles, bones);
+  EXPECT_TRUE(reports[0].filmed);
+  EXPECT_EQ(tunnels(muscles[0].surface), 0);
+  expect_whole(muscles[0].surface);
+  EXPECT_EQ(measure_overlap(SignedDistance(muscles[0].surface), SignedDistance(bones[0].surface)).depth_m, 0.0);
+}
+
+TEST(PartSurfaces, LeavesASheetBittenThatANeighbourReachesIntoFromItsEdge) {
+  std::vector<NamedSurface> muscles{thin_sheet(), {"ball", testing::sphere_surface({0.0, 0.03, 0.0}, 0.012, 3)}};
+  const auto reports = part_surfaces(muscles, {});
+  EXPECT_GT(reports[0].volume_lost_m3, 0.0);
+  EXPECT_FALSE(reports[0].filmed);
 }
 
 TEST(PartSurfaces, PassesMusclesThatTouchNothingBitForBit) {

@@ -88,6 +88,20 @@ TEST_F(Program, RefusesAFileThatIsNoMesh) {
   EXPECT_TRUE(nothing_left_behind());
 }
 
+TEST_F(Program, StopsAfterAStageWithAScanThatCanBePreparedFurther) {
+  const std::string recipe = std::string(MYOTACT_SOURCE_DIR) + "/assets/canine/hindlimb.json";
+  const fs::path read = folder_ / "read", repaired = folder_ / "repaired";
+  ASSERT_EQ(run("loft " + recipe + " --until read -o " + read.string()), status(ExitStatus::Done)) << error_;
+  ASSERT_EQ(run(read.string() + " --until repair -o " + repaired.string()), status(ExitStatus::Done)) << error_;
+  for (const char* file : {"bones/femur.ply", "muscles/gracilis.ply", "stage.jsonl"}) {
+    EXPECT_TRUE(fs::exists(repaired / file)) << file;
+  }
+  EXPECT_FALSE(fs::exists(repaired / "specimen.json"));
+  EXPECT_EQ(read_file(repaired / "bones/femur.ply"), read_file(read / "bones/femur.ply"));  // was clean
+  EXPECT_EQ(run(read.string() + " --until nowhere -o " + scan()), status(ExitStatus::Usage));
+  EXPECT_THAT(error_, HasSubstr("tetrahedralise"));
+}
+
 TEST_F(Program, SaysThatItCannotWrite) {
   put("blocker", "a file where a folder is wanted");
   const std::string assets = std::string(MYOTACT_SOURCE_DIR) + "/assets/canine";

@@ -22,12 +22,15 @@
 #include "prepare/recipe/read_scan.h"
 #include "prepare/recipe/units_and_frame.h"
 #include "prepare/report/html_report.h"
+#include "prepare/save_stage.h"
 
 namespace myotact::prepare {
 
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kRead = "read";
 
 std::atomic<int> received_signal{0};
 static_assert(std::atomic<int>::is_always_lock_free);
@@ -105,14 +108,32 @@ void print_report(const LimbWork& limb, bool json) {
   std::cout << std::endl;
 }
 
+/// Calls work(on_progress) with a progress bar that also looks for signals.
+template <class Work>
+auto with_progress(Work&& work) {
+  ProgressBar bar;
+  return work([&](const Progress& progress) {
+    stop_when_interrupted();
+    bar.show(progress);
+  });
+}
+
+void stop_at_stage(LimbWork& limb, const Options& options, const fs::path& output) {
+  if (options.until != kRead) {
+    with_progress([&](const OnProgress& on_progress) { run_stages(limb, options.until, on_progress); });
+  }
+  stop_when_interrupted();
+  save_stage(limb, output);
+  print_report(limb, options.json);
+}
+
 void make_specimen(LimbWork& limb, const Options& options, const fs::path& output) {
-  anatomy::Specimen specimen = [&] {
-    ProgressBar bar;
-    return prepare_limb(limb, [&](const Progress& progress) {
-      stop_when_interrupted();
-      bar.show(progress);
-    });
-  }();
+  if (!options.until.empty()) {
+    stop_at_stage(limb, options, output);
+    return;
+  }
+  anatomy::Specimen specimen =
+      with_progress([&](const OnProgress& on_progress) { return prepare_limb(limb, on_progress); });
   const std::string report = html_report(limb, specimen, find_violations(specimen));
   if (options.mirror) specimen = mirrored(std::move(specimen));
   stop_when_interrupted();
@@ -147,6 +168,12 @@ int unless_interrupted(Command&& command) {
 void watch_for_interruption() {
   std::signal(SIGINT, remember);
   std::signal(SIGTERM, remember);
+}
+
+std::vector<std::string> stages_to_stop_at() {
+  std::vector<std::string> stages = stage_names();
+  stages.insert(stages.begin(), kRead);
+  return stages;
 }
 
 int prepare_scan(const Options& options) {

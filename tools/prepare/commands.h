@@ -15,10 +15,14 @@ struct Options {
   std::filesystem::path recipe;  // empty: the built-in one that knows the inputs' names
   std::filesystem::path output;
   std::string units;  // empty: guessed
+  std::string until;  // last stage, whose result is written instead of a specimen; empty: all of them
   bool mirror = false;
   bool json = false;
   PrepareSettings settings;
 };
+
+/// What `until` may be: "read", and the stages after it.
+std::vector<std::string> stages_to_stop_at();
 
 /// Surfaces and a recipe in, a specimen out.
 int prepare_scan(const Options& options);

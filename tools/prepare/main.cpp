@@ -26,6 +26,11 @@ void add_common(CLI::App& command, prepare::Options& options) {
   command.add_flag("--json", options.json, "report as JSON lines");
 }
 
+void add_until(CLI::App& command, prepare::Options& options) {
+  command.add_option("--until", options.until, "last stage; its surfaces, tets and report are written, no specimen")
+      ->check(CLI::IsMember(prepare::stages_to_stop_at()));
+}
+
 int fail(ExitStatus status, const std::string& text) {
   spdlog::error("{}", text);
   return static_cast<int>(status);
@@ -37,6 +42,7 @@ int main(int argc, char** argv) {
   CLI::App program("Turns scans of a limb into a specimen that can be touched. AGPL-3.0-or-later.", "myotact-prepare");
   prepare::Options options;
   add_common(program, options);
+  add_until(program, options);
   program.add_option("scan", options.inputs,
                      "folder with bones/ and muscles/, or surface files: STL, OBJ, PLY, OFF, VTK");
   program.add_option("--recipe", options.recipe, "JSON file that names parts, joints and attachments");
@@ -45,6 +51,7 @@ int main(int argc, char** argv) {
   CLI::App* loft = program.add_subcommand("loft", "make the surfaces from a recipe's own sections and outlines");
   loft->add_option("recipe", options.recipe, "RECIPE.json")->required();
   add_common(*loft, options);
+  add_until(*loft, options);
   CLI::App* import = program.add_subcommand("import", "make both whole limbs of the canine data set");
   import->add_option("dataset", options.inputs, "its folder; default: MYOTACT_CANINE_DIR")->expected(0, 1);
   add_common(*import, options);

@@ -93,7 +93,13 @@ anatomy::Specimen collect(const LimbWork& limb) {
 
 }  // namespace
 
-anatomy::Specimen prepare_limb(LimbWork& limb, const OnProgress& on_progress) {
+std::vector<std::string> stage_names() {
+  std::vector<std::string> names;
+  for (const Stage& stage : kStages) names.emplace_back(stage.name);
+  return names;
+}
+
+void run_stages(LimbWork& limb, const std::string& last, const OnProgress& on_progress) {
   double before = 0.0;
   for (const Stage& stage : kStages) {
     std::mutex mutex;
@@ -112,8 +118,13 @@ anatomy::Specimen prepare_limb(LimbWork& limb, const OnProgress& on_progress) {
     });
     limb.stage_seconds.emplace_back(stage.name,
                                     std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    if (stage.name == last) return;
     before += stage.share;
   }
+}
+
+anatomy::Specimen prepare_limb(LimbWork& limb, const OnProgress& on_progress) {
+  run_stages(limb, kStages.back().name, on_progress);
   anatomy::Specimen specimen = collect(limb);
   if (const std::string defect = anatomy::find_defect(specimen); !defect.empty()) {
     throw Error(ExitStatus::BadData, "check: " + defect);

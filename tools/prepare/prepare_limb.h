@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "anatomy/specimen.h"
 #include "prepare/limb_work.h"
@@ -16,8 +17,14 @@ struct Progress {
 };
 using OnProgress = std::function<void(const Progress&)>;
 
-/// Takes the limb through all stages, from raw surfaces to a specimen that has no defect. Deterministic, whatever the
+/// The stages by name, in their order.
+std::vector<std::string> stage_names();
+
+/// Takes the limb through the stages up to and with `last`, which is one of stage_names(). Deterministic, whatever the
 /// number of threads. Throws Error BadData naming part, stage, place and remedy.
+void run_stages(LimbWork& limb, const std::string& last, const OnProgress& on_progress = {});
+
+/// Takes the limb through all stages, from raw surfaces to a specimen that has no defect. Throws as above.
 anatomy::Specimen prepare_limb(LimbWork& limb, const OnProgress& on_progress = {});
 
 }  // namespace myotact::prepare

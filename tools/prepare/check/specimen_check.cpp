@@ -137,7 +137,7 @@ std::vector<std::string> find_violations(const anatomy::Specimen& specimen) {
   for (const anatomy::Overlap& overlap : specimen.overlaps) {
     if (overlap.depth_m <= kDeepestListed_m) continue;
     violations.push_back(
-        fmt::format("specimen.json: overlaps: {} and {} reach {:.1f} mm into each other; must be at most {:.1f} mm",
+        fmt::format("specimen.json: overlaps: {} and {} reach {:.2f} mm into each other; must be at most {:.2f} mm",
                     overlap.a, overlap.b, 1e3 * overlap.depth_m, 1e3 * kDeepestListed_m));
   }
   return violations;

@@ -9,6 +9,10 @@
 
 namespace myotact::prepare {
 
+/// A distance that the local radius is added to, or scaled by, changes a little faster than distance does, because the
+/// radius varies in space: level sets are extracted from such fields times this.
+constexpr double kFlattening = 0.75;
+
 /// How thick a body is near a place: the radius of the largest balls that fit inside there [m], smoothed over a few
 /// millimetres. Measured at the triangles (the ball that touches there), spread to a lattice, interpolated between.
 class LocalRadius {

@@ -16,6 +16,8 @@ struct PartReport {
   double volume_lost_m3 = 0.0;  // to neighbours, bones and the clearance between them
   double dropped_m3 = 0.0;      // of that: loose ends and flaps too thin to be muscle
   bool kept_core = false;       // would have been cut in two: its core stays, and overlaps what cut it
+  bool filmed = false;          // would have been pierced: its middle layer closes the holes
+  int tunnels = 0;              // holes through it that it did not have before
   std::vector<std::pair<double, std::string>> gave_way;  // to bones and muscles: overlap [m3], key; largest first
   std::vector<std::string> hosts;  // neighbours that it lies in for the most part: they were hollowed out for it
 };
@@ -30,9 +32,10 @@ struct PartSettings {
 };
 
 /// Removes the overlaps of muscles with each other and with bones. Bones keep their shape. Two muscles meet at the
-/// surface that lies equally deep in both; a nested one keeps its shape. Muscles that touch nothing pass through bit
-/// for bit. Surfaces must be closed, outward and free of crossings. Throws Error BadData naming the muscle when
-/// nothing would be left of it. `done` is called after each muscle, from any thread.
+/// surface that lies equally deep in both; a nested one keeps its shape. Where a muscle would reach through a thin
+/// neighbour, it leaves the middle layer to that. Muscles that touch nothing pass through bit for bit. Surfaces must be
+/// closed, outward and free of crossings. Throws Error BadData naming the muscle when nothing would be left of it.
+/// `done` is called after each muscle, from any thread.
 std::vector<PartReport> part_surfaces(std::vector<NamedSurface>& muscles, const std::vector<NamedSurface>& bones,
                                       const PartSettings& settings = {}, const std::function<void()>& done = {});
 

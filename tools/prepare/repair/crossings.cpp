@@ -1,7 +1,14 @@
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <set>
+#include <string>
+
+#include <fmt/format.h>
 
 #include "geometry/triangle_tree.h"
+#include "prepare/child_process.h"
+#include "prepare/field/signed_distance.h"
 #include "prepare/remesh/crossing_triangles.h"
 #include "prepare/repair/edge_table.h"
 #include "prepare/repair/stages.h"
@@ -20,6 +27,8 @@ constexpr unsigned kMostPairs = 20000;
 /// Local repair refills what it takes out, at a cost that grows with the cube: only where crossings are few.
 constexpr std::size_t kMostTriangles = 300;
 constexpr double kMostOfSurface = 0.25;
+/// It takes well under a second where it comes to an end.
+constexpr int kUntangleLimit_s = 5;
 /// Rounds of smoothing; each takes a ring of triangles more.
 constexpr int kRounds = 5;
 constexpr int kPasses = 4;
@@ -87,15 +96,69 @@ bool serves(const RepairJob& job, const TriangleMesh& piece, const std::optional
   return corners_near(piece, *result, reach) && corners_near(*result, piece, reach);
 }
 
+std::string to_bytes(const TriangleMesh& mesh) {
+  const std::size_t vertices = mesh.positions_m.size();
+  std::string bytes(reinterpret_cast<const char*>(&vertices), sizeof vertices);
+  bytes.append(reinterpret_cast<const char*>(mesh.positions_m.data()), vertices * sizeof(Vec3));
+  bytes.append(reinterpret_cast<const char*>(mesh.triangles.data()),
+               mesh.triangles.size() * sizeof(std::array<int, 3>));
+  return bytes;
+}
+
+TriangleMesh from_bytes(const std::string& bytes) {
+  std::size_t vertices = 0;
+  std::memcpy(&vertices, bytes.data(), sizeof vertices);
+  TriangleMesh mesh;
+  mesh.positions_m.resize(vertices);
+  const std::size_t begin = sizeof vertices + vertices * sizeof(Vec3);
+  mesh.triangles.resize((bytes.size() - begin) / sizeof(std::array<int, 3>));
+  std::memcpy(mesh.positions_m.data()->data(), bytes.data() + sizeof vertices, vertices * sizeof(Vec3));
+  std::memcpy(mesh.triangles.data(), bytes.data() + begin, bytes.size() - begin);
+  return mesh;
+}
+
+/// untangle() with a time limit: on some surfaces it goes round in circles.
+std::optional<TriangleMesh> untangle_in_time(const TriangleMesh& piece) {
+  const ChildResult result = run_in_child(
+      [&] {
+        const std::optional<TriangleMesh> mesh = untangle(piece);
+        return mesh && !mesh->triangles.empty() ? to_bytes(*mesh) : std::string();
+      },
+      kUntangleLimit_s);
+  if (result.end != ChildResult::End::Done || result.bytes.empty()) return std::nullopt;
+  return from_bytes(result.bytes);
+}
+
+/// A resampled piece is to be as near to the old one as repairs may take it; folds that are now inside do not count.
+bool serves_resampled(const RepairJob& job, const TriangleMesh& piece, const std::optional<TriangleMesh>& result) {
+  if (!result || result->triangles.empty()) return false;
+  const double reach = job.settings.tolerance;
+  if (!corners_near(*result, piece, reach)) return false;
+  const SignedDistance distance(*result);
+  return std::all_of(piece.positions_m.begin(), piece.positions_m.end(),
+                     [&](const Vec3& p) { return distance(p) < reach; });
+}
+
 /// The piece without crossings.
-TriangleMesh taken_apart(const RepairJob& job, const TriangleMesh& piece, const Pairs& pairs) {
+TriangleMesh taken_apart(RepairJob& job, const TriangleMesh& piece, const Pairs& pairs) {
   const std::set<int> crossing = triangles_in(pairs);
   const double part = static_cast<double>(crossing.size()) / static_cast<double>(piece.triangles.size());
   if (crossing.size() <= kMostTriangles && part <= kMostOfSurface) {
-    if (const auto result = untangle(piece); serves(job, piece, result)) return *result;
+    if (const auto result = untangle_in_time(piece); serves(job, piece, result)) return *result;
   }
   if (const auto result = smoothed(piece); serves(job, piece, result)) return *result;
-  return resample(job, piece, crossing.size(), centroid(piece, pairs.front().first));
+  const Vec3 place = centroid(piece, pairs.front().first);
+  const std::optional<TriangleMesh> result = resample(piece, job.settings.tolerance);
+  if (!serves_resampled(job, piece, result)) {
+    throw refusal(job,
+                  fmt::format("crosses itself: {} of {} triangles cross others near {{}} and could not be taken apart "
+                              "there; must be 0. Repair the surface there and export it again",
+                              crossing.size(), piece.triangles.size()),
+                  place);
+  }
+  note(job, "surface made anew where the winding number is a half", 1, place);
+  job.united = true;
+  return *result;
 }
 
 }  // namespace

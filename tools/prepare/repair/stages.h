@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "prepare/repair/repair_job.h"
 
 // The stages after the soup: from a surface with holes and several pieces to bodies.
@@ -22,9 +24,9 @@ void remove_crossings(RepairJob& job);
 /// Unites pieces that cross each other and drops floaters. Refuses several bodies where one is asked for.
 void unite_pieces(RepairJob& job);
 
-/// The last way out for a piece that crosses itself beyond local repair, with the number of pairs and the place of the
-/// first: a new surface where the winding number is a half. Refuses as long as that is not part of the program.
-geometry::TriangleMesh resample(const RepairJob& job, const geometry::TriangleMesh& piece, std::size_t crossings,
-                                const Vec3& place);
+/// The last way out for a piece that crosses itself beyond local repair: a new surface round what it winds round more
+/// than half a time, on a lattice of about the tolerance [working coordinates]. Folds inside vanish. Nothing when parts
+/// that are inside out would be lost.
+std::optional<geometry::TriangleMesh> resample(const geometry::TriangleMesh& piece, double tolerance);
 
 }  // namespace myotact::prepare

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "core/text.h"
@@ -53,23 +51,13 @@ TriangleMesh bone_skin(const TriangleMesh& surface) {
   return skin;
 }
 
-/// Ways through a closed surface: its genus, all pieces together, from Euler's V - E + F = 2 (pieces - genus).
-int tunnels(const TriangleMesh& surface) {
-  std::vector<bool> used(surface.positions_m.size(), false);
-  for (const auto& corners : surface.triangles) {
-    for (const int v : corners) used[static_cast<std::size_t>(v)] = true;
-  }
-  const auto vertices = std::count(used.begin(), used.end(), true);
-  const auto triangles = static_cast<std::ptrdiff_t>(surface.triangles.size());
-  const std::ptrdiff_t euler = vertices - 3 * triangles / 2 + triangles;
-  return static_cast<int>(static_cast<std::ptrdiff_t>(pieces_of(surface).size()) - euler / 2);
-}
-
 void report_parting(const PartReport& part, SurfaceReport& report) {
   report.parted_loss_m3 = part.volume_lost_m3;
   report.volume_m3 = part.volume_before_m3 - part.volume_lost_m3;
   for (const auto& [volume_m3, key] : part.gave_way) report.gave_way.emplace_back(key, volume_m3);
   if (!part.hosts.empty()) report.notes.push_back("nested in " + join(part.hosts) + ": keeps its shape");
+  if (part.filmed) report.notes.push_back("thin where neighbours reach into it: its middle layer stays");
+  if (part.tunnels > 0) report.notes.push_back(fmt::format("parting left {} holes through it", part.tunnels));
   if (part.kept_core) report.notes.push_back("would be cut in two by its neighbours: its core stays and overlaps them");
   if (part.dropped_m3 > kWorthANote_m3) {
     report.notes.push_back(fmt::format("{:.2f} cm3 of loose ends dropped in parting", 1e6 * part.dropped_m3));
@@ -101,15 +89,8 @@ void part_muscles(LimbWork& limb, const PartDone& done) {
   }
   PartSettings settings;
   settings.threads = limb.settings.threads;
-  std::vector<int> ways;
-  for (const NamedSurface& muscle : muscles) ways.push_back(tunnels(muscle.surface));
   const auto reports = part_surfaces(muscles, bones, settings, done);
   for (std::size_t m = 0; m < limb.muscles.size(); ++m) {
-    const int pierced = tunnels(muscles[m].surface) - ways[m];
-    if (pierced > 0) {
-      limb.muscles[m].report.notes.push_back(
-          fmt::format("thin where neighbours reach into it: parting left {} holes through it", pierced));
-    }
     limb.muscles[m].surface = std::move(muscles[m].surface);
     report_parting(reports[m], limb.muscles[m].report);
   }

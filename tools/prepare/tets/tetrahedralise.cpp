@@ -1,24 +1,16 @@
 #include "prepare/tets/tetrahedralise.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <chrono>
 #include <cstdint>
 #include <cstring>
-#include <vector>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <poll.h>
-#include <signal.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #define TETLIBRARY
 #include <tetgen.h>
 
 #include "core/error.h"
+#include "prepare/child_process.h"
 
 namespace myotact::prepare {
 
@@ -35,17 +27,6 @@ struct ResultHeader {
   std::int32_t nodes = 0;
   std::int32_t tets = 0;
 };
-
-void write_all(int pipe, const void* data, std::size_t size) {
-  const char* bytes = static_cast<const char*>(data);
-  while (size > 0) {
-    const ssize_t done = ::write(pipe, bytes, size);
-    if (done < 0 && errno == EINTR) continue;
-    if (done <= 0) ::_exit(3);
-    bytes += done;
-    size -= static_cast<std::size_t>(done);
-  }
-}
 
 /// The surface as TetGen wants it. The arrays belong to `in`, which frees them.
 void fill_input(const TriangleMesh& surface, tetgenio& in) {
@@ -69,51 +50,22 @@ void fill_input(const TriangleMesh& surface, tetgenio& in) {
   }
 }
 
-/// The child's whole life. Faults end it by the system's default, whatever handlers the parent had.
-[[noreturn]] void run_child(const TriangleMesh& surface, int pipe) {
-  for (const int fault : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL}) ::signal(fault, SIG_DFL);
-  const rlimit cpu{kTimeLimit_s, kTimeLimit_s};
-  const rlimit no_core{0, 0};
-  ::setrlimit(RLIMIT_CPU, &cpu);
-  ::setrlimit(RLIMIT_CORE, &no_core);
-  const int silent = ::open("/dev/null", O_WRONLY);
-  if (silent >= 0) {  // TetGen talks on standard output, which carries data
-    ::dup2(silent, STDOUT_FILENO);
-    ::dup2(silent, STDERR_FILENO);
-  }
-  try {
-    tetgenio in, out;
-    fill_input(surface, in);
-    char switches[] = "pq1.4/10YQ";
-    ::tetrahedralize(switches, &in, &out);
-    const ResultHeader header{out.numberofpoints, out.numberoftetrahedra};
-    write_all(pipe, &header, sizeof header);
-    write_all(pipe, out.pointlist, sizeof(REAL) * 3 * static_cast<std::size_t>(header.nodes));
-    write_all(pipe, out.tetrahedronlist, sizeof(int) * 4 * static_cast<std::size_t>(header.tets));
-    ::_exit(0);
-  } catch (...) {
-    ::_exit(2);
-  }
+void append(std::string& bytes, const void* data, std::size_t size) {
+  bytes.append(static_cast<const char*>(data), size);
 }
 
-/// All that the child writes; stops at the time limit with what there is.
-std::string read_until_closed(int pipe, bool& timed_out) {
-  using Clock = std::chrono::steady_clock;
-  const auto end = Clock::now() + std::chrono::seconds(kTimeLimit_s);
+/// What the child does.
+std::string run_tetgen(const TriangleMesh& surface) {
+  tetgenio in, out;
+  fill_input(surface, in);
+  char switches[] = "pq1.4/10YQ";
+  ::tetrahedralize(switches, &in, &out);
+  const ResultHeader header{out.numberofpoints, out.numberoftetrahedra};
   std::string bytes;
-  std::vector<char> chunk(1 << 16);
-  while (true) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
-    pollfd wait{pipe, POLLIN, 0};
-    const int ready = ::poll(&wait, 1, static_cast<int>(std::max<long long>(left, 0)));
-    if (ready < 0 && errno == EINTR) continue;
-    timed_out = ready == 0;
-    if (ready <= 0) return bytes;
-    const ssize_t got = ::read(pipe, chunk.data(), chunk.size());
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return bytes;
-    bytes.append(chunk.data(), static_cast<std::size_t>(got));
-  }
+  append(bytes, &header, sizeof header);
+  append(bytes, out.pointlist, sizeof(REAL) * 3 * static_cast<std::size_t>(header.nodes));
+  append(bytes, out.tetrahedronlist, sizeof(int) * 4 * static_cast<std::size_t>(header.tets));
+  return bytes;
 }
 
 TetMesh parse_result(const std::string& name, const std::string& bytes) {
@@ -142,38 +94,23 @@ TetMesh parse_result(const std::string& name, const std::string& bytes) {
 }  // namespace
 
 TetMesh tetrahedralise(const std::string& name, const TriangleMesh& surface) {
-  int ends[2] = {-1, -1};
-  if (::pipe(ends) != 0) throw Error(ExitStatus::Internal, name + ": cannot make a pipe: " + std::strerror(errno));
-  const pid_t child = ::fork();
-  if (child < 0) throw Error(ExitStatus::Internal, name + ": cannot start a process: " + std::strerror(errno));
-  if (child == 0) {
-    ::close(ends[0]);
-    run_child(surface, ends[1]);
+  const ChildResult result = run_in_child([&] { return run_tetgen(surface); }, kTimeLimit_s);
+  switch (result.end) {
+    case ChildResult::End::Done:
+      return parse_result(name, result.bytes);
+    case ChildResult::End::TimedOut:
+      throw bad_data(name, "tetrahedra", fmt::format("took more than {} s; simplify the surface", kTimeLimit_s));
+    case ChildResult::End::Signalled:
+      throw bad_data(name, "tetrahedra",
+                     fmt::format("TetGen ended with signal {}; most likely triangles of the surface cross each other. "
+                                 "Repair the surface and export it again",
+                                 result.signal));
+    case ChildResult::End::Failed:
+      break;
   }
-  ::close(ends[1]);
-  bool timed_out = false;
-  const std::string bytes = read_until_closed(ends[0], timed_out);
-  ::close(ends[0]);
-  if (timed_out) ::kill(child, SIGKILL);
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  if (timed_out) {
-    throw bad_data(name, "tetrahedra", fmt::format("took more than {} s; simplify the surface", kTimeLimit_s));
-  }
-  if (WIFSIGNALED(status)) {
-    throw bad_data(name, "tetrahedra",
-                   fmt::format("TetGen ended with signal {}; most likely triangles of the surface cross each other. "
-                               "Repair the surface and export it again",
-                               WTERMSIG(status)));
-  }
-  if (WEXITSTATUS(status) != 0) {
-    throw bad_data(
-        name, "tetrahedra",
-        "TetGen refused the surface; most likely triangles cross or overlap. Repair the surface and export it "
-        "again");
-  }
-  return parse_result(name, bytes);
+  throw bad_data(name, "tetrahedra",
+                 "TetGen refused the surface; most likely triangles cross or overlap. Repair the surface and export it "
+                 "again");
 }
 
 }  // namespace myotact::prepare

@@ -1,0 +1,147 @@
+#include "prepare/part/film.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <queue>
+
+#include "prepare/field/block_lattice.h"
+#include "prepare/part/simple_point.h"
+#include "prepare/repair/surface_pieces.h"
+
+namespace myotact::prepare {
+
+namespace {
+
+using geometry::TriangleMesh;
+
+/// Nodes around the muscle's box that are outside for certain, and room for film that runs over bone.
+constexpr int kMargin = 6;
+/// The film's middle keeps this far from what is impassable, in spacings.
+constexpr double kOffBone = 0.5;
+/// What a node in bone is dearer by than any outside it [m].
+constexpr double kInBone_m = 1e3;
+/// Distances to the film are followed so far, in spacings: far enough for whole blocks to be passed over.
+constexpr int kFollowed = 6;
+
+/// From a node to those around it; the node is not in the outermost layer.
+struct Steps {
+  std::array<std::ptrdiff_t, 27> block{};  // by bit of a Neighbourhood
+  std::vector<std::ptrdiff_t> linked;      // those of kLink
+
+  explicit Steps(const BlockLattice& lattice) {
+    for (int bit = 0; bit < 27; ++bit) {
+      const std::ptrdiff_t step = lattice.offset_to(bit % 3 - 1, bit / 3 % 3 - 1, bit / 9 - 1);
+      block[static_cast<std::size_t>(bit)] = step;
+      if ((kLink >> bit & 1U) != 0) linked.push_back(step);
+    }
+  }
+  static std::size_t go(std::size_t node, std::ptrdiff_t step) {
+    return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(node) + step);
+  }
+};
+
+/// The largest piece of the nodes that are left; none of them is in the outermost layer.
+std::vector<bool> largest_piece(const Steps& steps, const std::vector<bool>& left) {
+  std::vector<bool> seen(left.size(), false);
+  std::vector<std::size_t> best;
+  for (std::size_t start = 0; start < left.size(); ++start) {
+    if (!left[start] || seen[start]) continue;
+    std::vector<std::size_t> piece{start};
+    seen[start] = true;
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      for (const std::ptrdiff_t step : steps.linked) {
+        const std::size_t next = Steps::go(piece[i], step);
+        if (!left[next] || seen[next]) continue;
+        seen[next] = true;
+        piece.push_back(next);
+      }
+    }
+    if (piece.size() > best.size()) best = std::move(piece);
+  }
+  std::vector<bool> largest(left.size(), false);
+  for (const std::size_t node : best) largest[node] = true;
+  return largest;
+}
+
+/// What is left of a full block when all nodes but `kept` that can go without opening a tunnel are gone, dear ones
+/// first.
+std::vector<bool> hollow_out(const BlockLattice& lattice, const Steps& steps, const std::vector<bool>& kept,
+                             const std::vector<float>& cost) {
+  std::vector<bool> body(kept.size(), true), waits(kept.size(), false);
+  std::priority_queue<std::pair<float, std::size_t>> border;
+  const auto reach = [&](std::size_t node) {
+    if (!body[node] || kept[node] || waits[node]) return;
+    waits[node] = true;
+    border.emplace(cost[node], node);
+  };
+  for (std::size_t node = 0; node < kept.size(); ++node) {
+    const int layer = lattice.layer_of(node);
+    if (layer == 0) body[node] = false;
+    if (layer == 1) reach(node);
+  }
+  while (!border.empty()) {
+    const std::size_t node = border.top().second;
+    border.pop();
+    waits[node] = false;
+    Neighbourhood around = 0;
+    for (std::size_t bit = 0; bit < steps.block.size(); ++bit) {
+      around |= Neighbourhood{body[Steps::go(node, steps.block[bit])]} << bit;
+    }
+    if (!is_simple(around)) continue;  // comes up again when something beside it goes
+    body[node] = false;
+    for (const std::ptrdiff_t step : steps.linked) reach(Steps::go(node, step));
+  }
+  return body;
+}
+
+}  // namespace
+
+int tunnels(const TriangleMesh& surface) {
+  std::vector<bool> used(surface.positions_m.size(), false);
+  for (const auto& corners : surface.triangles) {
+    for (const int v : corners) used[static_cast<std::size_t>(v)] = true;
+  }
+  const auto vertices = std::count(used.begin(), used.end(), true);
+  const auto triangles = static_cast<std::ptrdiff_t>(surface.triangles.size());
+  const std::ptrdiff_t euler = vertices - 3 * triangles / 2 + triangles;
+  return static_cast<int>(static_cast<std::ptrdiff_t>(pieces_of(surface).size()) - euler / 2);
+}
+
+Film::Film(const PiercedBody& body, double spacing_m) : lattice_(body.box, spacing_m, kMargin) {
+  std::vector<bool> left(lattice_.size(), false);
+  std::vector<float> cost(lattice_.size(), 0.0F);
+  lattice_.sample(body.left, [&](std::size_t node, double value_m) { left[node] = value_m < 0.0; });
+  lattice_.sample(body.distance, [&](std::size_t node, double value_m) { cost[node] = static_cast<float>(value_m); });
+  const auto near_bone = [&](const Vec3& p) { return body.impassable(p) + kOffBone * spacing_m; };
+  lattice_.sample(near_bone, [&](std::size_t node, double value_m) {
+    if (value_m > 0.0) cost[node] += static_cast<float>(kInBone_m + value_m);
+  });
+  const Steps steps(lattice_);
+  const std::vector<bool> kept = largest_piece(steps, left);
+  const std::vector<bool> closed = hollow_out(lattice_, steps, kept, cost);
+  for (std::size_t node = 0; node < closed.size(); ++node) {
+    if (closed[node] && !kept[node]) nodes_.push_back(node);
+  }
+  measure_distances();
+}
+
+void Film::measure_distances() {
+  distances_m_.assign(lattice_.size(), static_cast<float>(kFollowed * lattice_.spacing_m()));
+  for (const std::size_t node : nodes_) {
+    const Vec3 centre_m = lattice_.place_of(node);
+    box_.extend(centre_m);
+    lattice_.for_each_within(node, kFollowed, [&](std::size_t other) {
+      const auto away_m = static_cast<float>((lattice_.place_of(other) - centre_m).norm());
+      distances_m_[other] = std::min(distances_m_[other], away_m);
+    });
+  }
+}
+
+TriangleMesh Film::surface(double radius_m) const {
+  const Vec3 around_m = Vec3::Constant(kFollowed * lattice_.spacing_m());
+  return extract_level_set([&](const Vec3& p) { return distance_m(p) - radius_m; },
+                           {box_.min() - around_m, box_.max() + around_m}, lattice_.spacing_m());
+}
+
+}  // namespace myotact::prepare
