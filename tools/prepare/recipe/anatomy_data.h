@@ -19,10 +19,17 @@ struct AttachmentSite {
   double area_m2 = 0.0;            // of the measured contact patch; 0: not known
 };
 
+/// What was measured of a muscle of other dogs; 0: not known.
+struct PublishedMuscle {
+  double mass_kg = 0.0;
+  double fascicle_m = 0.0;
+};
+
 struct MuscleData {
   anatomy::Muscle mechanics;                        // key, names, material, forces, lengths, sources; no meshes
   std::vector<AttachmentSite> origins, insertions;  // at least one each; the muscle line ends at the first
-  std::string file;                                 // of its surface, in the input's folder; empty: muscles/KEY
+  PublishedMuscle published;
+  std::string file;  // of its surface, in the input's folder; empty: muscles/KEY
 };
 
 struct BoneData {
@@ -51,6 +58,7 @@ struct GroupData {
 
 struct AnatomyData {
   std::string name, species, breed, side, source, licence;
+  std::string published_source;  // of MuscleData::published
   std::vector<BoneData> bones;
   std::vector<anatomy::Body> bodies;
   std::vector<anatomy::Joint> joints;

@@ -87,6 +87,14 @@ std::vector<AttachmentSite> read_sites(const JsonValue& value, const AnatomyData
   return sites;
 }
 
+PublishedMuscle read_published(const JsonValue& value) {
+  JsonObject fields(value);
+  const PublishedMuscle published{fields.at("mass_kg").number_between(1e-5, 10.0),
+                                  fields.at("fascicle_m").number_between(1e-4, 1.0)};
+  fields.finish();
+  return published;
+}
+
 MuscleData read_muscle(const JsonValue& value, const AnatomyData& data) {
   JsonObject fields(value);
   MuscleData muscle;
@@ -106,6 +114,7 @@ MuscleData read_muscle(const JsonValue& value, const AnatomyData& data) {
   m.sources = fields.at("sources").strings();
   muscle.origins = read_sites(fields.at("origin"), data);
   muscle.insertions = read_sites(fields.at("insertion"), data);
+  if (const auto published = fields.find("published")) muscle.published = read_published(*published);
   muscle.file = fields.string_or("file", "");
   fields.string_or("note", "");
   fields.finish();
@@ -170,6 +179,7 @@ AnatomyData read_recipe(const std::filesystem::path& file) {
   data.side = root.at("side").one_of({"left", "right"});
   data.source = root.at("source").string();
   data.licence = root.at("licence").string();
+  data.published_source = root.string_or("published_source", "");
   for (const JsonValue& v : root.at("bodies").elements()) data.bodies.push_back(anatomy::read_body(v));
   for (const JsonValue& v : root.at("bones").elements()) data.bones.push_back(read_bone(v, data));
   for (const JsonValue& v : root.at("joints").elements()) data.joints.push_back(read_joint(v, data));

@@ -126,6 +126,13 @@ std::string html_report(const LimbWork& limb, const anatomy::Specimen& specimen,
   html += "<h2>Stages</h2>\n" + stages_table(limb, static_cast<int>(violations.size()));
   if (!limb.notes.empty()) html += "<h3>Notes on reading, units and frame</h3>\n" + notes_list(limb.notes);
   html += "<h2>Muscles: architecture</h2>\n" + wide(architecture_table(limb));
+  if (const std::string published = published_table(limb); !published.empty()) {
+    html +=
+        "<h2>Muscles: beside published ones</h2>\n<p>" + escape_markup(limb.anatomy.published_source) +
+        ". Fascicle lengths scale with the cube root of the mass. Where a mesh has long tendons or is pennate, fibres "
+        "of its mesh run farther than its fascicles: forces and stiffness follow the optimal fibre.</p>\n" +
+        wide(published);
+  }
   html += "<h2>Muscles: meshes</h2>\n" + wide(meshes_table(limb));
   html += "<h2>Bones</h2>\n" + wide(bones_table(limb));
   if (!specimen.overlaps.empty()) html += "<h2>Overlaps that are left</h2>\n" + overlaps_table(specimen.overlaps);

@@ -182,6 +182,22 @@ std::string architecture_table(const LimbWork& limb) {
   return table.html();
 }
 
+std::string published_table(const LimbWork& limb) {
+  Table table({"muscle", "#mass, g", "#published, g", "#part of it", "#published fascicle, mm",
+               "#scaled to this mass, mm", "#optimal fibre, mm", "#belly along the fibres, mm"});
+  bool any = false;
+  for (const MuscleWork& muscle : limb.muscles) {
+    const PublishedMuscle& published = muscle.data.published;
+    if (published.mass_kg == 0.0) continue;
+    any = true;
+    const double mass_kg = kMuscleDensity_kg_m3 * muscle.report.volume_m3, part = mass_kg / published.mass_kg;
+    table.add({muscle.report.key, fixed(1e3 * mass_kg, 1), fixed(1e3 * published.mass_kg, 1), fixed(part, 2),
+               fixed(1e3 * published.fascicle_m, 1), fixed(1e3 * published.fascicle_m * std::cbrt(part), 1),
+               fixed(1e3 * muscle.data.mechanics.optimal_fibre_m, 1), fixed(1e3 * muscle.report.belly_m, 0)});
+  }
+  return any ? table.html() : "";
+}
+
 std::string overlaps_table(const std::vector<anatomy::Overlap>& overlaps) {
   Table table({"of", "and", "#deepest, mm", "#cm3"});
   for (const anatomy::Overlap& overlap : overlaps) {

@@ -16,6 +16,8 @@ std::string bones_table(const LimbWork& limb);
 std::string meshes_table(const LimbWork& limb);
 /// Volume, mass, fibres, cross-section, force, levers.
 std::string architecture_table(const LimbWork& limb);
+/// Masses and fibre lengths beside the published ones; an empty text when the recipe has none.
+std::string published_table(const LimbWork& limb);
 std::string overlaps_table(const std::vector<anatomy::Overlap>& overlaps);
 
 }  // namespace myotact::prepare
