@@ -37,6 +37,26 @@ double mean_error_deg(const geometry::TetMesh& tets, const FibreField& field, Ex
   return sum / geometry::total_volume_m3(tets) / kDegree_rad;
 }
 
+/// The six tets of a cell, all about its diagonal, as the order of steps along the axes from one end to the other.
+constexpr int kPaths[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
+
+/// The triangles whose corners are all in the patch.
+template <class Inside>
+AttachmentPatch patch_of(const geometry::TriangleMesh& surface, Inside&& inside) {
+  AttachmentPatch patch;
+  for (std::size_t f = 0; f < surface.triangles.size(); ++f) {
+    const auto& [a, b, c] = surface.triangles[f];
+    const auto at = [&](int v) { return surface.positions_m[static_cast<std::size_t>(v)]; };
+    if (!(inside(at(a)) && inside(at(b)) && inside(at(c)))) continue;
+    patch.triangles.push_back(static_cast<int>(f));
+    patch.vertices.insert(patch.vertices.end(), {a, b, c});
+    patch.area_m2 += 0.5 * (at(b) - at(a)).cross(at(c) - at(a)).norm();
+  }
+  std::sort(patch.vertices.begin(), patch.vertices.end());
+  patch.vertices.erase(std::unique(patch.vertices.begin(), patch.vertices.end()), patch.vertices.end());
+  return patch;
+}
+
 /// Two fleshy halves between upright outer sides, where they arise, and a raphe in the plane x = 0, where they insert
 /// from both sides: a cut of no width. Their fibres rise towards it at 25 degrees, as do their floors and ceilings.
 /// The halves hang together at the raphe's foot. One even field fits all of that, so it is the answer.
@@ -64,21 +84,7 @@ class Bipennate {
 
   /// The part of the surface at this distance from the raphe.
   AttachmentPatch side(double distance_m) const {
-    AttachmentPatch patch;
-    for (std::size_t f = 0; f < surface.triangles.size(); ++f) {
-      const auto& [a, b, c] = surface.triangles[f];
-      const auto there = [&](int v) {
-        return std::abs(std::abs(surface.positions_m[static_cast<std::size_t>(v)].x()) - distance_m) < 1e-9;
-      };
-      if (!(there(a) && there(b) && there(c))) continue;
-      patch.triangles.push_back(static_cast<int>(f));
-      patch.vertices.insert(patch.vertices.end(), {a, b, c});
-      const auto at = [&](int v) { return surface.positions_m[static_cast<std::size_t>(v)]; };
-      patch.area_m2 += 0.5 * (at(b) - at(a)).cross(at(c) - at(a)).norm();
-    }
-    std::sort(patch.vertices.begin(), patch.vertices.end());
-    patch.vertices.erase(std::unique(patch.vertices.begin(), patch.vertices.end()), patch.vertices.end());
-    return patch;
+    return patch_of(surface, [&](const Vec3& p) { return std::abs(std::abs(p.x()) - distance_m) < 1e-9; });
   }
 
   static Vec3 fibre(const Vec3& place_m) { return {place_m.x() > 0.0 ? -1.0 : 1.0, kSlope, 0.0}; }
@@ -102,7 +108,6 @@ class Bipennate {
 
   /// Six tets about the diagonal; mirrored on the right, so that both halves are alike.
   void add_cell(int column, int row, int layer) {
-    constexpr int kPaths[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
     const bool left = column < 0;
     for (const auto& path : kPaths) {
       int at[3] = {0, 0, 0};
@@ -157,6 +162,69 @@ TEST(FibreShapes, TurnWithATwistedBar) {
   // Fibres that did not turn would be farther off than that.
   const double straight_deg = mean_error_deg(tets, field, [](const Vec3&) { return Vec3::UnitX(); });
   EXPECT_GT(straight_deg, error_deg);
+}
+
+/// A fan about the z axis, from the radius of 30 mm to 90, 70 degrees wide, in even steps of the radius's logarithm.
+/// The flux is even on both arcs, so fibres are rays from the axis.
+class Fan {
+ public:
+  static constexpr double kInner_m = 0.03, kOuter_m = 0.09, kThick_m = 0.012;
+  static constexpr double kOpening_rad = 70.0 * kDegree_rad;
+  static constexpr int kOut = 12, kAround = 14, kDeep = 3;
+
+  Fan() {
+    for (int k = 0; k <= kDeep; ++k) {
+      for (int j = 0; j <= kAround; ++j) {
+        for (int i = 0; i <= kOut; ++i) {
+          const double radius_m = kInner_m * std::pow(kOuter_m / kInner_m, static_cast<double>(i) / kOut);
+          const double angle_rad = kOpening_rad * (static_cast<double>(j) / kAround - 0.5);
+          tets.nodes_m.emplace_back(radius_m * std::cos(angle_rad), radius_m * std::sin(angle_rad),
+                                    kThick_m * k / kDeep);
+        }
+      }
+    }
+    for (int k = 0; k < kDeep; ++k) {
+      for (int j = 0; j < kAround; ++j) {
+        for (int i = 0; i < kOut; ++i) add_cell({i, j, k});
+      }
+    }
+    surface.positions_m = tets.nodes_m;
+    for (const auto& triangle : geometry::boundary_triangles(tets)) surface.triangles.push_back(triangle.corners);
+  }
+
+  AttachmentPatch arc(double radius_m) const {
+    return patch_of(surface, [&](const Vec3& p) { return std::abs(std::hypot(p.x(), p.y()) - radius_m) < 1e-9; });
+  }
+
+  geometry::TetMesh tets;
+  geometry::TriangleMesh surface;
+
+ private:
+  void add_cell(const std::array<int, 3>& first) {
+    for (const auto& path : kPaths) {
+      std::array<int, 3> at = first;
+      std::array<int, 4> corners{};
+      for (std::size_t c = 0; c < 4; ++c) {
+        if (c > 0) ++at[static_cast<std::size_t>(path[c - 1])];
+        corners[c] = (at[2] * (kAround + 1) + at[1]) * (kOut + 1) + at[0];
+      }
+      tets.corners.push_back(corners);
+      if (geometry::corner_volume_m3(tets, tets.corners.size() - 1) < 0.0) {
+        std::swap(tets.corners.back()[2], tets.corners.back()[3]);
+      }
+    }
+  }
+};
+
+TEST(FibreShapes, SpreadLikeRaysInAFan) {
+  const Fan fan;
+  const FibreField field =
+      solve_fibres("fan", fan.tets, fan.surface, {fan.arc(Fan::kInner_m)}, {fan.arc(Fan::kOuter_m)});
+  const double error_deg = mean_error_deg(fan.tets, field, [](const Vec3& p) { return Vec3(p.x(), p.y(), 0.0); });
+  RecordProperty("mean_error_deg", std::to_string(error_deg));
+  EXPECT_LT(error_deg, kLargestMean_deg);
+  // Parallel fibres would be a quarter of the opening off.
+  EXPECT_GT(mean_error_deg(fan.tets, field, [](const Vec3&) { return Vec3::UnitX(); }), 10.0);
 }
 
 }  // namespace

@@ -12,7 +12,8 @@ namespace {
 constexpr std::size_t kTetsPerSlice = 10;
 constexpr std::size_t kFewestSlices = 5;
 constexpr std::size_t kMostSlices = 16;
-/// A tet's section stays within these multiples of the median slice: the ends of a field have poles.
+/// Sections stay within these multiples of the median slice's: the ends of a field have poles, and in corners that no
+/// flux reaches the quotient means nothing.
 constexpr double kLeastSection = 0.2;
 constexpr double kMostSection = 3.0;
 /// Sections below this part of the largest are tendon. Tapering bellies have more until close to their ends; the
@@ -93,10 +94,12 @@ MuscleProfile slice_muscle(const geometry::TetMesh& tets, const FibreField& fiel
     part += slice.volume_m3 / whole_m3;
   }
   const double usual_m2 = median(profile.section_m2);
+  for (double& section_m2 : profile.section_m2) {
+    section_m2 = std::clamp(section_m2, kLeastSection * usual_m2, kMostSection * usual_m2);
+  }
   for (std::size_t t = 0; t < sorted.size(); ++t) {
     profile.tet_arc_m.push_back(interpolate(middles, profile.arc_m, reached[t]));
-    profile.tet_section_m2.push_back(std::clamp(interpolate(middles, profile.section_m2, reached[t]),
-                                                kLeastSection * usual_m2, kMostSection * usual_m2));
+    profile.tet_section_m2.push_back(interpolate(middles, profile.section_m2, reached[t]));
   }
   return profile;
 }

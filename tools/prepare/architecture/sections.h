@@ -11,12 +11,12 @@ namespace myotact::prepare {
 
 /// A muscle cut across its fibres into slices of equal volume, from origin to insertion.
 struct MuscleProfile {
-  std::vector<double> section_m2;      // one a slice: cross-section along the fibres
+  std::vector<double> section_m2;      // one a slice: cross-section along the fibres, bounded against the poles
   std::vector<double> arc_m;           // one a slice: way along the fibres from the origin to its middle
   std::vector<Vec3> centre_m;          // one a slice: where the fibres' flux is centred
   double length_m = 0.0;               // of the whole way along the fibres
   std::vector<double> tet_arc_m;       // one a tet: way from the origin to the slice surface through its centre
-  std::vector<double> tet_section_m2;  // one a tet: section_m2 between the slices, bounded against the poles
+  std::vector<double> tet_section_m2;  // one a tet: section_m2 between the slices
 };
 
 /// Slices by the potential at the tets' centres.

@@ -47,6 +47,18 @@ std::vector<bool> enter_films(const BodiesToPart& bodies, const Films& films, st
   return changed;
 }
 
+/// Cuts a muscle that films came in the way of. One that other muscles' films would cut in two reaches through them:
+/// its core would overlap far more.
+Cut cut_around_films(const Body& own, Borders& borders, double clearance_m) {
+  Borders without = borders;
+  without.earlier_films.clear();
+  without.later_films.clear();
+  Cut cut = cut_muscle(own, borders, clearance_m);
+  if (borders.core == without.core) return cut;
+  borders = std::move(without);
+  return cut_muscle(own, borders, clearance_m);
+}
+
 /// Cuts all muscles along their borders, then those again that films over tunnels came in the way of.
 std::vector<Cut> cut_muscles(const BodiesToPart& bodies, std::vector<Borders>& borders, const PartSettings& settings,
                              const std::function<void()>& done) {
@@ -63,7 +75,7 @@ std::vector<Cut> cut_muscles(const BodiesToPart& bodies, std::vector<Borders>& b
   const std::vector<bool> changed = enter_films(bodies, films, borders);
   for_each_index(borders.size(), settings.threads, [&](std::size_t i) {
     const Body& own = *bodies.muscles[i];
-    if (changed[i]) cuts[i] = cut_muscle(own, borders[i], settings.clearance_m);
+    if (changed[i]) cuts[i] = cut_around_films(own, borders[i], settings.clearance_m);
     patch_tunnels(own, borders[i], settings.clearance_m, cuts[i]);
   });
   return cuts;
