@@ -1,10 +1,12 @@
 #include "prepare/tets/cage.h"
 
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "prepare/remesh/crossing_triangles.h"
+#include "prepare/repair/surface_pieces.h"
 #include "prepare/shapes.h"
 
 namespace myotact::prepare {
@@ -45,6 +47,21 @@ TEST(MakeCage, FillsASheetThinnerThanItsEdges) {
   sheet.thickness_m = 4e-3;
   sheet.bulge_m = 0.015;
   expect_good_cage(testing::sheet_surface(sheet), 210.0);
+}
+
+TEST(MakeCage, MakesASurfaceAnewThatTetGenRefuses) {
+  constexpr double kRadius_m = 0.02, kApart_m = 0.024;
+  geometry::TriangleMesh surface = testing::sphere_surface(Vec3::Zero(), kRadius_m, 4);
+  append(surface, testing::sphere_surface({kApart_m, 0.0, 0.0}, kRadius_m, 4));  // crosses the first
+  const Cage cage = make_cage("two balls", surface, 210.0);
+  const double height_m = kRadius_m - 0.5 * kApart_m;
+  const double lens_m3 = 2.0 * std::numbers::pi * height_m * height_m * (kRadius_m - height_m / 3.0);
+  const double union_m3 = 8.0 / 3.0 * std::numbers::pi * std::pow(kRadius_m, 3) - lens_m3;
+  EXPECT_NEAR(cage.quality.volume_m3, union_m3, 0.02 * union_m3);
+  EXPECT_EQ(geometry::bad_edge_count(cage.surface), 0);
+  EXPECT_TRUE(crossing_triangles(cage.surface).empty());
+  EXPECT_GT(cage.quality.smallest_dihedral_deg, 5.0);
+  EXPECT_GT(cage.attempts, 6);  // the first route has six
 }
 
 }  // namespace

@@ -7,6 +7,10 @@
 
 #include <Eigen/Geometry>
 
+#include "geometry/triangle_tree.h"
+#include "prepare/field/level_set.h"
+#include "prepare/repair/surface_pieces.h"
+
 namespace myotact::prepare {
 
 namespace {
@@ -87,6 +91,22 @@ double WindingNumber::sum(int cluster, const Vec3& p) const {
     angle += solid_angle(at(a), at(b), at(c));
   }
   return angle / (4.0 * std::numbers::pi);
+}
+
+geometry::TriangleMesh surface_of_winding(const geometry::TriangleMesh& surface, double spacing_m) {
+  const WindingNumber winding(surface);
+  const geometry::TriangleTree tree(surface);
+  const auto inside_is_negative = [&](const Vec3& p) {
+    const double distance_m = tree.nearest(p, surface.positions_m).distance_m;
+    return winding(p) > 0.5 ? -distance_m : distance_m;
+  };
+  Eigen::AlignedBox3d box;
+  for (const Vec3& p : surface.positions_m) box.extend(p);
+  geometry::TriangleMesh largest;
+  for (geometry::TriangleMesh& piece : pieces_of(extract_level_set(inside_is_negative, box, spacing_m))) {
+    if (piece.triangles.size() > largest.triangles.size()) largest = std::move(piece);
+  }
+  return largest;
 }
 
 }  // namespace myotact::prepare

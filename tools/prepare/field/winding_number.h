@@ -34,4 +34,8 @@ class WindingNumber {
   std::vector<Cluster> clusters_;
 };
 
+/// The largest piece of the surface where the winding number is a half, from a lattice: closed, manifold, outward,
+/// without crossings, whatever the input. Folds inside vanish, edges are rounded by a part of the spacing.
+geometry::TriangleMesh surface_of_winding(const geometry::TriangleMesh& surface, double spacing_m);
+
 }  // namespace myotact::prepare

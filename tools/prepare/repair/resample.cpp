@@ -1,10 +1,7 @@
 #include <algorithm>
 
-#include "geometry/triangle_tree.h"
-#include "prepare/field/level_set.h"
 #include "prepare/field/winding_number.h"
 #include "prepare/repair/stages.h"
-#include "prepare/repair/surface_pieces.h"
 
 namespace myotact::prepare {
 
@@ -29,14 +26,6 @@ bool vanishes(const WindingNumber& winding, const Vec3& p, double reach) {
   return true;
 }
 
-TriangleMesh largest_piece(const TriangleMesh& surface) {
-  TriangleMesh largest;
-  for (TriangleMesh& piece : pieces_of(surface)) {
-    if (piece.triangles.size() > largest.triangles.size()) largest = std::move(piece);
-  }
-  return largest;
-}
-
 }  // namespace
 
 std::optional<TriangleMesh> resample(const TriangleMesh& piece, double tolerance) {
@@ -46,14 +35,7 @@ std::optional<TriangleMesh> resample(const TriangleMesh& piece, double tolerance
                   [&](const Vec3& p) { return vanishes(winding, p, tolerance); })) {
     return std::nullopt;
   }
-  const geometry::TriangleTree tree(piece);
-  const auto inside_is_negative = [&](const Vec3& p) {
-    const double distance = tree.nearest(p, piece.positions_m).distance_m;
-    return winding(p) > 0.5 ? -distance : distance;
-  };
-  Eigen::AlignedBox3d box;
-  for (const Vec3& p : piece.positions_m) box.extend(p);
-  return largest_piece(extract_level_set(inside_is_negative, box, kSpacing * tolerance));
+  return surface_of_winding(piece, kSpacing * tolerance);
 }
 
 }  // namespace myotact::prepare

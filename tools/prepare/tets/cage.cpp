@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "prepare/field/level_set.h"
+#include "prepare/field/winding_number.h"
 #include "prepare/remesh/crossing_triangles.h"
 #include "prepare/remesh/decimate.h"
 #include "prepare/remesh/surface_distance.h"
@@ -39,6 +41,8 @@ constexpr double kVolumeTolerance = 0.01;
 /// A cage this good ends the search.
 constexpr double kGoodDihedral_deg = 9.0;
 constexpr double kGoodFirstPercentile_deg = 14.0;
+/// Triangles of a surface that is made anew, roughly; thin bodies get more.
+constexpr double kTrianglesAnew = 20000.0;
 /// Numbers of tets within these multiples of the wanted one are as good as it.
 constexpr double kFewest = 0.75, kMost = 1.45;
 
@@ -83,16 +87,10 @@ std::optional<Cage> try_variant(const std::string& name, const TriangleMesh& fin
   return cage;
 }
 
-}  // namespace
-
-double edge_for_tets_m(double volume_m3, double tets) {
-  return std::cbrt(6.0 * std::numbers::sqrt2 * volume_m3 / tets);
-}
-
-Cage make_cage(const std::string& name, const TriangleMesh& fine, double tets) {
+/// The first good variant, else the best; nothing when none can be filled.
+std::optional<Cage> best_variant(const std::string& name, const TriangleMesh& fine, double tets, int& attempts) {
   double usual_edge_m = edge_for_tets_m(geometry::enclosed_volume_m3(fine), tets);
   std::optional<Cage> best;
-  int attempts = 0;
   for (const Variant& variant : kVariants) {
     ++attempts;
     std::optional<Cage> cage = try_variant(name, fine, variant.edge * usual_edge_m, variant.least_shape);
@@ -103,6 +101,27 @@ Cage make_cage(const std::string& name, const TriangleMesh& fine, double tets) {
     const double count = static_cast<double>(cage->quality.tets) / tets;
     if (count < kFewest || count > kMost) usual_edge_m = cage->edge_m / variant.edge * std::sqrt(count);
   }
+  return best;
+}
+
+/// The second route, for surfaces that TetGen refuses in every variant: a new one without anything that could be wrong.
+TriangleMesh made_anew(const TriangleMesh& fine) {
+  const double area_m2 = geometry::surface_area_m2(fine);
+  const double spacing_m = std::min(spacing_for_triangles_m(area_m2, kTrianglesAnew),
+                                    spacing_for_thickness_m(area_m2, geometry::enclosed_volume_m3(fine)));
+  return surface_of_winding(fine, spacing_m);
+}
+
+}  // namespace
+
+double edge_for_tets_m(double volume_m3, double tets) {
+  return std::cbrt(6.0 * std::numbers::sqrt2 * volume_m3 / tets);
+}
+
+Cage make_cage(const std::string& name, const TriangleMesh& fine, double tets) {
+  int attempts = 0;
+  std::optional<Cage> best = best_variant(name, fine, tets, attempts);
+  if (!best) best = best_variant(name, made_anew(fine), tets, attempts);
   if (!best) {
     throw bad_data(
         name, "tetrahedra",

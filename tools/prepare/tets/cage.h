@@ -21,7 +21,8 @@ struct Cage {
 
 /// Fills a fine surface (closed, no crossings) with about `tets` tetrahedra. The cage's surface stays within half an
 /// edge of the fine one and encloses the same volume. Several edge lengths are tried; the first good one, or else the
-/// best, is taken. Throws Error BadData naming the muscle when none can be filled.
+/// best, is taken. When none can be filled, the surface is made anew where its winding number is a half, and that is
+/// caged. Throws Error BadData naming the muscle when that fails, too.
 Cage make_cage(const std::string& name, const geometry::TriangleMesh& fine, double tets);
 
 /// Edge length at which a body of this volume holds about `tets` tetrahedra: that of `tets` regular ones,
