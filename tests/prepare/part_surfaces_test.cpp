@@ -82,13 +82,17 @@ TEST(PartSurfaces, KeepsTheCoreOfATendonThatCrossesABelly) {
   expect_whole(muscles[0].surface);
 }
 
-TEST(PartSurfaces, KeepsTheCoreOfAMuscleThatABoneWouldCutInTwo) {
+TEST(PartSurfaces, LeadsAStrandOverBoneThatWouldCutAMuscleInTwo) {
   testing::RodShape thin;
   thin.radius_m = 3e-3;
   thin.rings = 40;
   std::vector<NamedSurface> muscles{{"tendon", testing::rod_surface(thin)}};
-  const auto reports = part_surfaces(muscles, {ball("bone", 0.05, kRadius_m)});
-  EXPECT_TRUE(reports[0].kept_core);
+  const NamedSurface bone = ball("bone", 0.05, kRadius_m);
+  const auto reports = part_surfaces(muscles, {bone});
+  EXPECT_TRUE(reports[0].filmed);
+  EXPECT_FALSE(reports[0].kept_core);
+  EXPECT_LT(measure_overlap(SignedDistance(muscles[0].surface), SignedDistance(bone.surface)).depth_m, 5e-4);
+  expect_whole(muscles[0].surface);
   Eigen::AlignedBox3d box;
   for (const Vec3& p : muscles[0].surface.positions_m) box.extend(p);
   EXPECT_GT(box.sizes().x(), 0.99 * thin.length_m);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
+#include "geometry/triangle_tree.h"
 #include "prepare/field/level_set.h"
 #include "prepare/part/film.h"
 #include "prepare/repair/surface_pieces.h"
@@ -24,6 +26,9 @@ constexpr double kFilmRadius = 1.25;
 constexpr double kPatchRadius = 0.6;
 /// What may come off as loose ends, as a part of the volume, before the muscle counts as cut in two.
 constexpr double kLooseEnds = 0.02;
+
+/// Dropped pieces that reach farther than this from what is left are no scraps [of the box's diagonal].
+constexpr double kLooseReach = 0.05;
 
 /// A core that stays, and how much finer the lattice is that it is looked at on. When the first falls apart, too, a
 /// thicker one is taken.
@@ -53,61 +58,84 @@ Eigen::AlignedBox3d box_of(const Body& own, const Borders& borders) {
   return box;
 }
 
+/// The place of a dropped piece that is farthest from what is left, when that is far enough to matter.
+std::optional<Vec3> loose_end(const TriangleMesh& piece, const TriangleMesh& left, const geometry::TriangleTree& tree,
+                              double least_m) {
+  std::optional<Vec3> end;
+  for (const Vec3& p : piece.positions_m) {
+    const double away_m = tree.nearest(p, left.positions_m).distance_m;
+    if (away_m < least_m) continue;
+    least_m = away_m;
+    end = p;
+  }
+  return end;
+}
+
 Cut cut_on_lattice(const Body& own, const BodyField& field, const Eigen::AlignedBox3d& box, double spacing_m) {
+  std::vector<TriangleMesh> pieces = pieces_of(extract_level_set(field, box, spacing_m));
   Cut cut;
   cut.spacing_m = spacing_m;
-  double best_m3 = 0.0, sum_m3 = 0.0;
-  for (TriangleMesh& piece : pieces_of(extract_level_set(field, box, spacing_m))) {
-    const double volume_m3 = geometry::enclosed_volume_m3(piece);
-    sum_m3 += volume_m3;
-    if (volume_m3 <= best_m3) continue;
-    best_m3 = volume_m3;
-    cut.left = std::move(piece);
+  if (pieces.empty()) return cut;
+  std::stable_sort(pieces.begin(), pieces.end(), [](const TriangleMesh& a, const TriangleMesh& b) {
+    return geometry::enclosed_volume_m3(a) > geometry::enclosed_volume_m3(b);
+  });
+  const geometry::TriangleTree tree(pieces.front());
+  for (std::size_t i = 1; i < pieces.size(); ++i) {
+    cut.dropped_m3 += geometry::enclosed_volume_m3(pieces[i]);
+    const double least_m = kLooseReach * own.distance.box().diagonal().norm();
+    if (const auto end = loose_end(pieces[i], pieces.front(), tree, least_m)) cut.loose_ends.push_back(*end);
   }
-  cut.dropped_m3 = sum_m3 - best_m3;
+  cut.left = std::move(pieces.front());
   cut.tunnels = tunnels(cut.left) - tunnels(own.distance.surface());
   return cut;
 }
 
-Film find_film(const Body& own, const Borders& borders, double clearance_m, double spacing_m) {
+Film find_film(const Body& own, const Borders& borders, double clearance_m, const Cut& cut) {
   const BodyField distance = [&](const Vec3& p) { return own.distance(p); };
   const BodyField taken = [&](const Vec3& p) { return taken_m(borders, 0.5 * clearance_m, p); };
-  return Film({box_of(own, borders), distance, field_of(own, borders, clearance_m), taken}, spacing_m);
+  const BodyField left = field_of(own, borders, clearance_m);
+  return Film({box_of(own, borders), distance, left, taken, cut.loose_ends}, cut.spacing_m);
 }
 
 }  // namespace
 
-Cut cut_muscle(const Body& own, Borders& borders, double clearance_m) {
-  const double spacing_m = spacing_for_m(own.distance);
-  Cut cut = cut_on_lattice(own, field_of(own, borders, clearance_m), box_of(own, borders), spacing_m);
+Cut cut_muscle(const Body& own, const Borders& borders, double clearance_m) {
+  return cut_on_lattice(own, field_of(own, borders, clearance_m), box_of(own, borders), spacing_for_m(own.distance));
+}
+
+bool falls_apart(const Body& own, const Cut& cut) {
+  return cut.dropped_m3 > kLooseEnds * own.distance.volume_m3();
+}
+
+void keep_core(const Body& own, Borders& borders, double clearance_m, Cut& cut) {
   for (const Core& core : kCores) {
-    if (cut.dropped_m3 <= kLooseEnds * own.distance.volume_m3()) break;
+    if (!falls_apart(own, cut)) break;
     Borders with_core = borders;
     with_core.core = core.depth;
-    Cut more =
-        cut_on_lattice(own, field_of(own, with_core, clearance_m), box_of(own, with_core), core.spacing * spacing_m);
+    const double spacing_m = core.spacing * spacing_for_m(own.distance);
+    Cut more = cut_on_lattice(own, field_of(own, with_core, clearance_m), box_of(own, with_core), spacing_m);
     if (more.dropped_m3 >= cut.dropped_m3) continue;
     cut = std::move(more);
     borders = std::move(with_core);
   }
-  return cut;
 }
 
-TriangleMesh film_over_tunnels(const Body& own, const Borders& borders, double clearance_m, const Cut& cut) {
-  if (cut.tunnels <= 0) return {};
-  const Film film = find_film(own, borders, clearance_m, cut.spacing_m);
+TriangleMesh film_surface(const Body& own, const Borders& borders, double clearance_m, const Cut& cut) {
+  if (!cut.needs_film()) return {};
+  const Film film = find_film(own, borders, clearance_m, cut);
   return film.empty() ? TriangleMesh{} : film.surface(kFilmRadius * cut.spacing_m);
 }
 
-void patch_tunnels(const Body& own, const Borders& borders, double clearance_m, Cut& cut) {
-  if (cut.tunnels <= 0) return;
-  const Film film = find_film(own, borders, clearance_m, cut.spacing_m);
+void patch(const Body& own, const Borders& borders, double clearance_m, Cut& cut) {
+  if (!cut.needs_film()) return;
+  const Film film = find_film(own, borders, clearance_m, cut);
   const BodyField field = field_of(own, borders, clearance_m);
   const auto patched = [&](const Vec3& p) {
     return std::min(field(p), kFlattening * (film.distance_m(p) - kPatchRadius * cut.spacing_m));
   };
   Cut closed = cut_on_lattice(own, patched, box_of(own, borders), cut.spacing_m);
-  if (closed.tunnels < cut.tunnels) cut = std::move(closed);
+  const bool better = closed.tunnels <= cut.tunnels && closed.loose_ends.size() <= cut.loose_ends.size();
+  if (better) cut = std::move(closed);
 }
 
 }  // namespace myotact::prepare

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "geometry/triangle_mesh.h"
 #include "prepare/part/borders.h"
 
@@ -7,20 +9,29 @@ namespace myotact::prepare {
 
 /// A muscle cut along its borders.
 struct Cut {
-  geometry::TriangleMesh left;  // in one piece
-  double dropped_m3 = 0.0;      // enclosed by the other pieces
-  double spacing_m = 0.0;       // of the lattice that it was extracted on
-  int tunnels = 0;              // that the muscle did not have before
+  geometry::TriangleMesh left;   // the largest piece
+  double dropped_m3 = 0.0;       // enclosed by the other pieces
+  std::vector<Vec3> loose_ends;  // farthest places of dropped pieces that reach far beyond what is left: tendons
+  double spacing_m = 0.0;        // of the lattice that it was extracted on
+  int tunnels = 0;               // that the muscle did not have before
+
+  bool needs_film() const { return tunnels > 0 || !loose_ends.empty(); }
 };
 
-/// What is left of a muscle. When its borders would cut it in two, its core stays: `borders.core` is set.
-Cut cut_muscle(const Body& own, Borders& borders, double clearance_m);
+/// What is left of a muscle.
+Cut cut_muscle(const Body& own, const Borders& borders, double clearance_m);
 
-/// Films that close the tunnels of the cut (film.h), thick enough to be muscle; empty when there are none.
-geometry::TriangleMesh film_over_tunnels(const Body& own, const Borders& borders, double clearance_m, const Cut& cut);
+/// Whether more was dropped than scraps.
+bool falls_apart(const Body& own, const Cut& cut);
 
-/// Closes what tunnels the cut still has with films of one node's thickness, whatever is in their way. Tunnels of a
-/// lattice step or two come and go with films; this ends them.
-void patch_tunnels(const Body& own, const Borders& borders, double clearance_m, Cut& cut);
+/// When the borders cut the muscle in two, its core stays: `borders.core` is set, and it is cut again.
+void keep_core(const Body& own, Borders& borders, double clearance_m, Cut& cut);
+
+/// Films that close the tunnels of the cut and strands to its loose ends (film.h), thick enough to be muscle.
+geometry::TriangleMesh film_surface(const Body& own, const Borders& borders, double clearance_m, const Cut& cut);
+
+/// Closes what tunnels the cut still has, and holds its loose ends, with films of one node's thickness, whatever is in
+/// their way. Tunnels of a lattice step or two come and go with films; this ends them.
+void patch(const Body& own, const Borders& borders, double clearance_m, Cut& cut);
 
 }  // namespace myotact::prepare

@@ -21,6 +21,8 @@ constexpr int kMargin = 6;
 constexpr double kOffBone = 0.5;
 /// What a node in bone is dearer by than any outside it [m].
 constexpr double kInBone_m = 1e3;
+/// Vertices of a level set lie on edges of its lattice: a piece's node is within this many spacings of each.
+constexpr double kNearEnd = 1.8;
 /// Distances to the film are followed so far, in spacings: far enough for whole blocks to be passed over.
 constexpr int kFollowed = 6;
 
@@ -41,13 +43,13 @@ struct Steps {
   }
 };
 
-/// The largest piece of the nodes that are left; none of them is in the outermost layer.
-std::vector<bool> largest_piece(const Steps& steps, const std::vector<bool>& left) {
+/// The pieces of the nodes that are left, the largest first; none is in the outermost layer.
+std::vector<std::vector<std::size_t>> pieces_of_nodes(const Steps& steps, const std::vector<bool>& left) {
   std::vector<bool> seen(left.size(), false);
-  std::vector<std::size_t> best;
+  std::vector<std::vector<std::size_t>> pieces;
   for (std::size_t start = 0; start < left.size(); ++start) {
     if (!left[start] || seen[start]) continue;
-    std::vector<std::size_t> piece{start};
+    std::vector<std::size_t>& piece = pieces.emplace_back(1, start);
     seen[start] = true;
     for (std::size_t i = 0; i < piece.size(); ++i) {
       for (const std::ptrdiff_t step : steps.linked) {
@@ -57,11 +59,28 @@ std::vector<bool> largest_piece(const Steps& steps, const std::vector<bool>& lef
         piece.push_back(next);
       }
     }
-    if (piece.size() > best.size()) best = std::move(piece);
   }
-  std::vector<bool> largest(left.size(), false);
-  for (const std::size_t node : best) largest[node] = true;
-  return largest;
+  std::stable_sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) { return a.size() > b.size(); });
+  return pieces;
+}
+
+/// The nodes of the largest piece and of those that come near a loose end.
+std::vector<bool> nodes_to_keep(const BlockLattice& lattice, const Steps& steps, const std::vector<bool>& left,
+                                const std::vector<Vec3>& loose_ends) {
+  std::vector<bool> kept(left.size(), false);
+  bool largest = true;
+  for (const auto& piece : pieces_of_nodes(steps, left)) {
+    const bool stays = largest || std::any_of(piece.begin(), piece.end(), [&](std::size_t node) {
+                         const Vec3 p = lattice.place_of(node);
+                         return std::any_of(loose_ends.begin(), loose_ends.end(), [&](const Vec3& end) {
+                           return (p - end).norm() < kNearEnd * lattice.spacing_m();
+                         });
+                       });
+    largest = false;
+    if (!stays) continue;
+    for (const std::size_t node : piece) kept[node] = true;
+  }
+  return kept;
 }
 
 /// What is left of a full block when all nodes but `kept` that can go without opening a tunnel are gone, dear ones
@@ -118,7 +137,7 @@ Film::Film(const PiercedBody& body, double spacing_m) : lattice_(body.box, spaci
     if (value_m > 0.0) cost[node] += static_cast<float>(kInBone_m + value_m);
   });
   const Steps steps(lattice_);
-  const std::vector<bool> kept = largest_piece(steps, left);
+  const std::vector<bool> kept = nodes_to_keep(lattice_, steps, left, body.loose_ends);
   const std::vector<bool> closed = hollow_out(lattice_, steps, kept, cost);
   for (std::size_t node = 0; node < closed.size(); ++node) {
     if (closed[node] && !kept[node]) nodes_.push_back(node);

@@ -47,19 +47,23 @@ std::vector<bool> enter_films(const BodiesToPart& bodies, const Films& films, st
   return changed;
 }
 
-/// Cuts a muscle that films came in the way of. One that other muscles' films would cut in two reaches through them:
-/// its core would overlap far more.
+/// Cuts a muscle that films came in the way of. One that other muscles' films would cut in two reaches through them,
+/// and one that falls apart even so keeps its core, which overlaps more.
 Cut cut_around_films(const Body& own, Borders& borders, double clearance_m) {
-  Borders without = borders;
-  without.earlier_films.clear();
-  without.later_films.clear();
   Cut cut = cut_muscle(own, borders, clearance_m);
-  if (borders.core == without.core) return cut;
-  borders = std::move(without);
-  return cut_muscle(own, borders, clearance_m);
+  patch(own, borders, clearance_m, cut);
+  if (!falls_apart(own, cut)) return cut;
+  borders.earlier_films.clear();
+  borders.later_films.clear();
+  cut = cut_muscle(own, borders, clearance_m);
+  patch(own, borders, clearance_m, cut);
+  if (!falls_apart(own, cut)) return cut;
+  keep_core(own, borders, clearance_m, cut);
+  patch(own, borders, clearance_m, cut);
+  return cut;
 }
 
-/// Cuts all muscles along their borders, then those again that films over tunnels came in the way of.
+/// Cuts all muscles along their borders, then those again that films came in the way of.
 std::vector<Cut> cut_muscles(const BodiesToPart& bodies, std::vector<Borders>& borders, const PartSettings& settings,
                              const std::function<void()>& done) {
   std::vector<Cut> cuts(borders.size());
@@ -69,14 +73,13 @@ std::vector<Cut> cut_muscles(const BodiesToPart& bodies, std::vector<Borders>& b
     if (borders[i].none()) return;
     const Body& own = *bodies.muscles[i];
     cuts[i] = cut_muscle(own, borders[i], settings.clearance_m);
-    const geometry::TriangleMesh film = film_over_tunnels(own, borders[i], settings.clearance_m, cuts[i]);
+    const geometry::TriangleMesh film = film_surface(own, borders[i], settings.clearance_m, cuts[i]);
     if (!film.triangles.empty()) films[i] = std::make_unique<SignedDistance>(film);
   });
   const std::vector<bool> changed = enter_films(bodies, films, borders);
   for_each_index(borders.size(), settings.threads, [&](std::size_t i) {
     const Body& own = *bodies.muscles[i];
-    if (changed[i]) cuts[i] = cut_around_films(own, borders[i], settings.clearance_m);
-    patch_tunnels(own, borders[i], settings.clearance_m, cuts[i]);
+    if (changed[i] || falls_apart(own, cuts[i])) cuts[i] = cut_around_films(own, borders[i], settings.clearance_m);
   });
   return cuts;
 }

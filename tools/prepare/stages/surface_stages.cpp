@@ -56,7 +56,7 @@ void report_parting(const PartReport& part, SurfaceReport& report) {
   report.volume_m3 = part.volume_before_m3 - part.volume_lost_m3;
   for (const auto& [volume_m3, key] : part.gave_way) report.gave_way.emplace_back(key, volume_m3);
   if (!part.hosts.empty()) report.notes.push_back("nested in " + join(part.hosts) + ": keeps its shape");
-  if (part.filmed) report.notes.push_back("neighbours reach through it: films close the holes");
+  if (part.filmed) report.notes.push_back("neighbours reach through it: films close the holes, strands hold loose ends");
   if (part.tunnels > 0) report.notes.push_back(fmt::format("parting left {} holes through it", part.tunnels));
   if (part.kept_core) report.notes.push_back("would be cut in two by its neighbours: its core stays and overlaps them");
   if (part.dropped_m3 > kWorthANote_m3) {
