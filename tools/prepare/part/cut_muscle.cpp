@@ -37,11 +37,13 @@ struct Core {
 };
 constexpr std::array<Core, 2> kCores = {{{0.4, 1.0}, {0.2, 0.6}}};
 
-double spacing_for_m(const SignedDistance& body) {
+/// Films of other muscles are thin: only the finest lattice sees them.
+double spacing_for_m(const SignedDistance& body, const Borders& borders) {
   const double area_m2 = geometry::surface_area_m2(body.surface());
-  return std::max(
-      {kFinestSpacing_m, spacing_for_triangles_m(area_m2, kMostTriangles),
-       std::min(spacing_for_triangles_m(area_m2, kTriangles), spacing_for_thickness_m(area_m2, body.volume_m3()))});
+  const double finest_m = std::max(kFinestSpacing_m, spacing_for_triangles_m(area_m2, kMostTriangles));
+  if (!borders.earlier_films.empty() || !borders.later_films.empty()) return finest_m;
+  return std::max(finest_m, std::min(spacing_for_triangles_m(area_m2, kTriangles),
+                                     spacing_for_thickness_m(area_m2, body.volume_m3())));
 }
 
 /// The field of what is left of a muscle, ready to be extracted.
@@ -100,7 +102,8 @@ Film find_film(const Body& own, const Borders& borders, double clearance_m, cons
 }  // namespace
 
 Cut cut_muscle(const Body& own, const Borders& borders, double clearance_m) {
-  return cut_on_lattice(own, field_of(own, borders, clearance_m), box_of(own, borders), spacing_for_m(own.distance));
+  return cut_on_lattice(own, field_of(own, borders, clearance_m), box_of(own, borders),
+                        spacing_for_m(own.distance, borders));
 }
 
 bool falls_apart(const Body& own, const Cut& cut) {
@@ -112,7 +115,7 @@ void keep_core(const Body& own, Borders& borders, double clearance_m, Cut& cut) 
     if (!falls_apart(own, cut)) break;
     Borders with_core = borders;
     with_core.core = core.depth;
-    const double spacing_m = core.spacing * spacing_for_m(own.distance);
+    const double spacing_m = core.spacing * spacing_for_m(own.distance, borders);
     Cut more = cut_on_lattice(own, field_of(own, with_core, clearance_m), box_of(own, with_core), spacing_m);
     if (more.dropped_m3 >= cut.dropped_m3) continue;
     cut = std::move(more);
@@ -126,16 +129,18 @@ TriangleMesh film_surface(const Body& own, const Borders& borders, double cleara
   return film.empty() ? TriangleMesh{} : film.surface(kFilmRadius * cut.spacing_m);
 }
 
-void patch(const Body& own, const Borders& borders, double clearance_m, Cut& cut) {
-  if (!cut.needs_film()) return;
+TriangleMesh patch(const Body& own, const Borders& borders, double clearance_m, Cut& cut) {
+  if (!cut.needs_film()) return {};
   const Film film = find_film(own, borders, clearance_m, cut);
+  if (film.empty()) return {};
+  const double radius_m = kPatchRadius * cut.spacing_m;
   const BodyField field = field_of(own, borders, clearance_m);
-  const auto patched = [&](const Vec3& p) {
-    return std::min(field(p), kFlattening * (film.distance_m(p) - kPatchRadius * cut.spacing_m));
-  };
+  const auto patched = [&](const Vec3& p) { return std::min(field(p), kFlattening * (film.distance_m(p) - radius_m)); };
   Cut closed = cut_on_lattice(own, patched, box_of(own, borders), cut.spacing_m);
   const bool better = closed.tunnels <= cut.tunnels && closed.loose_ends.size() <= cut.loose_ends.size();
-  if (better) cut = std::move(closed);
+  if (!better) return {};
+  cut = std::move(closed);
+  return film.surface(radius_m);
 }
 
 }  // namespace myotact::prepare

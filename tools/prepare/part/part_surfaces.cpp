@@ -48,39 +48,63 @@ std::vector<bool> enter_films(const BodiesToPart& bodies, const Films& films, st
 }
 
 /// Cuts a muscle that films came in the way of. One that other muscles' films would cut in two reaches through them,
-/// and one that falls apart even so keeps its core, which overlaps more.
-Cut cut_around_films(const Body& own, Borders& borders, double clearance_m) {
+/// and one that falls apart even so keeps its core, which overlaps more. `patch_surface` becomes its patches'.
+Cut cut_around_films(const Body& own, Borders& borders, double clearance_m, geometry::TriangleMesh& patch_surface) {
   Cut cut = cut_muscle(own, borders, clearance_m);
-  patch(own, borders, clearance_m, cut);
+  patch_surface = patch(own, borders, clearance_m, cut);
   if (!falls_apart(own, cut)) return cut;
   borders.earlier_films.clear();
   borders.later_films.clear();
   cut = cut_muscle(own, borders, clearance_m);
-  patch(own, borders, clearance_m, cut);
+  patch_surface = patch(own, borders, clearance_m, cut);
   if (!falls_apart(own, cut)) return cut;
   keep_core(own, borders, clearance_m, cut);
-  patch(own, borders, clearance_m, cut);
+  patch_surface = patch(own, borders, clearance_m, cut);
   return cut;
+}
+
+std::unique_ptr<SignedDistance> as_distance(const geometry::TriangleMesh& film) {
+  return film.triangles.empty() ? nullptr : std::make_unique<SignedDistance>(film);
+}
+
+/// Cuts those muscles once more that others' patches lie in, unless that would pierce them or take them apart.
+void give_way_to_patches(const BodiesToPart& bodies, const std::vector<Borders>& borders, const Films& patches,
+                         const PartSettings& settings, std::vector<Cut>& cuts) {
+  for_each_index(cuts.size(), settings.threads, [&](std::size_t i) {
+    const Body& own = *bodies.muscles[i];
+    Borders around = borders[i];
+    for (std::size_t j = 0; j < patches.size(); ++j) {
+      if (i == j || !patches[j] || measure_overlap(own.distance, *patches[j]).volume_m3 == 0.0) continue;
+      around.earlier_films.push_back(patches[j].get());
+    }
+    if (around.earlier_films.size() == borders[i].earlier_films.size()) return;
+    Cut cut = cut_muscle(own, around, settings.clearance_m);
+    patch(own, around, settings.clearance_m, cut);
+    if (cut.tunnels <= cuts[i].tunnels && cut.loose_ends.empty() && !falls_apart(own, cut)) cuts[i] = std::move(cut);
+  });
 }
 
 /// Cuts all muscles along their borders, then those again that films came in the way of.
 std::vector<Cut> cut_muscles(const BodiesToPart& bodies, std::vector<Borders>& borders, const PartSettings& settings,
                              const std::function<void()>& done) {
   std::vector<Cut> cuts(borders.size());
-  Films films(borders.size());
+  Films films(borders.size()), patches(borders.size());
   for_each_index(borders.size(), settings.threads, [&](std::size_t i) {
     if (done) done();
     if (borders[i].none()) return;
     const Body& own = *bodies.muscles[i];
     cuts[i] = cut_muscle(own, borders[i], settings.clearance_m);
-    const geometry::TriangleMesh film = film_surface(own, borders[i], settings.clearance_m, cuts[i]);
-    if (!film.triangles.empty()) films[i] = std::make_unique<SignedDistance>(film);
+    films[i] = as_distance(film_surface(own, borders[i], settings.clearance_m, cuts[i]));
   });
   const std::vector<bool> changed = enter_films(bodies, films, borders);
   for_each_index(borders.size(), settings.threads, [&](std::size_t i) {
     const Body& own = *bodies.muscles[i];
-    if (changed[i] || falls_apart(own, cuts[i])) cuts[i] = cut_around_films(own, borders[i], settings.clearance_m);
+    if (!changed[i] && !falls_apart(own, cuts[i])) return;
+    geometry::TriangleMesh surface;
+    cuts[i] = cut_around_films(own, borders[i], settings.clearance_m, surface);
+    patches[i] = as_distance(surface);
   });
+  give_way_to_patches(bodies, borders, patches, settings, cuts);
   return cuts;
 }
 
