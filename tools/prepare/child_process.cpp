@@ -20,9 +20,6 @@ namespace myotact::prepare {
 
 namespace {
 
-/// More than ten times what a muscle of the largest allowed number of tets takes.
-constexpr rlim_t kMostMemory_bytes = rlim_t{4} << 30;
-
 void write_all(int pipe, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t done = ::write(pipe, bytes.data(), bytes.size());
@@ -37,10 +34,6 @@ void set_limits(int limit_s) {
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CPU, &cpu);
   ::setrlimit(RLIMIT_CORE, &no_core);
-#ifndef __SANITIZE_ADDRESS__  // which reserves far more than it uses
-  const rlimit memory{kMostMemory_bytes, kMostMemory_bytes};
-  ::setrlimit(RLIMIT_AS, &memory);
-#endif
 }
 
 /// The child's whole life. Faults end it by the system's default, whatever handlers the parent had.

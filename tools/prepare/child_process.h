@@ -13,8 +13,8 @@ struct ChildResult {
   std::string bytes;
 };
 
-/// Runs the work in a child process with limits on time and memory, because libraries that are given odd surfaces end
-/// their process, go round in circles, or take what memory there is. The work must not touch other threads' locks.
+/// Runs the work in a child process with a limit on time, because libraries that are given odd surfaces end their
+/// process or go round in circles. The work must not touch other threads' locks.
 /// Throws Error Internal when no child can be made.
 ChildResult run_in_child(const std::function<std::string()>& work, int limit_s);
 

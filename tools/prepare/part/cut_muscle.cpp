@@ -37,13 +37,18 @@ struct Core {
 };
 constexpr std::array<Core, 2> kCores = {{{0.4, 1.0}, {0.2, 0.6}}};
 
-/// Films of other muscles are thin: only the finest lattice sees them.
+/// Coarse enough for the number of triangles; fine enough for the muscle's tendons and for other muscles' films in it,
+/// which it is to see two steps thick.
 double spacing_for_m(const SignedDistance& body, const Borders& borders) {
   const double area_m2 = geometry::surface_area_m2(body.surface());
-  const double finest_m = std::max(kFinestSpacing_m, spacing_for_triangles_m(area_m2, kMostTriangles));
-  if (!borders.earlier_films.empty() || !borders.later_films.empty()) return finest_m;
-  return std::max(finest_m, std::min(spacing_for_triangles_m(area_m2, kTriangles),
-                                     spacing_for_thickness_m(area_m2, body.volume_m3())));
+  double usual_m =
+      std::min(spacing_for_triangles_m(area_m2, kTriangles), spacing_for_thickness_m(area_m2, body.volume_m3()));
+  for (const auto* films : {&borders.earlier_films, &borders.later_films}) {
+    for (const SignedDistance* film : *films) {
+      usual_m = std::min(usual_m, film->volume_m3() / geometry::surface_area_m2(film->surface()));
+    }
+  }
+  return std::max({kFinestSpacing_m, spacing_for_triangles_m(area_m2, kMostTriangles), usual_m});
 }
 
 /// The field of what is left of a muscle, ready to be extracted.

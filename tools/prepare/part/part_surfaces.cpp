@@ -79,8 +79,7 @@ void give_way_to_patches(const BodiesToPart& bodies, const std::vector<Borders>&
     }
     if (around.earlier_films.size() == borders[i].earlier_films.size()) return;
     Cut cut = cut_muscle(own, around, settings.clearance_m);
-    patch(own, around, settings.clearance_m, cut);
-    if (cut.tunnels <= cuts[i].tunnels && cut.loose_ends.empty() && !falls_apart(own, cut)) cuts[i] = std::move(cut);
+    if (!cut.needs_film() && !falls_apart(own, cut)) cuts[i] = std::move(cut);
   });
 }
 
