@@ -30,7 +30,8 @@ void write_all(int pipe, std::string_view bytes) {
 }
 
 void set_limits(int limit_s) {
-  const rlimit cpu{static_cast<rlim_t>(limit_s), static_cast<rlim_t>(limit_s)};
+  const auto cpu_s = static_cast<rlim_t>(limit_s);
+  const rlimit cpu{cpu_s, cpu_s + 1};  // equal limits would end it by a signal that does not tell why
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CPU, &cpu);
   ::setrlimit(RLIMIT_CORE, &no_core);
@@ -38,6 +39,11 @@ void set_limits(int limit_s) {
 
 /// The child's whole life. Faults end it by the system's default, whatever handlers the parent had.
 [[noreturn]] void run_child(const std::function<std::string()>& work, int limit_s, int pipe) {
+  // Pipes of children that other threads started: as long as this one held them, too, their readers would wait for it.
+  constexpr int kOwnPipe = STDERR_FILENO + 1;
+  ::dup2(pipe, kOwnPipe);
+  ::close_range(kOwnPipe + 1, ~0U, 0);
+  pipe = kOwnPipe;
   for (const int fault : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL}) ::signal(fault, SIG_DFL);
   set_limits(limit_s);
   const int silent = ::open("/dev/null", O_WRONLY);
