@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "anatomy/hinge_chains.h"
 #include "core/data_folder.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -175,7 +176,7 @@ Scene parse_scene(const std::string& text, const std::filesystem::path& file, co
   scene.name = root.at("name").string();
   scene.title = root.string_or("title", scene.name);
   scene.specimen_folder = find_specimen(root.at("specimen"), file);
-  scene.specimen = anatomy::load_specimen(scene.specimen_folder);
+  scene.specimen = anatomy::with_hinge_chains(anatomy::load_specimen(scene.specimen_folder));
   scene.joints.resize(scene.specimen.joints.size());
   scene.activations.assign(scene.specimen.muscles.size(), 0.0);
   scene.settings.tissue.assign(scene.specimen.muscles.size(), simulation::TissueModel::Fem);

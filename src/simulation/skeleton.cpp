@@ -35,7 +35,9 @@ Skeleton::Skeleton(const anatomy::Specimen& specimen) : joints_(specimen.joints)
 void Skeleton::check_joint(int j) const {
   const anatomy::Joint& joint = joints_[index(j)];
   if (joint.type != anatomy::JointType::Hinge && joint.type != anatomy::JointType::Weld) {
-    throw joint_error(joint, "its type is not simulated yet; use hinge or weld");
+    throw joint_error(joint,
+                      "only hinges and welds turn here; universal and ball joints become chains of hinges by "
+                      "anatomy::with_hinge_chains");
   }
   for (const int body : {joint.parent, joint.child}) {
     if (body < 0 || body >= body_count()) {

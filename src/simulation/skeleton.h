@@ -15,7 +15,8 @@ namespace myotact::simulation {
 /// distal to j, else 0. Single caller; const functions may be called from several threads.
 class Skeleton {
  public:
-  /// Joints and bodies are copied. Throws Error BadData for a universal or ball joint, an index out of range, an axis
+  /// Joints and bodies are copied. Throws Error BadData for a universal or ball joint (see
+  /// anatomy::with_hinge_chains), an index out of range, an axis
   /// that is not a unit vector, a body below two joints or a loop.
   explicit Skeleton(const anatomy::Specimen& specimen);
 

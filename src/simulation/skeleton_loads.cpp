@@ -1,11 +1,20 @@
 #include "simulation/skeleton_loads.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <Eigen/Geometry>
 
 namespace myotact::simulation {
 namespace {
+
+/// Angle past the end of the range by which a spring with a toe is strained: past^2 / (2 toe) within the toe, half a
+/// toe less than `past_rad` beyond it. Signed as `past_rad`.
+double strained_rad(double past_rad) {
+  const double size = std::abs(past_rad);
+  const double strain = size < kRangeToe_rad ? size * size / (2.0 * kRangeToe_rad) : size - 0.5 * kRangeToe_rad;
+  return std::copysign(strain, past_rad);
+}
 
 /// Spring about q = 0, damper, and the stop at the ends of the range.
 void add_passive(const Skeleton& skeleton, int j, double velocity_rad_s, SkeletonLoads& loads) {
@@ -18,11 +27,13 @@ void add_passive(const Skeleton& skeleton, int j, double velocity_rad_s, Skeleto
   const auto& [lowest, highest] = joint.range_rad[0];
   const double past_rad = q > highest ? q - highest : std::min(0.0, q - lowest);  // signed
   if (past_rad == 0.0) return;
-  const double stop_Nm = -kRangeStiffness_Nm_rad * past_rad - kRangeDamping_Nms_rad * velocity_rad_s;
+  const double share = std::min(1.0, std::abs(past_rad) / kRangeToe_rad);  // of the full stiffness and damping
+  const double stop_Nm =
+      -kRangeStiffness_Nm_rad * strained_rad(past_rad) - kRangeDamping_Nms_rad * share * velocity_rad_s;
   if (stop_Nm * past_rad >= 0.0) return;  // leaving so fast that the damper would pull it back: a stop only pushes
   loads.force_Nm[j] += stop_Nm;
-  loads.passive_Nm_rad[j] += kRangeStiffness_Nm_rad;
-  loads.damping_Nms_rad[j] += kRangeDamping_Nms_rad;
+  loads.passive_Nm_rad[j] += kRangeStiffness_Nm_rad * share;
+  loads.damping_Nms_rad[j] += kRangeDamping_Nms_rad * share;
 }
 
 /// Acceleration that a body has at zero joint accelerations, because the joints turn each other's axes.

@@ -16,10 +16,13 @@ struct SkeletonInput {
   std::span<const double> external_torque_Nm;  // joints
 };
 
-/// Stop at the end of a joint's range: a one-sided spring and damper. 500 N m/rad yields 1.4 degrees under 12 N m (600
+/// Stop at the end of a joint's range: a one-sided spring and damper. 500 N m/rad yields 1.7 degrees under 12 N m (600
 /// N at 20 mm, a strong canine triceps); softer, and the elbow visibly passes its range. Chosen, not measured: bone on
 /// bone is far stiffer, which an implicit step would stand but a hand could not tell.
 inline constexpr double kRangeStiffness_Nm_rad = 500.0;
+/// Over this angle past the end the stop's stiffness and damping rise from nothing, so that neither torque nor
+/// stiffness jumps when a limb swings into it: half a degree, below what anybody sees [rad].
+inline constexpr double kRangeToe_rad = 0.009;
 /// Near critical for a canine forearm (0.003 kg m^2): 2 sqrt(500 * 0.003), so that the limb does not bounce off the
 /// stop.
 inline constexpr double kRangeDamping_Nms_rad = 2.5;

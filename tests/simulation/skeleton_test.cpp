@@ -159,11 +159,19 @@ TEST(Skeleton, TheStopOnlyPushes) {
   anatomy::Specimen specimen = arm();
   specimen.joints[kElbow].range_rad = {{-0.2, 0.4}};
   Skeleton skeleton(specimen);
-  skeleton.set_pose(std::vector<double>{0.0, 0.41, 0.0});
   SkeletonLoads loads;
   const std::vector<double> torque(3, 0.0);
-  loads.compute(skeleton, {Vec3::Zero(), std::vector<double>{0.0, 0.0, 0.0}, torque});
-  EXPECT_NEAR(loads.force_Nm[kElbow], -kRangeStiffness_Nm_rad * 0.01, 1e-9);
+  const auto stop_Nm = [&](double past_rad) {
+    skeleton.set_pose(std::vector<double>{0.0, 0.4 + past_rad, 0.0});
+    loads.compute(skeleton, {Vec3::Zero(), std::vector<double>{0.0, 0.0, 0.0}, torque});
+    return -loads.force_Nm[kElbow];
+  };
+  // The toe costs half its width; torque and stiffness begin at zero.
+  EXPECT_NEAR(stop_Nm(0.05), kRangeStiffness_Nm_rad * (0.05 - 0.5 * kRangeToe_rad), 1e-9);
+  EXPECT_LT(stop_Nm(1e-6), 1e-6 * kRangeStiffness_Nm_rad * 1e-3);
+  EXPECT_LT(loads.passive_Nm_rad[kElbow], 1e-3 * kRangeStiffness_Nm_rad);
+  EXPECT_NEAR(stop_Nm(kRangeToe_rad + 1e-9), stop_Nm(kRangeToe_rad - 1e-9), 1e-5);
+  stop_Nm(0.01);
   loads.compute(skeleton, {Vec3::Zero(), std::vector<double>{0.0, -50.0, 0.0}, torque});
   EXPECT_EQ(loads.damping_Nms_rad[kElbow], 0.0);
   EXPECT_EQ(loads.passive_Nm_rad[kElbow], 0.0);
@@ -190,7 +198,7 @@ std::string refusal(const anatomy::Specimen& specimen) {
 TEST(Skeleton, RefusesWhatItCannotMove) {
   anatomy::Specimen ball = arm(), far = arm(), twice = arm(), loop = arm(), skewed = arm(), axisless = arm();
   ball.joints[kElbow].type = anatomy::JointType::Ball;
-  EXPECT_NE(refusal(ball).find("'elbow': its type is not simulated yet; use hinge or weld"), std::string::npos);
+  EXPECT_NE(refusal(ball).find("'elbow': only hinges and welds turn here"), std::string::npos);
   far.joints[kElbow].child = 9;
   EXPECT_NE(refusal(far).find("body 9 must be 0 .. 3"), std::string::npos);
   twice.joints[kWrist].child = 2;
