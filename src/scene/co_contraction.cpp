@@ -15,9 +15,11 @@ namespace {
 /// Denser towards 0, where the weak demands of a balance lie.
 const std::vector<double> kLevels = {0.0, 0.05, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0};
 
-/// Drift of one degree held for a second asks for 0.1 N m; against 0.6 to 7 N m/rad of an elbow that is a time
-/// constant of 0.1 to 1 s, slower than a push.
-constexpr double kTrimGain_Nm_rad_s = 6.0;
+/// A drift is trimmed away within half a second, slower than a push. An integrator of gain g K keeps a joint of
+/// stiffness K, damping B and inertia I stable as long as g < B/I, which is 5 /s for a limp canine elbow.
+constexpr double kTrimRate_1_s = 2.0;
+/// Least stiffness that the trim reckons with: a joint that is limp or unstable is still led back.
+constexpr double kTrimStiffness_Nm_rad = 0.1;
 
 double side_torque(const TorqueTable& table, const std::vector<int>& side, double activation) {
   double sum = 0.0;
@@ -113,8 +115,9 @@ void PostureTrim::restart(double angle_rad) {
   torque_Nm_ = 0.0;
 }
 
-double PostureTrim::update(double angle_rad, double dt_s) {
-  torque_Nm_ -= kTrimGain_Nm_rad_s * (angle_rad - held_angle_rad_) * dt_s;
+double PostureTrim::update(double angle_rad, double stiffness_Nm_rad, double dt_s) {
+  torque_Nm_ -=
+      kTrimRate_1_s * std::max(stiffness_Nm_rad, kTrimStiffness_Nm_rad) * (angle_rad - held_angle_rad_) * dt_s;
   return torque_Nm_;
 }
 

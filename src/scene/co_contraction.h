@@ -40,8 +40,9 @@ Balance balance(const TorqueTable& table, const CoContraction& set, std::span<co
 class PostureTrim {
  public:
   void restart(double angle_rad);
-  /// Call once a step; returns the torque that the muscles should have [N m].
-  double update(double angle_rad, double dt_s);
+  /// Call once a step with the joint's angle and stiffness; returns the torque that the muscles should have [N m].
+  double update(double angle_rad, double stiffness_Nm_rad, double dt_s);
+  double torque_Nm() const { return torque_Nm_; }  // of the last update
 
  private:
   double held_angle_rad_ = 0.0;

@@ -107,12 +107,17 @@ void Conductor::drive_co_contraction(double time_s, std::vector<double>& excitat
   } else {
     set.common = common_.at(time_s);
     set.difference = difference_.at(time_s);
-    const double wanted_Nm =
-        hold_posture_ ? trim_.update(simulation_->joint(set.joint).angle_rad, scene_->settings.dt_s) : 0.0;
-    levels = balance(torques_, set, excitations, wanted_Nm);
+    levels = balance(torques_, set, excitations, hold_posture_ ? trimmed_torque_Nm(set.joint) : 0.0);
   }
   for (const int m : set.flexors) excitations[static_cast<std::size_t>(m)] = levels.flexors;
   for (const int m : set.extensors) excitations[static_cast<std::size_t>(m)] = levels.extensors;
+}
+
+/// While somebody shoves the joint the trim stands still: it would count as stiffness.
+double Conductor::trimmed_torque_Nm(int joint) {
+  if (!shoves_.empty()) return trim_.torque_Nm();
+  const simulation::JointReadout readout = simulation_->joint(joint);
+  return trim_.update(readout.angle_rad, readout.stiffness_Nm_rad, scene_->settings.dt_s);
 }
 
 void Conductor::prepare_step(double simulated_s, StepRecord& input) {

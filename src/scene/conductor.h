@@ -48,6 +48,7 @@ class Conductor {
 
   void settle();
   void begin(const ScriptAction& action);
+  double trimmed_torque_Nm(int joint);
   void drive_co_contraction(double time_s, std::vector<double>& excitations);
 
   const Scene* scene_;

@@ -77,14 +77,18 @@ simulation::TissueModel tissue_model(const JsonValue& value) {
   const std::string name = value.one_of({"fem", "mass_spring", "line", "rigid"});
   if (name == "fem") return simulation::TissueModel::Fem;
   if (name == "mass_spring") return simulation::TissueModel::MassSpring;
-  if (name == "rigid") return simulation::TissueModel::Rigid;
-  throw value.error(fmt::format("the model \"{}\" is not in this version; use fem, mass_spring or rigid", name));
+  if (name == "line") return simulation::TissueModel::Line;
+  return simulation::TissueModel::Rigid;
 }
 
 void read_tissue(const JsonValue& value, Scene& scene) {
   JsonObject tissue(value);
   if (const auto model = tissue.find("default")) {
     scene.settings.tissue.assign(scene.specimen.muscles.size(), tissue_model(*model));
+  }
+  if (const auto tendon = tissue.find("tendon")) {
+    scene.settings.tendon =
+        tendon->one_of({"elastic", "rigid"}) == "rigid" ? simulation::Tendon::Rigid : simulation::Tendon::Elastic;
   }
   if (const auto muscles = tissue.find("muscles")) {
     for (const auto& [key, entry] : JsonObject(*muscles).entries()) {

@@ -1,5 +1,6 @@
 #include "simulation/limb.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace myotact::simulation {
@@ -11,9 +12,15 @@ void add_mean_term(const LimbMuscle& muscle, Eigen::MatrixXd& solution) {
   solution -= muscle.mean_solution * along;
 }
 
+/// The line of a muscle; build_muscle_tissue() has seen to it that there is one.
+const anatomy::MuscleLine& line_of(const anatomy::Specimen& specimen, int muscle) {
+  return *std::find_if(specimen.lines.begin(), specimen.lines.end(),
+                       [&](const anatomy::MuscleLine& line) { return line.muscle == muscle; });
+}
+
 }  // namespace
 
-Limb::Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> models) : skeleton(specimen) {
+Limb::Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> models, Tendon tendon) : skeleton(specimen) {
   now.angle_rad = now.velocity_rad_s = Eigen::VectorXd::Zero(skeleton.joint_count());
   last = before = now;
   external_torque_Nm = now.angle_rad;
@@ -21,7 +28,11 @@ Limb::Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> model
     LimbMuscle muscle;
     const TissueModel model = models.empty() ? TissueModel::Fem : models[static_cast<std::size_t>(m)];
     muscle.tissue = build_muscle_tissue(specimen, m, model);
-    muscle.rigid = model == TissueModel::Rigid;
+    muscle.rigid = model == TissueModel::Rigid || model == TissueModel::Line;
+    if (model == TissueModel::Line) {
+      muscle.line =
+          make_line_tissue(specimen.muscles[static_cast<std::size_t>(m)], line_of(specimen, m), skeleton, tendon);
+    }
     muscle.state = make_state(muscle.tissue);
     muscle.system = make_system(muscle.tissue, skeleton);
     muscle.stiffness_Nm_rad = muscle.readout.torque_Nm = Eigen::VectorXd::Zero(skeleton.joint_count());
@@ -76,6 +87,17 @@ void move_free_nodes(LimbMuscle& muscle, const Eigen::VectorXd& change_m) {
     const int f = muscle.tissue.free_index[node];
     if (f < 0) continue;
     muscle.state.now.position_m.segment<3>(static_cast<Eigen::Index>(3 * node)) += change_m.segment<3>(3 * f);
+  }
+}
+
+void evaluate_lines(Limb& limb, const TimeRule& rule) {
+  for (LimbMuscle& muscle : limb.muscles) {
+    if (!muscle.line) continue;
+    const LineLoad load = evaluate_line_tissue(limb.skeleton, rule, muscle.state.activation, *muscle.line);
+    muscle.system.joint_residual_Nm = load.residual_Nm;
+    muscle.system.joint_stiffness_Nm_rad = load.stiffness_Nm_rad;
+    muscle.readout.torque_Nm = -load.residual_Nm;
+    muscle.readout.tension_N = muscle.line->force.force_N;
   }
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "simulation/block_factor.h"
+#include "simulation/line_tissue.h"
 #include "simulation/skeleton_loads.h"
 #include "simulation/skin_embedding.h"
 #include "simulation/tissue_system.h"
@@ -32,7 +34,8 @@ struct MuscleReadout {
 /// One muscle: model, state, and what a solve leaves behind. Owned by one task at a time.
 struct LimbMuscle {
   MuscleTissue tissue;
-  bool rigid = false;  // follows the bones, exerts nothing
+  bool rigid = false;              // its shape follows the bones: no nodes to solve for
+  std::optional<LineTissue> line;  // of a Line muscle, which is rigid, too
   TissueState state;
   TissueSystem system;
   Eigen::VectorXd mean_solution;      // factor^-1 mean gradient
@@ -60,8 +63,9 @@ struct JointFrameState {
 
 /// Everything that moves, and what a step needs. See step.h and settle.h.
 struct Limb {
-  /// `models`: one a muscle; empty: all Fem.
-  explicit Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> models = {});
+  /// `models`: one a muscle; empty: all Fem. `tendon`: of the Line ones.
+  explicit Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> models = {},
+                Tendon tendon = Tendon::Elastic);
 
   Skeleton skeleton;
   SkeletonLoads loads;
@@ -88,6 +92,10 @@ void follow_angles(Limb& limb);
 
 /// Adds `change_m` (3 numbers a free node) to the present positions.
 void move_free_nodes(LimbMuscle& muscle, const Eigen::VectorXd& change_m);
+
+/// Loads of the Line muscles in the present pose, at the end of a step by `rule` (all zero: at rest), into their
+/// systems.
+void evaluate_lines(Limb& limb, const TimeRule& rule);
 
 /// Copies the outcome of the last forces pass to the muscles' readouts, and the bones' loads to `limb.loads`.
 void read_out(Limb& limb);

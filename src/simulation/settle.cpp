@@ -141,6 +141,10 @@ void bring_to_rest(Limb& limb) {
     std::fill(muscle.state.stretch_rate_1_s.begin(), muscle.state.stretch_rate_1_s.end(), 0.0);
     muscle.state.last = muscle.state.before = muscle.state.now;
   }
+  evaluate_lines(limb, TimeRule{});
+  for (LimbMuscle& muscle : limb.muscles) {
+    if (muscle.line) bring_to_rest(muscle.state.activation, *muscle.line);
+  }
   read_out(limb);
   limb.springs.clear();
   limb.spring_force_N.clear();
@@ -182,6 +186,11 @@ bool settle_limb(Limb& limb, std::span<const double> angles_rad, WorkerPool& wor
 }
 
 void refresh_muscle_stiffness(const Limb& limb, LimbMuscle& muscle) {
+  if (muscle.line) {
+    LineTissue resting = *muscle.line;
+    const LineLoad load = evaluate_line_tissue(limb.skeleton, TimeRule{}, muscle.state.activation, resting);
+    muscle.stiffness_Nm_rad = load.stiffness_Nm_rad.diagonal();
+  }
   if (muscle.rigid) return;
   compute_system(limb.skeleton, static_load(limb.gravity_m_s2), muscle, Accuracy::Refined);
   Eigen::MatrixXd solution;

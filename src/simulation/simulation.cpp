@@ -55,7 +55,7 @@ struct Simulation::Impl {
   Impl(const anatomy::Specimen& given, const SimulationSettings& chosen)
       : specimen(given),
         settings(chosen),
-        limb(specimen, settings.tissue),
+        limb(specimen, settings.tissue, settings.tendon),
         workers(chosen.workers),
         surfaces(specimen, limb) {
     limb.gravity_m_s2 = settings.gravity_m_s2;
@@ -92,6 +92,7 @@ struct Simulation::Impl {
   void freeze();
   LineForce line_force_of(int muscle) const;
   LineGeometry line_geometry_of(int muscle) const;
+  double tension_N(int muscle) const;
   bool spans(int muscle, int joint) const;
   void write_contact(const messages::ToolContact& contact, messages::LocalModel& model) const;
   void write_line(const messages::ToolState& tool, messages::LocalModel& model) const;
@@ -132,11 +133,22 @@ bool Simulation::Impl::spans(int muscle, int joint) const {
   return std::any_of(points.begin(), points.end(), distal) && !std::all_of(points.begin(), points.end(), distal);
 }
 
+/// What the muscle's line does now; of a Line muscle at rest at its present length, which is what its stiffness means.
 LineForce Simulation::Impl::line_force_of(int muscle) const {
+  if (const std::optional<LineTissue>& line = limb.muscles[at(muscle)].line) {
+    const HillForce force = hill_equilibrium(line->hill, line->length_m, limb.muscles[at(muscle)].state.activation);
+    return {force.fibre_m / line->hill.optimal_fibre_m, force.force_N, force.stiffness_N_m, force.fibre_damping_Ns_m};
+  }
   const LineGeometry geometry = line_geometry_of(muscle);
   const double speed_m_s = geometry.slope_m_rad.dot(limb.now.velocity_rad_s);
   return line_force(specimen.muscles[at(muscle)], geometry.length_m - lines[at(muscle)].length_m, speed_m_s,
                     limb.muscles[at(muscle)].state.activation);
+}
+
+/// That the muscle hands to its tendon; of one that is only a shape, what its line would.
+double Simulation::Impl::tension_N(int muscle) const {
+  const LimbMuscle& m = limb.muscles[at(muscle)];
+  return m.rigid && !m.line ? line_force_of(muscle).force_N : m.readout.tension_N;
 }
 
 void Simulation::Impl::write_contact(const messages::ToolContact& contact, messages::LocalModel& model) const {
@@ -156,10 +168,8 @@ void Simulation::Impl::write_line(const messages::ToolState& tool, messages::Loc
   for (std::size_t m = 0; m < lines.size(); ++m) points.push_back(line_points_W(*lines[m].line, limb.skeleton));
   for (std::size_t m = 0; m < lines.size(); ++m) {
     const LineForce force = line_force_of(static_cast<int>(m));
-    const bool rigid = limb.muscles[m].rigid;
-    views.push_back({static_cast<int>(m), points[m], lines[m].fractions,
-                     std::max(0.0, rigid ? force.force_N : limb.muscles[m].readout.tension_N), force.stiffness_N_m,
-                     force.damping_Ns_m});
+    views.push_back({static_cast<int>(m), points[m], lines[m].fractions, std::max(0.0, tension_N(static_cast<int>(m))),
+                     force.stiffness_N_m, force.damping_Ns_m});
   }
   model.line = local_line(views, {to_vec3(tool.tool_position_world_m), tool.grabbed_line, tool.grab_fraction});
 }
@@ -262,8 +272,7 @@ int Simulation::failed_steps() const {
 }
 
 double Simulation::muscle_force_N(int muscle) const {
-  const LimbMuscle& m = impl_->limb.muscles[at(muscle)];
-  return m.rigid ? impl_->line_force_of(muscle).force_N : m.readout.tension_N;
+  return impl_->tension_N(muscle);
 }
 
 double Simulation::muscle_torque_Nm(int muscle, int joint) const {
@@ -328,6 +337,7 @@ std::uint64_t Simulation::state_hash() const {
     add_to_hash(as_span(muscle.state.now.position_m), hash);
     add_to_hash(as_span(muscle.state.now.velocity_m_s), hash);
     add_to_hash({&muscle.state.activation, 1}, hash);
+    if (muscle.line) add_to_hash({&muscle.line->fibre_now_m, 1}, hash);
   }
   return hash;
 }

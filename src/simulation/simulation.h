@@ -11,6 +11,7 @@
 #include "messages/local_model.h"
 #include "messages/scene_frame.h"
 #include "messages/tool_state.h"
+#include "simulation/hill_muscle.h"
 #include "simulation/tissue_model.h"
 
 namespace myotact::simulation {
@@ -20,6 +21,7 @@ struct SimulationSettings {
   Vec3 gravity_m_s2 = Vec3::Zero();
   int workers = 2;                  // threads of a step, the caller's included; the result does not depend on it
   std::vector<TissueModel> tissue;  // one a muscle; empty: all Fem
+  Tendon tendon = Tendon::Elastic;  // of the Line muscles
 };
 
 /// Joint stiffness K = -d(net torque)/dq at held activations, and what it is made of. All about the joint's axis.

@@ -13,6 +13,9 @@ constexpr int kMostIterations = 3;
 /// Out-of-balance force, over the size of the elements' forces, at which a step counts as solved. Below the 3 % that
 /// one linearised step costs in force anyway (measured on twitches against steps of 1 ms).
 constexpr double kSolvedShare = 0.02;
+/// Out-of-balance torque of the joints, over the sum of the lines' torques, at which Line muscles count as solved: they
+/// cost next to nothing, so that one more step of Newton's is worth a figure's fourth digit.
+constexpr double kLinesSolvedShare = 1e-4;
 /// A joint that turns farther than this in one Newton step is linearised once more [rad].
 constexpr double kLargestTurn_rad = 0.05;
 /// A place where an element folds over farther than this is not looked at.
@@ -125,10 +128,8 @@ void add_skeleton(Limb& limb, const TimeRule& rule, SmallSystem& small) {
   }
 }
 
-/// What a muscle adds to the small system once its nodes are eliminated.
-void add_muscle(const LimbMuscle& muscle, SmallSystem& small) {
-  small.matrix -= muscle.reduced;
-  small.right += muscle.reduced_residual;
+/// What a muscle's own pull on the joints adds to the small system.
+void add_joint_part(const LimbMuscle& muscle, SmallSystem& small) {
   for (std::size_t a = 0; a < small.joints.size(); ++a) {
     const auto row = static_cast<Eigen::Index>(a);
     small.right[row] -= muscle.system.joint_residual_Nm[small.joints[a]];
@@ -137,6 +138,13 @@ void add_muscle(const LimbMuscle& muscle, SmallSystem& small) {
           muscle.system.joint_stiffness_Nm_rad(small.joints[a], small.joints[b]);
     }
   }
+}
+
+/// What a muscle adds to the small system once its nodes are eliminated.
+void add_muscle(const LimbMuscle& muscle, SmallSystem& small) {
+  small.matrix -= muscle.reduced;
+  small.right += muscle.reduced_residual;
+  add_joint_part(muscle, small);
 }
 
 /// The springs' forces f are unknowns: -(U^T du + J dq + f / k) = -(target - point), symmetric with the rest.
@@ -209,7 +217,8 @@ void evaluate(const Limb& limb, const TissueLoad& load, double part, int index, 
 double energy_slope(Limb& limb, const TimeRule& rule, const Way& way) {
   double slope = skeleton_residual(limb, rule).dot(way.change_rad);
   for (const LimbMuscle& muscle : limb.muscles) {
-    if (!muscle.rigid) slope += muscle.energy_slope + muscle.system.joint_residual_Nm.dot(way.change_rad);
+    if (!muscle.rigid) slope += muscle.energy_slope;
+    if (!muscle.rigid || muscle.line) slope += muscle.system.joint_residual_Nm.dot(way.change_rad);
   }
   for (const ToolSpring& spring : limb.springs) {
     const Vec3 force = spring.stiffness_N_m * (spring.target_W_m - spring_point(limb, spring));
@@ -224,6 +233,7 @@ double energy_slope(Limb& limb, const TimeRule& rule, const Way& way) {
 bool go(Limb& limb, const TissueLoad& load, const Way& way, double part, WorkerPool& workers) {
   limb.now.angle_rad = way.start_rad + part * way.change_rad;
   follow_angles(limb);
+  evaluate_lines(limb, load.rule);
   workers.run(static_cast<int>(limb.muscles.size()), [&](int m) {
     if (!limb.muscles[at(m)].rigid) evaluate(limb, load, part, m, limb.muscles[at(m)]);
   });
@@ -258,8 +268,29 @@ bool search_way(Limb& limb, const TissueLoad& load, const Way& way, WorkerPool& 
 struct Iteration {
   bool sound = true;
   double residual_share = 0.0;
+  double lines_share = 0.0;  // of the joints' balance, where only lines and bones have a part in it
   double turn_rad = 0.0;
 };
+
+/// Out-of-balance torque of the joints that may turn over the sizes of the lines' torques; 0 where finite elements or
+/// springs have a part in the balance, which the muscles' own residuals then tell.
+double lines_share(Limb& limb, const TimeRule& rule) {
+  double scale_Nm = 0.0;
+  for (const LimbMuscle& muscle : limb.muscles) {
+    if (!muscle.rigid) return 0.0;
+    if (muscle.line) scale_Nm += muscle.system.joint_residual_Nm.cwiseAbs().maxCoeff();
+  }
+  if (scale_Nm == 0.0 || !limb.springs.empty()) return 0.0;
+  Eigen::VectorXd residual_Nm = skeleton_residual(limb, rule);
+  for (const LimbMuscle& muscle : limb.muscles) {
+    if (muscle.line) residual_Nm += muscle.system.joint_residual_Nm;
+  }
+  double worst_Nm = 0.0;
+  for (int j = 0; j < limb.skeleton.joint_count(); ++j) {
+    if (limb.skeleton.moves(j)) worst_Nm = std::max(worst_Nm, std::abs(residual_Nm[j]));
+  }
+  return worst_Nm / scale_Nm;
+}
 
 Iteration newton_step(Limb& limb, const TissueLoad& load, WorkerPool& workers, int& definite_solves) {
   SmallSystem small = make_small_system(limb);
@@ -268,8 +299,9 @@ Iteration newton_step(Limb& limb, const TissueLoad& load, WorkerPool& workers, i
   });
   add_skeleton(limb, load.rule, small);
   for (const LimbMuscle& muscle : limb.muscles) {
+    if (muscle.line) add_joint_part(muscle, small);
     if (muscle.rigid) continue;
-    if (!muscle.sound) return {false, 0.0, 0.0};
+    if (!muscle.sound) return {false};
     definite_solves += muscle.made_definite;
     add_muscle(muscle, small);
   }
@@ -277,11 +309,12 @@ Iteration newton_step(Limb& limb, const TissueLoad& load, WorkerPool& workers, i
   read_compliance(limb, small);
   const Eigen::VectorXd solution =
       small.size() > 0 ? Eigen::VectorXd(small.matrix.partialPivLu().solve(small.right)) : small.right;
-  if (!solution.allFinite()) return {false, 0.0, 0.0};
+  if (!solution.allFinite()) return {false};
 
   const Way way = make_way(limb, small, solution, workers);
   Iteration result;
   result.sound = search_way(limb, load, way, workers);
+  result.lines_share = lines_share(limb, load.rule);
   if (way.change_rad.size() > 0) result.turn_rad = way.change_rad.cwiseAbs().maxCoeff();
   for (LimbMuscle& muscle : limb.muscles) {
     if (muscle.rigid) continue;
@@ -318,6 +351,7 @@ StepReport advance(Limb& limb, const StepInput& input, WorkerPool& workers) {
   limb.spring_force_N.assign(limb.springs.size(), Vec3::Zero());
   limb.spring_compliance_m_N.assign(limb.springs.size(), Mat3::Zero());
   follow_angles(limb);
+  evaluate_lines(limb, load.rule);
   for (LimbMuscle& muscle : limb.muscles) muscle.balanced = false;
   StepReport report;
   for (report.iterations = 1; report.iterations <= kMostIterations; ++report.iterations) {
@@ -325,7 +359,8 @@ StepReport advance(Limb& limb, const StepInput& input, WorkerPool& workers) {
     report.residual_share = iteration.residual_share;
     report.sound = iteration.sound;
     if (!iteration.sound) return report;
-    if (iteration.residual_share < kSolvedShare && iteration.turn_rad < kLargestTurn_rad) break;
+    const bool solved = iteration.residual_share < kSolvedShare && iteration.lines_share < kLinesSolvedShare;
+    if (solved && iteration.turn_rad < kLargestTurn_rad) break;
   }
   report.sound = report.residual_share < 1.0;
   finish(limb, load.rule);
@@ -338,12 +373,16 @@ void push_history(Limb& limb) {
   for (LimbMuscle& muscle : limb.muscles) {
     std::swap(muscle.state.before, muscle.state.last);
     muscle.state.last = muscle.state.now;
+    if (muscle.line) push_history(*muscle.line);
   }
 }
 
 void restore_last(Limb& limb) {
   limb.now = limb.last;
-  for (LimbMuscle& muscle : limb.muscles) muscle.state.now = muscle.state.last;
+  for (LimbMuscle& muscle : limb.muscles) {
+    muscle.state.now = muscle.state.last;
+    if (muscle.line) restore_last(*muscle.line);
+  }
   follow_angles(limb);
 }
 

@@ -65,9 +65,10 @@ TEST(PostureTrim, AsksForTorqueAgainstALastingDrift) {
   PostureTrim trim;
   trim.restart(0.1);
   double torque = 0.0;
-  for (int i = 0; i < 100; ++i) torque = trim.update(0.11, 0.01);
+  for (int i = 0; i < 100; ++i) torque = trim.update(0.11, 2.0, 0.01);
   EXPECT_LT(torque, 0.0);
-  EXPECT_NEAR(trim.update(0.1, 0.01), torque, 1e-12);
+  EXPECT_NEAR(trim.update(0.1, 2.0, 0.01), torque, 1e-12);
+  EXPECT_EQ(trim.torque_Nm(), torque);
 }
 
 }  // namespace
