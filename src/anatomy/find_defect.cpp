@@ -147,6 +147,12 @@ void find_mechanics_defects(const Muscle& muscle, Defects& defects) {
                                     to_text(b.value), to_text(b.lowest), to_text(b.highest)));
     }
   }
+  // Fibres of constant width cannot be shorter than it.
+  if (const double width = std::sin(muscle.pennation_rad); muscle.rest_stretch <= width) {
+    defects.push_back(fmt::format("muscle {}: rest_stretch is {}; must be above {}, the sine of its pennation_rad {}",
+                                  muscle.key, to_text(muscle.rest_stretch), to_text(width),
+                                  to_text(muscle.pennation_rad)));
+  }
 }
 
 /// Largest distance of a mid-side node from the middle of its edge, over the edge's length. At a quarter the element's

@@ -57,6 +57,12 @@ void measure_line(const anatomy::MuscleLine& line, const Skeleton& skeleton, Lin
   }
 }
 
+bool spans_joint(const anatomy::MuscleLine& line, const Skeleton& skeleton, int joint) {
+  const auto distal = [&](const anatomy::LinePoint& point) { return skeleton.is_distal(point.body, joint); };
+  return std::any_of(line.points.begin(), line.points.end(), distal) &&
+         !std::all_of(line.points.begin(), line.points.end(), distal);
+}
+
 std::vector<Vec3> line_points_W(const anatomy::MuscleLine& line, const Skeleton& skeleton) {
   std::vector<Vec3> points_W;
   points_W.reserve(line.points.size());
@@ -65,19 +71,30 @@ std::vector<Vec3> line_points_W(const anatomy::MuscleLine& line, const Skeleton&
 }
 
 LineForce line_force(const anatomy::Muscle& muscle, double elongation_m, double speed_m_s, double activation) {
-  const double cosine = std::cos(muscle.pennation_rad);
-  const double fibre_m = muscle.optimal_fibre_m * cosine;  // along the line
-  const double peak_N = muscle.peak_force_N * cosine;
-  const double n = muscle.rest_stretch + elongation_m / fibre_m;
-  const double v = speed_m_s / (fibre_m * kLargestShortening_lo_s);
-  const double velocity_factor = force_velocity(v);
-  const double length_factor = activation * active_force_length(n);
+  const double lo_m = muscle.optimal_fibre_m;
+  const double width_m = lo_m * std::sin(muscle.pennation_rad);
+  const double rest_m = muscle.rest_stretch * lo_m;
+  const double reach_m =
+      std::sqrt(std::max(0.0, rest_m * rest_m - width_m * width_m)) + elongation_m;  // along the line
   LineForce force;
+  if (reach_m <= 0.0) return force;  // slack
+  const double fibre_m = std::hypot(reach_m, width_m);
+  const double cosine = reach_m / fibre_m;
+  const double cosine_slope_1_m = (1.0 - cosine * cosine) / fibre_m;
+  const double n = fibre_m / lo_m;
+  const double fastest_m_s = kLargestShortening_lo_s * lo_m;
+  const double v = speed_m_s * cosine / fastest_m_s;
+  const double length_N = muscle.peak_force_N * activation * active_force_length(n);
+  const double velocity_factor = force_velocity(v);
+  const double fibre_N = length_N * velocity_factor + muscle.peak_force_N * passive_force_length(n);
+  const double fibre_slope_N_m =
+      muscle.peak_force_N / lo_m * cosine *
+          (activation * active_force_length_slope(n) * velocity_factor + passive_force_length_slope(n)) +
+      length_N * force_velocity_slope(v) * speed_m_s * cosine_slope_1_m / fastest_m_s;
   force.fibre_stretch = n;
-  force.force_N = peak_N * (length_factor * velocity_factor + passive_force_length(n));
-  force.stiffness_N_m =
-      peak_N / fibre_m * (activation * active_force_length_slope(n) * velocity_factor + passive_force_length_slope(n));
-  force.damping_Ns_m = peak_N * length_factor * force_velocity_slope(v) / (fibre_m * kLargestShortening_lo_s);
+  force.force_N = fibre_N * cosine;
+  force.stiffness_N_m = fibre_slope_N_m * cosine + fibre_N * cosine_slope_1_m;
+  force.damping_Ns_m = length_N * force_velocity_slope(v) * cosine * cosine / fastest_m_s;
   return force;
 }
 

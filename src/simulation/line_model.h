@@ -22,6 +22,9 @@ struct LineGeometry {
 /// Allocates only when `geometry` was made for another number of joints.
 void measure_line(const anatomy::MuscleLine& line, const Skeleton& skeleton, LineGeometry& geometry);
 
+/// Whether the line has points on both sides of the joint.
+bool spans_joint(const anatomy::MuscleLine& line, const Skeleton& skeleton, int joint);
+
 /// Where the points of the line are now.
 std::vector<Vec3> line_points_W(const anatomy::MuscleLine& line, const Skeleton& skeleton);
 
@@ -33,9 +36,9 @@ struct LineForce {
   double damping_Ns_m = 0.0;   // dF/d(dl/dt), >= 0
 };
 
-/// n = rest_stretch + elongation / (lo cos alpha), F = F0 cos alpha (a fL(n) fV(v) + fP(n)): the linear map that the
-/// volumetric fibres use too (FORMATS, "one muscle, one mechanics"), where their factor G drops out because the line
-/// changes its length over the whole belly. `elongation_m` = line length now - at the file pose; `speed_m_s` its rate.
+/// Fibres of constant width lo sin(pennation) as in hill_muscle.h, rest_stretch x lo long at the file pose, on a tendon
+/// that does not stretch: the finite-element muscles are calibrated to this force and slope. `elongation_m` = line
+/// length now - at the file pose; `speed_m_s` its rate. All zero when the fibres would have to push.
 LineForce line_force(const anatomy::Muscle& muscle, double elongation_m, double speed_m_s, double activation);
 
 /// What one muscle line does to one joint: tau = r F, K = r^2 k - (dr/dq) F, B = r^2 b.

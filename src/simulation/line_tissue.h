@@ -33,6 +33,9 @@ struct LineLoad {
 /// Force and tangent in the skeleton's pose after a step by `rule` (all zero: at rest), at `activation`.
 LineLoad evaluate_line_tissue(const Skeleton& skeleton, const TimeRule& rule, double activation, LineTissue& tissue);
 
+/// What it does at rest at its present length; damping is the fibres' own.
+LineForce resting_force(const LineTissue& tissue, double activation);
+
 /// The present instant becomes the last one.
 void push_history(LineTissue& tissue);
 /// The present instant is the last one again.

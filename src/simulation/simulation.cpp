@@ -93,7 +93,6 @@ struct Simulation::Impl {
   LineForce line_force_of(int muscle) const;
   LineGeometry line_geometry_of(int muscle) const;
   double tension_N(int muscle) const;
-  bool spans(int muscle, int joint) const;
   void write_contact(const messages::ToolContact& contact, messages::LocalModel& model) const;
   void write_line(const messages::ToolState& tool, messages::LocalModel& model) const;
 };
@@ -126,18 +125,10 @@ LineGeometry Simulation::Impl::line_geometry_of(int muscle) const {
   return geometry;
 }
 
-/// Whether the muscle's line has points on both sides of the joint.
-bool Simulation::Impl::spans(int muscle, int joint) const {
-  const std::vector<anatomy::LinePoint>& points = lines[at(muscle)].line->points;
-  const auto distal = [&](const anatomy::LinePoint& point) { return limb.skeleton.is_distal(point.body, joint); };
-  return std::any_of(points.begin(), points.end(), distal) && !std::all_of(points.begin(), points.end(), distal);
-}
-
 /// What the muscle's line does now; of a Line muscle at rest at its present length, which is what its stiffness means.
 LineForce Simulation::Impl::line_force_of(int muscle) const {
   if (const std::optional<LineTissue>& line = limb.muscles[at(muscle)].line) {
-    const HillForce force = hill_equilibrium(line->hill, line->length_m, limb.muscles[at(muscle)].state.activation);
-    return {force.fibre_m / line->hill.optimal_fibre_m, force.force_N, force.stiffness_N_m, force.fibre_damping_Ns_m};
+    return resting_force(*line, limb.muscles[at(muscle)].state.activation);
   }
   const LineGeometry geometry = line_geometry_of(muscle);
   const double speed_m_s = geometry.slope_m_rad.dot(limb.now.velocity_rad_s);
@@ -287,6 +278,7 @@ JointReadout Simulation::joint(int joint) const {
   readout.passive_Nm_rad = limb.loads.passive_Nm_rad[joint];
   readout.stiffness_Nm_rad = readout.passive_Nm_rad;
   readout.inertia_kg_m2 = limb.loads.mass_kg_m2(joint, joint);
+  readout.damping_Nms_rad = limb.loads.damping_Nms_rad[joint];
   for (std::size_t m = 0; m < limb.muscles.size(); ++m) {
     const int muscle = static_cast<int>(m);
     readout.net_torque_Nm += limb.muscles[m].readout.torque_Nm[joint];
@@ -294,7 +286,9 @@ JointReadout Simulation::joint(int joint) const {
     const LineJointTerms terms = line_joint_terms(impl_->line_geometry_of(muscle), impl_->line_force_of(muscle), joint);
     readout.line_muscle_Nm_rad += terms.muscle_Nm_rad;
     readout.line_geometry_Nm_rad += terms.geometry_Nm_rad;
-    readout.preview |= limb.muscles[m].tissue.model == TissueModel::MassSpring && impl_->spans(muscle, joint);
+    readout.damping_Nms_rad += terms.damping_Nms_rad;
+    readout.preview |= limb.muscles[m].tissue.model == TissueModel::MassSpring &&
+                       spans_joint(*impl_->lines[m].line, limb.skeleton, joint);
   }
   return readout;
 }

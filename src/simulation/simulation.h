@@ -34,6 +34,7 @@ struct JointReadout {
   double line_geometry_Nm_rad = 0.0;  // -sum (dr/dq) F of the muscle lines
   double passive_Nm_rad = 0.0;        // the joint's own
   double inertia_kg_m2 = 0.0;
+  double damping_Nms_rad = 0.0;  // of the joint itself and the muscle lines' fibres, sum r^2 b
   bool preview = false;  // a mass-spring muscle spans the joint: torque and stiffness are no more than a preview
 };
 

@@ -84,6 +84,7 @@ TEST(FindDefect, MuscleNumbersStayInTheirRange) {
   expect_told({
       {"peak_force_N is -1; must be between 0.001 and 1e+05", [](Specimen& s) { s.muscles[0].peak_force_N = -1.0; }},
       {"optimal_fibre_m is 42", [](Specimen& s) { s.muscles[0].optimal_fibre_m = 42.0; }},
+      {"rest_stretch is 0.8; must be above 0.84", [](Specimen& s) { s.muscles[0].pennation_rad = 1.0; }},
       {"rest_stretch is nan", [](Specimen& s) { s.muscles[0].rest_stretch = std::nan(""); }},
       {"activation_tau_s is 0", [](Specimen& s) { s.muscles[0].activation_tau_s = 0.0; }},
   });

@@ -63,7 +63,9 @@ TEST_F(SceneFile, TakesOneTissueModelForAllAndOneForAMuscle) {
   };
   EXPECT_EQ(model("flexor"), simulation::TissueModel::MassSpring);
   EXPECT_EQ(model("extensor"), simulation::TissueModel::Fem);
-  EXPECT_THAT(complaint(R"(, "tissue": {"default": "line"})"), HasSubstr("use fem, mass_spring or rigid"));
+  EXPECT_EQ(parse(R"(, "tissue": {"default": "line"})").settings.tendon, simulation::Tendon::Elastic);
+  EXPECT_EQ(parse(R"(, "tissue": {"tendon": "rigid"})").settings.tendon, simulation::Tendon::Rigid);
+  EXPECT_THAT(complaint(R"(, "tissue": {"default": "lines"})"), HasSubstr("line"));
 }
 
 TEST_F(SceneFile, OverridesReplaceKeys) {

@@ -137,6 +137,7 @@ TEST(LineModel, DampingMatchesTheSlopeOfForceVelocity) {
   EXPECT_NEAR(here.stiffness_N_m, by_length, 1e-4);
   EXPECT_NEAR(line_force(muscle, 0.0, 0.0, 1.0).force_N,
               1000.0 * std::cos(0.3) * (active_force_length(1.0) + passive_force_length(1.0)), 1e-9);
+  EXPECT_EQ(line_force(muscle, -0.2, 0.0, 1.0).force_N, 0.0);  // slack
 }
 
 TEST(LineModel, PlacesOnAPolyline) {
