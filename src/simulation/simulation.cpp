@@ -293,8 +293,7 @@ JointReadout Simulation::joint(int joint) const {
   return readout;
 }
 
-void Simulation::refresh_stiffness(int joint) {
-  (void)joint;  // one factor serves all joints
+void Simulation::refresh_stiffness(int /*joint*/) {  // one factor serves all joints
   impl_->workers.run(static_cast<int>(impl_->limb.muscles.size()),
                      [&](int m) { refresh_muscle_stiffness(impl_->limb, impl_->limb.muscles[at(m)]); });
 }
