@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "simulation/curves/degroote_fregly.h"
+
 namespace myotact::simulation {
 namespace {
 
@@ -24,10 +26,8 @@ constexpr double kLargestArgument = 1e300;
 /// A bell is below 1e-300 when its argument exceeds this; leaving it out there keeps 0/0 away where its width passes 0.
 constexpr double kFarthestDeviation = 37.0;
 
-constexpr double kPassiveShape = 4.0;
-constexpr double kPassiveStrain = 0.6;   // at peak isometric force
-constexpr double kPassiveZero_lo = 0.2;  // the curve passes 0 here
-constexpr double kPassiveStraight_lo = 2.0;
+/// Beyond this the passive curve is a straight line; Blemker, Pinsky and Delp (2005) set it here.
+constexpr double kPassiveStraight_lo = 1.4;
 
 constexpr std::array<double, 4> kVelocity = {-0.3211346127989808, -8.149, -0.374, 0.8825327733249912};
 
@@ -47,15 +47,6 @@ bool deviation(const Bell& bell, double n, double& x) noexcept {
   if (!(std::abs(n - bell.centre) < kFarthestDeviation * std::abs(width))) return false;
   x = (n - bell.centre) / width;
   return true;
-}
-
-double passive_exponential(double n) noexcept {
-  return std::exp(kPassiveShape * (n - 1.0) / kPassiveStrain);
-}
-
-double passive_scale() noexcept {
-  static const double scale = 1.0 / (std::exp(kPassiveShape) - passive_exponential(kPassiveZero_lo));
-  return scale;
 }
 
 }  // namespace
@@ -82,16 +73,13 @@ double active_force_length_slope(double n) noexcept {
 }
 
 double passive_force_length(double n) noexcept {
-  if (n > kPassiveStraight_lo) {
-    return passive_force_length(kPassiveStraight_lo) +
-           (std::min(n, kLargestArgument) - kPassiveStraight_lo) * passive_force_length_slope(kPassiveStraight_lo);
-  }
-  return (passive_exponential(n) - passive_exponential(kPassiveZero_lo)) * passive_scale();
+  const double curved = std::min(n, kPassiveStraight_lo);
+  const double straight = std::min(n, kLargestArgument) - curved;
+  return degroote_fregly::passive_force_length(curved) + straight * passive_force_length_slope(kPassiveStraight_lo);
 }
 
 double passive_force_length_slope(double n) noexcept {
-  const double bounded = n > kPassiveStraight_lo ? kPassiveStraight_lo : n;
-  return kPassiveShape / kPassiveStrain * passive_exponential(bounded) * passive_scale();
+  return degroote_fregly::passive_force_length_slope(std::min(n, kPassiveStraight_lo));
 }
 
 double force_velocity(double v) noexcept {

@@ -13,8 +13,9 @@ inline constexpr double kLargestShortening_lo_s = 10.0;
 double active_force_length(double n) noexcept;
 double active_force_length_slope(double n) noexcept;
 
-/// Strain 0.6 at peak force, shape 4. Goes on as a straight line past n = 2, far beyond any living fibre, so that a
-/// wild iterate of the solver cannot overflow.
+/// Strain 0.6 at peak force, shape 4. Unlike the published curve (curves/degroote_fregly.h) it goes on as its tangent
+/// past n = 1.4: the exponential would lift a muscle with short fibres to many times its peak force in poses that a
+/// limb takes easily, and would overflow under a wild iterate of the solver.
 double passive_force_length(double n) noexcept;
 double passive_force_length_slope(double n) noexcept;
 

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "simulation/curves/curve_set.h"
+
 namespace myotact::simulation {
 namespace {
 
@@ -35,7 +37,20 @@ constexpr double kTableDigits = 1e-5;
 TEST(FibreCurves, ForceLengthMatchesThePublishedTable) {
   for (const auto& [n, active, passive] : kLengthTable) {
     EXPECT_NEAR(active_force_length(n), active, kTableDigits) << n;
-    EXPECT_NEAR(passive_force_length(n), passive, kTableDigits) << n;
+    EXPECT_NEAR(force_curves(CurveSet::DeGrooteFregly2016).passive.value(n), passive, kTableDigits) << n;
+    if (n <= 1.4) {
+      EXPECT_NEAR(passive_force_length(n), passive, kTableDigits) << n;
+    }
+  }
+}
+
+TEST(FibreCurves, PassiveForceGoesOnAlongItsTangentPastTheLongestLivingFibre) {
+  // The tangent at 1.4: the published 0.26353, and its derivative 4/0.6 (fP + fP0), fP0 what the curve is shifted by.
+  const double shift = std::exp(-4.0 * 0.8 / 0.6) / (std::exp(4.0) - std::exp(-4.0 * 0.8 / 0.6));
+  const double slope = 4.0 / 0.6 * (0.26353 + shift);
+  for (const double n : {1.4, 1.5, 2.0, 5.0}) {
+    EXPECT_NEAR(passive_force_length(n), 0.26353 + slope * (n - 1.4), 1e-4 * n) << n;
+    EXPECT_NEAR(passive_force_length_slope(n), slope, 1e-4) << n;
   }
 }
 

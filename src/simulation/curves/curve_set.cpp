@@ -4,6 +4,7 @@
 #include <array>
 
 #include "simulation/curves/blemker.h"
+#include "simulation/curves/degroote_fregly.h"
 #include "simulation/curves/millard.h"
 #include "simulation/curves/thelen.h"
 #include "simulation/fibre_curves.h"
@@ -24,7 +25,7 @@ constexpr Curve kDeGrooteTendon = {tendon_force, tendon_force_slope};
 
 constexpr std::array<ForceCurves, 4> kSets = {{
     {{active_force_length, active_force_length_slope},
-     {passive_force_length, passive_force_length_slope},
+     {degroote_fregly::passive_force_length, degroote_fregly::passive_force_length_slope},
      kDeGrooteTendon,
      kDeGrooteVelocity},
     {{thelen::active_force_length, thelen::active_force_length_slope},
