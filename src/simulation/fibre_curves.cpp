@@ -113,4 +113,8 @@ double tendon_force_slope(double stretch) noexcept {
   return kTendonScale * tendon_shape() * std::exp(tendon_shape() * (curved - 1.0));
 }
 
+double tendon_strain_at(double force) noexcept {
+  return std::log1p(force / kTendonScale) / tendon_shape();
+}
+
 }  // namespace myotact::simulation

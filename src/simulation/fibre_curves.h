@@ -29,5 +29,7 @@ double velocity_at_force(double force) noexcept;
 /// -0.2 below. Goes on as a straight line past 9.8 % strain, where no tendon is whole.
 double tendon_force(double stretch) noexcept;
 double tendon_force_slope(double stretch) noexcept;
+/// The strain (stretch - 1) under a force of 0 to 1.
+double tendon_strain_at(double force) noexcept;
 
 }  // namespace myotact::simulation
