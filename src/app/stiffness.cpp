@@ -37,6 +37,12 @@ int line_model_stiffness(const Options& options) {
   if (!options.set.empty() || !options.devices.empty()) {
     throw Error(ExitStatus::Usage, options.scene + ": is a line model, which takes no --set and no --device; edit it");
   }
+  if (options.angles_deg != Options{}.angles_deg || options.levels != Options{}.levels) {
+    throw Error(ExitStatus::Usage,
+                options.scene +
+                    ": is a line model, which brings its own q_rad and levels; edit it instead of giving "
+                    "--angles or --levels");
+  }
   const measure::LineModel model = measure::load_line_model(options.scene);
   make_writable_folder(options.out);
   const std::vector<measure::LineRow> rows = measure::line_stiffness(model);

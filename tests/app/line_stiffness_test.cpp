@@ -73,6 +73,7 @@ TEST_F(LineStiffness, WrongModelsAreBadData) {
   EXPECT_EQ(outcome.status, 65);
   EXPECT_THAT(outcome.output, AllOf(HasSubstr("/muscles/0/optimal_fibre_m"), HasSubstr("is 0")));
   EXPECT_EQ(stiffness(kElbow + " --set tissue=fem").status, 2);
+  EXPECT_EQ(stiffness(kElbow + " --levels 0,1").status, 2);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ constexpr double kWeakest_N = 1e-3, kStrongest_N = 1e6;
 constexpr double kLightest_kg_m2 = 1e-9, kHeaviest_kg_m2 = 1e3;
 constexpr double kMostPennate_rad = 1.5;
 constexpr double kLeastStretch = 0.2, kLargestStretch = 2.0;
-constexpr std::size_t kMostMuscles = 200, kMostPlaces = 1000;
+constexpr std::size_t kMostMuscles = 200, kMostPlaces = 361;
 /// How much a rigid tendon of no length may miss by rounding of the lengths in a file.
 constexpr double kRounding_m = 1e-9;
 
