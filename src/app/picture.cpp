@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include "core/error.h"
+#include "scene/tool_frame.h"
 #include "view/offscreen.h"
 #include "view/scene_renderer.h"
 
@@ -20,8 +21,7 @@ void write_picture(const scene::Scene& scene, const simulation::Simulation& simu
                    const std::string& view, const std::filesystem::path& path) {
   messages::SceneFrame frame;
   simulation.write_frame(frame);
-  frame.tools.assign(1, {tool.tool_position_world_m, tool.proxy_position_world_m, tool.force_world_N,
-                         scene.tools.front().radius_m, tool.contact.surface >= 0, tool.grabbed_line});
+  frame.tools.assign(1, scene::tool_frame(tool, scene.tools.front().radius_m, simulation));
   constexpr float kAspect = static_cast<float>(kWidth) / static_cast<float>(kHeight);
   const auto camera =
       view::standard_view(view, scene.specimen.side != "right", view::bounds_of(scene.specimen), kAspect);

@@ -18,6 +18,14 @@ bool is_finite(const std::array<double, 3>& v) {
   return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
 }
 
+/// The grip as this loop's device bears it.
+BoneDragSettings bone_settings(const HapticSettings& settings, const device::DeviceProfile& profile) {
+  BoneDragSettings bone = settings.bone;
+  bone.stiffness_N_m = std::min(bone.stiffness_N_m, profile.max_stiffness_N_m);
+  bone.force_scale = settings.force_scale;
+  return bone;
+}
+
 }  // namespace
 
 Vec3 coupling_force_N(const Proxy& proxy, const ProxyGoal& device, const ContactSettings& settings) noexcept {
@@ -36,6 +44,7 @@ HapticLoop::HapticLoop(device::Device& device, const HapticSettings& settings)
       ticks_(kTicksKept),
       proxy_(settings.contact),
       line_(settings.line),
+      bone_(bone_settings(settings, device.profile())),
       gate_(device.profile(), settings.gate) {}
 
 void HapticLoop::prepare(std::uint64_t now_ns) {
@@ -62,18 +71,24 @@ void HapticLoop::tick(std::uint64_t now_ns) noexcept {
   const bool is_new = take_model(now_ns);
   Vec3 contact_N = Vec3::Zero();
   Vec3 line_N = Vec3::Zero();
+  Vec3 bone_N = Vec3::Zero();
   const bool device_is_sound = is_finite(state.stylus_position_world_m) && is_finite(state.stylus_velocity_world_m_s);
   if (device_is_sound) {
     const ProxyGoal goal{to_vec3(state.stylus_position_world_m), to_vec3(state.stylus_velocity_world_m_s)};
-    contact_N = contact_force_N(goal, now_ns, is_new);
+    bone_N = bone_.tick(model_, is_new,
+                        {goal.position_m, goal.velocity_m_s, (state.buttons & messages::kGrabBoneButton) != 0,
+                         device_.profile().peak_force_N, last_.tool.sequence + 1},
+                        dt_s_);
+    // A hand that holds the bone does not also press on it: two springs would be stiffer than the device stands.
+    contact_N = (1.0 - bone_.gain()) * contact_force_N(goal, now_ns, is_new);
     const messages::LocalLine nothing_near;
     line_N = line_.tick(model_ == nullptr ? nothing_near : model_->line,
                         {goal.position_m, goal.velocity_m_s, (state.buttons & messages::kGrabButton) != 0}, dt_s_);
   } else {
     faults_ |= bit(Fault::NonFiniteDevice);
   }
-  const Vec3 sent_N =
-      gate_and_write(settings_.force_scale * (contact_N + line_N), to_vec3(state.stylus_position_world_m), now_ns);
+  const Vec3 sent_N = gate_and_write(settings_.force_scale * (contact_N + line_N) + bone_N,
+                                     to_vec3(state.stylus_position_world_m), now_ns);
   faults_ |= proxy_faults();
   tell(state, sent_N, contact_N);
 }
@@ -139,25 +154,34 @@ void HapticLoop::tell(const messages::DeviceState& state, const Vec3& sent_N, co
   tool.proxy_position_world_m = to_array(proxy_.position_m());
   tool.force_world_N = to_array(sent_N);
   tool.contact = {};
-  if (contact.active && (faults_ & bit(Fault::NonFiniteDevice)) == 0) {
+  const double stiffness_N_m = (1.0 - bone_.gain()) * settings_.contact.stiffness_N_m;
+  if (contact.active && stiffness_N_m > 0.0 && (faults_ & bit(Fault::NonFiniteDevice)) == 0) {
     // The spring pulls the material point with the opposite of what the hand feels, as long as the tissue rests.
     tool.contact = {contact.surface,
                     contact.triangle,
                     contact.barycentric,
                     to_array(contact.normal),
-                    to_array(contact.point_m - contact_N / settings_.contact.stiffness_N_m),
-                    settings_.contact.stiffness_N_m};
+                    to_array(contact.point_m - contact_N / stiffness_N_m),
+                    stiffness_N_m};
   }
   tool.buttons = state.buttons;
   tool.faults = faults_;
-  tool.grabbed_line = line_.muscle();
-  tool.grab_fraction = line_.fraction();
-  tool.line_stiffness_N_m = line_.muscle() >= 0 ? line_.grab_stiffness_N_m() : 0.0;
+  tell_grabs(tool);
   tools_.publish(tool);
   last_.device = state;
   last_.model_sequence = tool.model_sequence;
   last_.line_tension_N = line_.tension_N();
   ticks_.push(last_);
+}
+
+void HapticLoop::tell_grabs(messages::ToolState& tool) const noexcept {
+  tool.grabbed_line = line_.muscle();
+  tool.grab_fraction = line_.fraction();
+  tool.line_stiffness_N_m = line_.muscle() >= 0 ? line_.grab_stiffness_N_m() : 0.0;
+  tool.grabbed_body = bone_.body();
+  tool.body_point_rest_m = bone_.point_rest_m();
+  tool.body_target_world_m = to_array(bone_.target_m());
+  tool.body_stiffness_N_m = bone_.stiffness_N_m();
 }
 
 }  // namespace myotact::haptics

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "device/device.h"
+#include "haptics/bone_drag.h"
 #include "haptics/contact_settings.h"
 #include "haptics/force_gate.h"
 #include "haptics/moving_surface.h"
@@ -20,6 +21,7 @@ namespace myotact::haptics {
 struct HapticSettings {
   ContactSettings contact;
   LineDragSettings line;
+  BoneDragSettings bone;  // its force scale is the loop's
   GateSettings gate;
   /// Felt over simulated force: muscles pull with 10-1000 N, devices with 3-20 N. The tissue gets the unscaled force.
   double force_scale = 1.0;
@@ -39,8 +41,8 @@ Vec3 coupling_force_N(const Proxy& proxy, const ProxyGoal& device, const Contact
 
 /// One tool, once a millisecond: reads the device and the newest model, computes, gates and writes in the same tick.
 ///
-///   device.read --> [proxy, friction, coupling] + [muscle line] --> [force gate] --> device.write
-///        models() newest --^                                             '--> tool_states() newest, ticks() all
+///   device.read --> [proxy, friction, coupling] + [muscle line, bone] --> [force gate] --> device.write
+///        models() newest --^                                                   '--> tool_states() newest, ticks() all
 ///
 /// Whoever calls tick() owns the clock: a virtual one in lockstep, HapticThread's when it runs free.
 class HapticLoop {
@@ -73,6 +75,7 @@ class HapticLoop {
   Vec3 contact_force_N(const ProxyGoal& goal, std::uint64_t now_ns, bool is_new) noexcept;
   Vec3 gate_and_write(const Vec3& wanted_N, const Vec3& position_m, std::uint64_t now_ns) noexcept;
   void tell(const messages::DeviceState& state, const Vec3& sent_N, const Vec3& contact_N) noexcept;
+  void tell_grabs(messages::ToolState& tool) const noexcept;
   std::uint32_t proxy_faults() noexcept;
 
   device::Device& device_;
@@ -84,6 +87,7 @@ class HapticLoop {
   MovingSurface surface_;
   Proxy proxy_;
   MuscleLineDrag line_;
+  BoneDrag bone_;
   ForceGate gate_;
   HapticTick last_;
   ProxyCounters counted_;

@@ -21,6 +21,17 @@ double played(const messages::LocalModel& model, std::uint64_t now_ns) {
   return age_ns >= model.dt_ns ? 1.0 : static_cast<double>(age_ns) / static_cast<double>(model.dt_ns);
 }
 
+bool all_finite(const std::array<double, 9>& matrix) {
+  return std::all_of(matrix.begin(), matrix.end(), [](double x) { return std::isfinite(x); });
+}
+
+bool is_sound(const messages::LocalGrip& grip) {
+  const auto is_vector = [](const std::array<double, 3>& v) { return to_vec3(v).allFinite(); };
+  return is_place(grip.point_rest_m) && is_place(grip.position_world_m) && is_vector(grip.velocity_world_m_s) &&
+         is_vector(grip.acceleration_world_m_s2) && is_vector(grip.force_world_N) && all_finite(grip.mobility_1_kg) &&
+         all_finite(grip.stiffness_1_s2) && all_finite(grip.damping_1_s);
+}
+
 }  // namespace
 
 bool is_sound(const messages::LocalModel& model) noexcept {
@@ -36,7 +47,7 @@ bool is_sound(const messages::LocalModel& model) noexcept {
     }
   }
   const auto is_finite = [](double x) { return std::isfinite(x); };
-  if (!std::all_of(model.compliance_m_N.begin(), model.compliance_m_N.end(), is_finite)) return false;
+  if (!all_finite(model.compliance_m_N) || !is_sound(model.grip)) return false;
   const messages::LocalLine& line = model.line;
   const bool line_is_finite = is_finite(line.tension_N) && is_finite(line.length_m) && is_finite(line.stiffness_N_m) &&
                               is_finite(line.damping_Ns_m) && is_place(line.proximal_point_world_m) &&

@@ -19,7 +19,8 @@ struct DeviceCommand {
   std::array<double, 3> force_world_N{};
 };
 
-inline constexpr std::uint32_t kGrabButton = 1u << 0;  // held: the nearest muscle line is in hand
+inline constexpr std::uint32_t kGrabButton = 1u << 0;      // held: the nearest muscle line is in hand
+inline constexpr std::uint32_t kGrabBoneButton = 1u << 1;  // held: the nearest point of a bone is in hand
 
 static_assert(std::is_trivially_copyable_v<DeviceState> && std::is_trivially_copyable_v<DeviceCommand>);
 

@@ -32,6 +32,24 @@ struct LocalJoint {
   double torque_Nm = 0.0;
 };
 
+/// The point of a body nearest to the tool, or the one in hand, and how it moves by itself (all in the world frame):
+///
+///   acceleration + mobility (f - force) - stiffness (x - position) - damping (v - velocity)
+///
+/// is how it speeds up while a hand pulls with f, as long as neither x nor v is far from the values here. Rank 1 under
+/// one hinge, zero for a body that no joint moves. Matrices row-major.
+struct LocalGrip {
+  std::int32_t body = -1;                    // -1: none near
+  std::array<double, 3> point_rest_m{};      // the point where it is at the specimen's pose
+  std::array<double, 3> position_world_m{};  // it and its rates at the end of the step
+  std::array<double, 3> velocity_world_m_s{};
+  std::array<double, 3> acceleration_world_m_s2{};
+  std::array<double, 3> force_world_N{};  // of the hand's spring on it, already in the acceleration
+  std::array<double, 9> mobility_1_kg{};
+  std::array<double, 9> stiffness_1_s2{};
+  std::array<double, 9> damping_1_s{};
+};
+
 /// All that the haptic side knows of the simulation: a real-time contract of fixed size.
 /// Surfaces are numbered over the whole scene: muscles first (their index in the specimen), then bones.
 struct LocalModel {
@@ -55,6 +73,7 @@ struct LocalModel {
   /// Displacement of the touched material point by a force on it, one step long, row-major; zero without contact.
   std::array<double, 9> compliance_m_N{};
   LocalLine line{};
+  LocalGrip grip{};
   LocalJoint joint{};
 };
 

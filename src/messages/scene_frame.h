@@ -13,7 +13,9 @@ struct ToolFrame {
   std::array<double, 3> force_world_N{};
   double radius_m = 0.0;
   bool in_contact = false;
-  int grabbed_line = -1;  // muscle, or -1
+  int grabbed_line = -1;                 // muscle, or -1
+  int grabbed_body = -1;                 // body, or -1
+  std::array<double, 3> grip_world_m{};  // its point in hand
 };
 
 /// What stands beside a joint's stiffness that mass-spring muscles have a part in.

@@ -27,10 +27,14 @@ struct ToolState {
   std::array<double, 3> force_world_N{};           // force on the hand, after the gate
   ToolContact contact{};
   std::uint32_t buttons = 0;
-  std::uint32_t faults = 0;         // haptics::Fault bits of the last window
-  std::int32_t grabbed_line = -1;   // muscle whose line is in hand, or -1
-  double grab_fraction = 0.0;       // place along the line, 0 origin .. 1 insertion, by rest arc length
-  double line_stiffness_N_m = 0.0;  // of the grab spring between tool and line
+  std::uint32_t faults = 0;                     // haptics::Fault bits of the last window
+  std::int32_t grabbed_line = -1;               // muscle whose line is in hand, or -1
+  std::int32_t grabbed_body = -1;               // body of which a point is in hand, or -1
+  double grab_fraction = 0.0;                   // place along the line, 0 origin .. 1 insertion, by rest arc length
+  double line_stiffness_N_m = 0.0;              // of the grab spring between tool and line
+  std::array<double, 3> body_point_rest_m{};    // the body's point in hand, where it is at the specimen's pose
+  std::array<double, 3> body_target_world_m{};  // where the grab spring pulls that point
+  double body_stiffness_N_m = 0.0;              // of the grab spring between hand and body
 };
 
 static_assert(std::is_trivially_copyable_v<ToolState>);

@@ -6,6 +6,7 @@
 
 #include "realtime/periodic_loop.h"
 #include "scene/lockstep_session.h"
+#include "scene/tool_frame.h"
 
 namespace myotact::scene {
 
@@ -17,6 +18,13 @@ constexpr std::uint64_t kStepsToCatchUp = 3;
 
 std::uint64_t nanoseconds(double seconds) {
   return static_cast<std::uint64_t>(std::llround(seconds * 1e9));
+}
+
+/// What is paused stays touchable, and is not stale: the same positions in both frames, published again and again.
+void hold_still(messages::LocalModel& model) {
+  model.previous_world_m = model.current_world_m;
+  model.grip.velocity_world_m_s = model.grip.acceleration_world_m_s2 = {};
+  model.grip.mobility_1_kg = {};
 }
 
 }  // namespace
@@ -157,8 +165,7 @@ void FreeSession::publish_model() {
   messages::LocalModel& model = loop_.models().back();
   const messages::ToolState& tool = loop_.tool_states().front();
   simulation_->write_local_model(tool, model);
-  // A paused surface stays touchable: the same positions in both frames, published again and again.
-  if (obeyed_.paused) model.previous_world_m = model.current_world_m;
+  if (obeyed_.paused) hold_still(model);
   model.sequence = ++model_sequence_;
   model.published_at_ns = realtime::steady_now_ns();
   model.dt_ns = nanoseconds(scene_->settings.dt_s);
@@ -170,8 +177,7 @@ void FreeSession::publish_frame() {
   const std::scoped_lock lock(frame_mutex_);
   simulation_->write_frame(frame_);
   const messages::ToolState& tool = loop_.tool_states().front();
-  frame_.tools.assign(1, {tool.tool_position_world_m, tool.proxy_position_world_m, tool.force_world_N,
-                          scene_->tools.front().radius_m, tool.contact.surface >= 0, tool.grabbed_line});
+  frame_.tools.assign(1, tool_frame(tool, scene_->tools.front().radius_m, *simulation_));
   const double wall_s = std::max(static_cast<double>(realtime::steady_now_ns() - started_ns_) * 1e-9, 1e-3);
   frame_.rates.simulation_hz = static_cast<double>(step_count_) / wall_s;
   frame_.rates.haptic_hz = static_cast<double>(haptic_thread_.tick_count()) / wall_s;

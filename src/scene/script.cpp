@@ -56,6 +56,14 @@ Deed read_grab(JsonObject& action, const anatomy::Specimen& specimen) {
   return grab;
 }
 
+Deed read_grab_bone(JsonObject& action, const anatomy::Specimen& specimen) {
+  GrabBone grab;
+  grab.bone = require_bone(action.at("bone"), specimen);
+  grab.from = direction(action.at("from"));
+  grab.drag_m = action.at("drag_m").vec3();
+  return grab;
+}
+
 Deed read_activate(JsonObject& action, const anatomy::Specimen& specimen) {
   return Activate{require_muscle(action.at("muscle"), specimen), action.at("to").number_between(0.0, 1.0)};
 }
@@ -78,6 +86,7 @@ Deed read_deed(const std::string& what, JsonObject& action, const anatomy::Speci
   if (what == "touch") return read_touch(action, specimen);
   if (what == "slide") return read_slide(action, specimen);
   if (what == "grab_line") return read_grab(action, specimen);
+  if (what == "grab_bone") return read_grab_bone(action, specimen);
   if (what == "release") return ReleaseHand{};
   if (what == "activate") return read_activate(action, specimen);
   if (what == "co_contract") return read_co_contract(action, specimen);
@@ -87,8 +96,9 @@ Deed read_deed(const std::string& what, JsonObject& action, const anatomy::Speci
 }
 
 ScriptAction read_action(const JsonValue& value, const anatomy::Specimen& specimen) {
-  static const std::vector<std::string> kDeeds = {"move",     "touch",       "slide",        "grab_line", "release",
-                                                  "activate", "co_contract", "hold_posture", "shove",     "picture"};
+  static const std::vector<std::string> kDeeds = {"move",         "touch",   "slide",    "grab_line",
+                                                  "grab_bone",    "release", "activate", "co_contract",
+                                                  "hold_posture", "shove",   "picture"};
   constexpr double kLongestRun_s = 86400.0;
   JsonObject object(value);
   ScriptAction action;
@@ -103,6 +113,10 @@ ScriptAction read_action(const JsonValue& value, const anatomy::Specimen& specim
 
 int require_muscle(const JsonValue& name, const anatomy::Specimen& specimen) {
   return require_part(name, specimen.muscles, "muscle");
+}
+
+int require_bone(const JsonValue& name, const anatomy::Specimen& specimen) {
+  return require_part(name, specimen.bones, "bone");
 }
 
 int require_joint(const JsonValue& name, const anatomy::Specimen& specimen) {

@@ -31,6 +31,11 @@ struct GrabLine {  // approach a muscle's line, take it, and drag it
   Vec3 from = Vec3::UnitX();
   Vec3 drag_m = Vec3::Zero();
 };
+struct GrabBone {  // approach a bone from outside, take it where the hand meets it, and drag it
+  int bone = -1;
+  Vec3 from = Vec3::UnitX();   // direction out of the bone's middle from which the hand comes
+  Vec3 drag_m = Vec3::Zero();  // zero: hold still
+};
 struct ReleaseHand {};  // let go and lift off by 40 mm
 struct Activate {
   int muscle = -1;
@@ -51,7 +56,7 @@ struct TakePicture {
   std::string view = "lateral";
 };
 
-using Deed = std::variant<MoveHand, TouchMuscle, SlideOnMuscle, GrabLine, ReleaseHand, Activate, CoContract,
+using Deed = std::variant<MoveHand, TouchMuscle, SlideOnMuscle, GrabLine, GrabBone, ReleaseHand, Activate, CoContract,
                           HoldPosture, Shove, TakePicture>;
 
 struct ScriptAction {
@@ -65,8 +70,9 @@ struct ScriptAction {
 /// Reads a scene's `script` list. Throws Error BadData (unknown muscle, wrong type, overlapping hand actions).
 std::vector<ScriptAction> read_script(const JsonValue& list, const anatomy::Specimen& specimen);
 
-/// Index of the named muscle; throws Error BadData naming the nearest one.
+/// Index of the named part; throws Error BadData naming the nearest one.
 int require_muscle(const JsonValue& name, const anatomy::Specimen& specimen);
+int require_bone(const JsonValue& name, const anatomy::Specimen& specimen);
 int require_joint(const JsonValue& name, const anatomy::Specimen& specimen);
 
 }  // namespace myotact::scene

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kStandOff_m = 0.03;  // the hand comes to this distance from the skin before it presses
 constexpr double kLiftOff_m = 0.04;
-constexpr double kGrabGap_m = 0.005;  // the stylus takes a line from just outside the skin
+constexpr double kGrabGap_m = 0.005;  // the stylus takes a line or a bone from just outside
 constexpr int kSlideWaypoints = 16;   // about 5 mm apart on a 90 mm belly
 
 /// Distance along the ray origin + t direction to the triangle, if it is hit (Moeller and Trumbore 1997).
@@ -32,6 +32,18 @@ std::optional<double> ray_hit(const Vec3& origin, const Vec3& direction, const V
   const double t = ac.dot(q) / determinant;
   if (u < 0.0 || v < 0.0 || u + v > 1.0 || t < 0.0) return std::nullopt;
   return t;
+}
+
+/// Farthest place along the ray origin + t direction where it meets the surface, or the origin.
+Vec3 outermost_hit(const Vec3& origin, const Vec3& direction, std::span<const std::array<int, 3>> triangles,
+                   std::span<const Vec3> positions_m) {
+  const auto at = [&](int vertex) { return positions_m[static_cast<std::size_t>(vertex)]; };
+  double outermost = 0.0;
+  for (const auto& t : triangles) {
+    const auto hit = ray_hit(origin, direction, at(t[0]), at(t[1]), at(t[2]));
+    if (hit) outermost = std::max(outermost, *hit);
+  }
+  return origin + outermost * direction;
 }
 
 double minimum_jerk(double s) {
@@ -74,6 +86,7 @@ void ScriptedHand::begin(const ScriptAction& action, const simulation::Simulatio
   if (const auto* touch = std::get_if<TouchMuscle>(&action.deed)) return lay_out(action, *touch, simulation);
   if (const auto* slide = std::get_if<SlideOnMuscle>(&action.deed)) return lay_out(action, *slide, simulation);
   if (const auto* grab = std::get_if<GrabLine>(&action.deed)) return lay_out(action, *grab, simulation);
+  if (const auto* grab = std::get_if<GrabBone>(&action.deed)) return lay_out(action, *grab, simulation);
   if (const auto* release = std::get_if<ReleaseHand>(&action.deed)) return lay_out(action, *release);
   path_ = before;
 }
@@ -108,14 +121,25 @@ void ScriptedHand::lay_out(const ScriptAction& action, const GrabLine& deed, con
   touched_muscle_ = deed.muscle;
   touched_at_ = deed.at;
   from_ = deed.from;
-  const Vec3 grip = skin_point(simulation, deed.muscle, deed.at, deed.from) + kGrabGap_m * deed.from;
+  const Vec3 skin = skin_point(simulation, deed.muscle, deed.at, deed.from);
+  grab(action, skin + kGrabGap_m * deed.from, deed.drag_m, messages::kGrabButton);
+}
+
+void ScriptedHand::lay_out(const ScriptAction& action, const GrabBone& deed, const simulation::Simulation& simulation) {
+  touched_muscle_ = -1;
+  from_ = deed.from;
+  const Vec3 surface = bone_point(simulation, deed.bone, deed.from);
+  grab(action, surface + kGrabGap_m * deed.from, deed.drag_m, messages::kGrabBoneButton);
+}
+
+void ScriptedHand::grab(const ScriptAction& action, const Vec3& grip, const Vec3& drag_m, std::uint32_t button) {
   const double start = action.start_s;
   const double duration = action.duration_s;
-  path_.push_back({start + 0.2 * duration, grip + kStandOff_m * deed.from, 0});
+  path_.push_back({start + 0.2 * duration, grip + kStandOff_m * from_, 0});
   path_.push_back({start + 0.4 * duration, grip, 0});
-  path_.push_back({start + 0.45 * duration, grip, messages::kGrabButton});
-  path_.push_back({start + 0.9 * duration, grip + deed.drag_m, messages::kGrabButton});
-  path_.push_back({action.end_s(), grip + deed.drag_m, messages::kGrabButton});
+  path_.push_back({start + 0.45 * duration, grip, button});
+  path_.push_back({start + 0.9 * duration, grip + drag_m, button});
+  path_.push_back({action.end_s(), grip + drag_m, button});
 }
 
 void ScriptedHand::lay_out(const ScriptAction& action, const ReleaseHand&) {
@@ -124,15 +148,21 @@ void ScriptedHand::lay_out(const ScriptAction& action, const ReleaseHand&) {
 }
 
 Vec3 ScriptedHand::skin_point(const simulation::Simulation& simulation, int muscle, double at, const Vec3& from) const {
-  const Vec3 origin = point_at_fraction(simulation.line_world_m(muscle), at);
-  const std::span<const Vec3> skin = simulation.skin_world_m(muscle);
-  double outermost = 0.0;
-  for (const auto& t : specimen_->muscles[static_cast<std::size_t>(muscle)].skin.triangles) {
-    const auto hit = ray_hit(origin, from, skin[static_cast<std::size_t>(t[0])], skin[static_cast<std::size_t>(t[1])],
-                             skin[static_cast<std::size_t>(t[2])]);
-    if (hit) outermost = std::max(outermost, *hit);
+  const auto& skin = specimen_->muscles[static_cast<std::size_t>(muscle)].skin;
+  return outermost_hit(point_at_fraction(simulation.line_world_m(muscle), at), from, skin.triangles,
+                       simulation.skin_world_m(muscle));
+}
+
+Vec3 ScriptedHand::bone_point(const simulation::Simulation& simulation, int bone, const Vec3& from) const {
+  const anatomy::Bone& chosen = specimen_->bones[static_cast<std::size_t>(bone)];
+  const Pose pose = simulation.body_pose(chosen.body);
+  std::vector<Vec3> positions_m;
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& rest_m : chosen.surface.positions_m) {
+    positions_m.push_back(pose * rest_m);
+    sum += positions_m.back();
   }
-  return origin + outermost * from;
+  return outermost_hit(sum / static_cast<double>(positions_m.size()), from, chosen.surface.triangles, positions_m);
 }
 
 }  // namespace myotact::scene

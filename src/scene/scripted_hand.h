@@ -39,9 +39,14 @@ class ScriptedHand {
   void lay_out(const ScriptAction& action, const TouchMuscle& deed, const simulation::Simulation& simulation);
   void lay_out(const ScriptAction& action, const SlideOnMuscle& deed, const simulation::Simulation& simulation);
   void lay_out(const ScriptAction& action, const GrabLine& deed, const simulation::Simulation& simulation);
+  void lay_out(const ScriptAction& action, const GrabBone& deed, const simulation::Simulation& simulation);
   void lay_out(const ScriptAction& action, const ReleaseHand& deed);
+  /// Comes to `grip` along `from_`, presses the buttons there, drags and stays.
+  void grab(const ScriptAction& action, const Vec3& grip, const Vec3& drag_m, std::uint32_t button);
   /// The outermost point of the muscle's skin beyond its line, seen along `from`.
   Vec3 skin_point(const simulation::Simulation& simulation, int muscle, double at, const Vec3& from) const;
+  /// The outermost point of the bone beyond its middle, seen along `from`.
+  Vec3 bone_point(const simulation::Simulation& simulation, int bone, const Vec3& from) const;
 
   const anatomy::Specimen* specimen_;
   std::vector<Waypoint> path_;  // rising in time, never empty

@@ -1,7 +1,9 @@
 #include "simulation/limb.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 
 namespace myotact::simulation {
 namespace {
@@ -16,6 +18,19 @@ void add_mean_term(const LimbMuscle& muscle, Eigen::MatrixXd& solution) {
 const anatomy::MuscleLine& line_of(const anatomy::Specimen& specimen, int muscle) {
   return *std::find_if(specimen.lines.begin(), specimen.lines.end(),
                        [&](const anatomy::MuscleLine& line) { return line.muscle == muscle; });
+}
+
+/// FNV-1a over the bytes of numbers.
+void add_to_hash(std::span<const double> values, std::uint64_t& hash) {
+  for (double value : values) {
+    std::array<unsigned char, sizeof(double)> bytes;
+    std::memcpy(bytes.data(), &value, sizeof(double));
+    for (unsigned char byte : bytes) hash = (hash ^ byte) * 1099511628211ull;
+  }
+}
+
+std::span<const double> as_span(const Eigen::VectorXd& v) {
+  return {v.data(), static_cast<std::size_t>(v.size())};
 }
 
 }  // namespace
@@ -139,6 +154,19 @@ Eigen::MatrixXd solve(const LimbMuscle& muscle, const Eigen::MatrixXd& right) {
   Eigen::MatrixXd solution = muscle.system.factor.matrix.solve(right);
   add_mean_term(muscle, solution);
   return solution;
+}
+
+std::uint64_t hash_of_state(const Limb& limb) {
+  std::uint64_t hash = 14695981039346656037ull;
+  add_to_hash(as_span(limb.now.angle_rad), hash);
+  add_to_hash(as_span(limb.now.velocity_rad_s), hash);
+  for (const LimbMuscle& muscle : limb.muscles) {
+    add_to_hash(as_span(muscle.state.now.position_m), hash);
+    add_to_hash(as_span(muscle.state.now.velocity_m_s), hash);
+    add_to_hash({&muscle.state.activation, 1}, hash);
+    if (muscle.line) add_to_hash({&muscle.line->fibre_now_m, 1}, hash);
+  }
+  return hash;
 }
 
 }  // namespace myotact::simulation

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -96,6 +97,9 @@ void move_free_nodes(LimbMuscle& muscle, const Eigen::VectorXd& change_m);
 /// Loads of the Line muscles in the present pose, at the end of a step by `rule` (all zero: at rest), into their
 /// systems.
 void evaluate_lines(Limb& limb, const TimeRule& rule);
+
+/// Equal for equal bits of everything that moves.
+std::uint64_t hash_of_state(const Limb& limb);
 
 /// Copies the outcome of the last forces pass to the muscles' readouts, and the bones' loads to `limb.loads`.
 void read_out(Limb& limb);

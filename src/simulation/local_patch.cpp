@@ -192,6 +192,19 @@ void LocalPatch::write(const Vec3& centre_m, messages::LocalModel& model) const 
   }
 }
 
+LocalPatch::Place LocalPatch::nearest(const Vec3& p, int first, double radius_m) const noexcept {
+  Place place;
+  for (int s = first; s < surface_count(); ++s) {
+    const Surface& surface = surfaces_[at(s)];
+    if (surface.current_m.empty()) continue;
+    const geometry::SurfacePlace here = surface.tree.nearest(p, surface.current_m, radius_m);
+    if (here.triangle < 0) continue;
+    radius_m = here.distance_m;
+    place = {s, here.point.position_m};
+  }
+  return place;
+}
+
 messages::LocalLine local_line(std::span<const LineView> lines, const LineHand& hand) noexcept {
   messages::LocalLine result;
   const LineView* chosen = nullptr;

@@ -33,6 +33,13 @@ class LocalPatch {
   /// Deterministic; allocates nothing.
   void write(const Vec3& centre_m, messages::LocalModel& model) const noexcept;
 
+  /// The surface numbered `first` or higher that comes nearest to `p` now, within the radius. Deterministic.
+  struct Place {
+    int surface = -1;  // -1: none within the radius
+    Vec3 position_m = Vec3::Zero();
+  };
+  Place nearest(const Vec3& p, int first, double radius_m) const noexcept;
+
  private:
   struct Surface {
     geometry::TriangleTree tree;

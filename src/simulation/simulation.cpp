@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "core/error.h"
 #include "core/text.h"
 #include "simulation/activation.h"
 #include "simulation/calibration.h"
 #include "simulation/line_model.h"
+#include "simulation/local_grip.h"
 #include "simulation/settle.h"
 #include "simulation/step.h"
 #include "simulation/surfaces.h"
@@ -28,19 +28,6 @@ std::size_t at(int i) {
 double unit_range(double value) {
   return value >= 0.0 ? std::min(value, 1.0) : 0.0;
 }  // NaN becomes 0
-
-/// FNV-1a over the bytes of numbers.
-void add_to_hash(std::span<const double> values, std::uint64_t& hash) {
-  for (double value : values) {
-    std::array<unsigned char, sizeof(double)> bytes;
-    std::memcpy(bytes.data(), &value, sizeof(double));
-    for (unsigned char byte : bytes) hash = (hash ^ byte) * 1099511628211ull;
-  }
-}
-
-std::span<const double> as_span(const Eigen::VectorXd& v) {
-  return {v.data(), static_cast<std::size_t>(v.size())};
-}
 
 /// A muscle line with what does not change.
 struct LineRest {
@@ -95,6 +82,7 @@ struct Simulation::Impl {
   double tension_N(int muscle) const;
   void write_contact(const messages::ToolContact& contact, messages::LocalModel& model) const;
   void write_line(const messages::ToolState& tool, messages::LocalModel& model) const;
+  void write_grip(const messages::ToolState& tool, messages::LocalModel& model) const;
 };
 
 /// Two backward-Euler steps of half the length, or more parts where those fail too.
@@ -163,6 +151,19 @@ void Simulation::Impl::write_line(const messages::ToolState& tool, messages::Loc
                      force.stiffness_N_m, force.damping_Ns_m});
   }
   model.line = local_line(views, {to_vec3(tool.tool_position_world_m), tool.grabbed_line, tool.grab_fraction});
+}
+
+void Simulation::Impl::write_grip(const messages::ToolState& tool, messages::LocalModel& model) const {
+  model.grip = local_grip(limb, specimen, surfaces.patch(), tool);
+  if (model.grip.body < 0) return;
+  const int joints = limb.skeleton.joint_count();
+  Eigen::MatrixXd damping_Nms_rad = Eigen::MatrixXd::Zero(joints, joints);
+  for (int m = 0; m < static_cast<int>(limb.muscles.size()); ++m) {
+    if (limb.muscles[at(m)].rigid && !limb.muscles[at(m)].line) continue;
+    const Eigen::VectorXd slope_m_rad = line_geometry_of(m).slope_m_rad;
+    damping_Nms_rad += line_force_of(m).damping_Ns_m * slope_m_rad * slope_m_rad.transpose();
+  }
+  write_grip_motion(limb, damping_Nms_rad, settings.dt_s, model.grip);
 }
 
 Simulation::Simulation(const anatomy::Specimen& specimen, const SimulationSettings& settings) {
@@ -322,17 +323,7 @@ double Simulation::smallest_volume_ratio(int muscle) const {
 }
 
 std::uint64_t Simulation::state_hash() const {
-  std::uint64_t hash = 14695981039346656037ull;
-  const Limb& limb = impl_->limb;
-  add_to_hash(as_span(limb.now.angle_rad), hash);
-  add_to_hash(as_span(limb.now.velocity_rad_s), hash);
-  for (const LimbMuscle& muscle : limb.muscles) {
-    add_to_hash(as_span(muscle.state.now.position_m), hash);
-    add_to_hash(as_span(muscle.state.now.velocity_m_s), hash);
-    add_to_hash({&muscle.state.activation, 1}, hash);
-    if (muscle.line) add_to_hash({&muscle.line->fibre_now_m, 1}, hash);
-  }
-  return hash;
+  return hash_of_state(impl_->limb);
 }
 
 void Simulation::write_local_model(const messages::ToolState& tool, messages::LocalModel& model) const {
@@ -344,6 +335,7 @@ void Simulation::write_local_model(const messages::ToolState& tool, messages::Lo
   in.surfaces.patch().write(to_vec3(tool.proxy_position_world_m), model);
   in.write_contact(tool.contact, model);
   in.write_line(tool, model);
+  in.write_grip(tool, model);
   model.joint = {};
   for (int j = 0; j < in.limb.skeleton.joint_count(); ++j) {
     if (!in.limb.skeleton.moves(j)) continue;

@@ -80,7 +80,8 @@ class Simulation {
   std::uint64_t state_hash() const;
   int failed_steps() const;  // that had to be repeated in shorter parts, since construction
 
-  /// The surface near the tool, its compliance at the contact, the line nearest to (or in) the hand, the joint.
+  /// The surface near the tool, its compliance at the contact, the line and the bone nearest to (or in) the hand, the
+  /// joint.
   void write_local_model(const messages::ToolState& tool, messages::LocalModel& model) const;
   void write_frame(messages::SceneFrame& frame) const;  // everything but tools and rates
 

@@ -87,6 +87,19 @@ std::optional<ToolSpring> line_spring(const messages::ToolState& tool, const Tou
   return spring;
 }
 
+std::optional<ToolSpring> body_spring(const messages::ToolState& tool, const anatomy::Specimen& specimen) {
+  const bool usable = tool.grabbed_body >= 0 && at(tool.grabbed_body) < specimen.bodies.size() &&
+                      usable_stiffness(tool.body_stiffness_N_m) && usable_target(to_vec3(tool.body_target_world_m)) &&
+                      usable_target(to_vec3(tool.body_point_rest_m));
+  if (!usable) return std::nullopt;
+  ToolSpring spring;
+  spring.body = tool.grabbed_body;
+  spring.body_rest_m = to_vec3(tool.body_point_rest_m);
+  spring.target_W_m = to_vec3(tool.body_target_world_m);
+  spring.stiffness_N_m = tool.body_stiffness_N_m;
+  return spring;
+}
+
 }  // namespace
 
 std::vector<ToolSpring> tool_springs(std::span<const messages::ToolState> tools, const TouchableParts& parts,
@@ -95,6 +108,7 @@ std::vector<ToolSpring> tool_springs(std::span<const messages::ToolState> tools,
   for (const messages::ToolState& tool : tools) {
     if (const auto spring = contact_spring(tool.contact, parts)) springs.push_back(*spring);
     if (const auto spring = line_spring(tool, parts, limb)) springs.push_back(*spring);
+    if (const auto spring = body_spring(tool, parts.specimen)) springs.push_back(*spring);
   }
   return springs;
 }

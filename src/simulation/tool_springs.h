@@ -14,8 +14,9 @@ struct TouchableParts {
   std::span<const SkinEmbedding> skins;  // one a muscle
 };
 
-/// Springs that the tools' states ask for: the coupling spring of each contact and of each muscle line in hand. States
-/// that name something that does not exist, or numbers that are not finite, give no spring: a client may send anything.
+/// Springs that the tools' states ask for: the coupling spring of each contact, of each muscle line and of each bone
+/// in hand. States that name something that does not exist, or numbers that are not finite, give no spring: a client
+/// may send anything.
 std::vector<ToolSpring> tool_springs(std::span<const messages::ToolState> tools, const TouchableParts& parts,
                                      const Limb& limb);
 

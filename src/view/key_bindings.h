@@ -19,6 +19,7 @@ enum class KeyAction {
   Palmar,
   FrameAll,
   GrabLine,
+  GrabBone,
   StopForces,
   Screenshot
 };
@@ -31,6 +32,6 @@ struct KeyBinding {
 };
 
 /// All bindings, in the order of the help.
-const std::array<KeyBinding, 14>& key_bindings();
+const std::array<KeyBinding, 15>& key_bindings();
 
 }  // namespace myotact::view

@@ -117,7 +117,8 @@ void draw_help() {
   }
   ImGui::Separator();
   ImGui::TextUnformatted(
-      "left drag     orbit\nright drag    pan\nwheel         zoom\nCtrl + mouse  the hand; wheel: depth");
+      "left drag     orbit\nright drag    pan\nwheel         zoom\nCtrl + mouse  the hand; wheel: depth; G or B takes "
+      "hold");
   ImGui::End();
 }
 

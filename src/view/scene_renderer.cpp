@@ -173,6 +173,11 @@ void SceneRenderer::draw_lines_and_tools(const messages::SceneFrame& frame) {
     const auto radius = static_cast<float>(tool.radius_m);
     add_sphere(scratch_, proxy, radius, kProxy);
     add_sphere(scratch_, to_glm(tool.tool_world_m), 0.6f * radius, kTool);
+    if (tool.grabbed_body >= 0) {
+      const glm::vec3 grip = to_glm(tool.grip_world_m);
+      add_sphere(scratch_, grip, radius, kLine);
+      add_tube(scratch_, grip, to_glm(tool.tool_world_m), kLineRadius_m, kTool);
+    }
     add_arrow(scratch_, proxy, proxy + kArrowLength_m_N * to_glm(tool.force_world_N), 0.4f * radius, kForce);
   }
   overlay_.upload(scratch_);

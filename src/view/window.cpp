@@ -145,6 +145,7 @@ struct Window::Impl {
         screenshot = "myotact.png";
         return;
       case KeyAction::GrabLine:
+      case KeyAction::GrabBone:
         return;  // held: read in move_hand()
       default:
         look(view_of(action));
@@ -159,6 +160,12 @@ struct Window::Impl {
     }
   }
 
+  bool is_down(KeyAction action) const {
+    return std::any_of(key_bindings().begin(), key_bindings().end(), [&](const KeyBinding& binding) {
+      return binding.action == action && glfwGetKey(window.get(), binding.key) == GLFW_PRESS;
+    });
+  }
+
   /// With Ctrl held the mouse moves the hand in the plane of the picture, the wheel in its depth.
   void move_hand(const ImVec2& motion, float wheel) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
@@ -171,7 +178,9 @@ struct Window::Impl {
   void handle_mouse() {
     const ImGuiIO& io = ImGui::GetIO();
     controls.hand_moves = io.KeyCtrl;
-    controls.hand_buttons = glfwGetKey(window.get(), GLFW_KEY_G) == GLFW_PRESS ? messages::kGrabButton : 0;
+    controls.hand_buttons = 0;
+    if (is_down(KeyAction::GrabLine)) controls.hand_buttons |= messages::kGrabButton;
+    if (is_down(KeyAction::GrabBone)) controls.hand_buttons |= messages::kGrabBoneButton;
     if (io.WantCaptureMouse) return;
     if (io.KeyCtrl) {
       move_hand(io.MouseDelta, io.MouseWheel);

@@ -52,6 +52,11 @@ class Scene {
     model.line.distal_point_world_m = {0.1, 0, 0.01};
     model.line.length_m = 0.2;
     model.line.tension_N = 5.0;
+    model.tool_sequence = loop.tool_state().sequence;
+    model.grip.body = 0;
+    model.grip.point_rest_m = {0, 0, 0.01};
+    model.grip.position_world_m = {0, 0, 0.01};
+    model.grip.mobility_1_kg = {5, 0, 0, 0, 5, 0, 0, 0, 5};
     loop.models().publish();
   }
 
@@ -81,16 +86,21 @@ TEST(HapticLoop, ATickNeverAllocates) {
   Scene scene(2e-3);
   std::uint64_t allocations = 0;
   int contacts = 0;
-  int grabs = 0;
+  int grabs = 0, bone_grabs = 0;
   for (int tick = 0; tick < 1000 * kEffort; ++tick) {
     const bool grab = tick % 1000 > 700;
-    scene.device.set_hand_target(
-        {{5e-3 * std::sin(0.003 * tick), 0, grab ? 0.02 : -0.005}, {}, grab ? messages::kGrabButton : 0});
+    const bool grab_bone = tick % 1000 > 450 && !grab;
+    scene.device.set_hand_target({{5e-3 * std::sin(0.003 * tick), 0, grab ? 0.02 : -0.005},
+                                  {},
+                                  grab        ? messages::kGrabButton
+                                  : grab_bone ? messages::kGrabBoneButton
+                                              : 0});
     const support::AllocationGuard guard;
     scene.tick();
     allocations += guard.allocations();
     contacts += scene.loop.tool_state().contact.surface >= 0;
     grabs += scene.loop.tool_state().grabbed_line >= 0;
+    bone_grabs += scene.loop.tool_state().grabbed_body >= 0;
     if (tick % 10 == 9) scene.publish();
     for (HapticTick record; scene.loop.ticks().pop(record);) {
     }
@@ -98,6 +108,7 @@ TEST(HapticLoop, ATickNeverAllocates) {
   EXPECT_EQ(allocations, 0u);
   EXPECT_GT(contacts, 100 * kEffort);  // the ticks did their whole work
   EXPECT_GT(grabs, 100 * kEffort);
+  EXPECT_GT(bone_grabs, 100 * kEffort);
 }
 
 TEST(HapticLoop, PressingABlockIsAHandSpringAgainstTheCoupling) {
@@ -160,6 +171,11 @@ TEST(HapticLoop, ABrokenModelIsIgnoredAndReported) {
   scene.publish();
   scene.run(10);
   EXPECT_EQ(scene.loop.tool_state().faults, 0u);
+  scene.loop.models().back() = {};
+  scene.loop.models().back().grip.mobility_1_kg[4] = std::numeric_limits<double>::quiet_NaN();
+  scene.loop.models().publish();
+  scene.tick();
+  EXPECT_NE(scene.loop.tool_state().faults & bit(Fault::BadModel), 0u);
 }
 
 TEST(HapticLoop, ADeviceThatSendsNoNumbersGetsNoForce) {

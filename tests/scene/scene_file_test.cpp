@@ -87,6 +87,10 @@ TEST_F(SceneFile, ErrorsNamePlaceAndNearestWord) {
               HasSubstr("/activations/flexor: is 2; must be between 0"));
   EXPECT_THAT(complaint(R"(, "activation": {})"), HasSubstr("nearest known one is \"activations\""));
   EXPECT_THAT(complaint(R"(, "dt_s": "fast")"), HasSubstr("/dt_s"));
+  EXPECT_THAT(complaint(R"(, "script": [{"t_s": 0, "do": "grab_bone", "bone": "louer", "from": [1, 0, 0]}])"),
+              HasSubstr("no bone \"louer\"; the nearest is \"lower\""));
+  EXPECT_THAT(complaint(R"(, "script": [{"t_s": 0, "do": "grab_bone", "bone": "lower", "from": [1, 0, 0]}])"),
+              HasSubstr("drag_m"));
   EXPECT_THAT(complaint(R"(, "script": [{"t_s": 0, "do": "tuch"}])"), HasSubstr("nearest: \"touch\""));
   EXPECT_THAT(complaint(R"(, "script": [{"t_s": 1, "do": "release"}, {"t_s": 0, "do": "release"}])"),
               HasSubstr("/script/1"));

@@ -199,6 +199,49 @@ TEST(Simulation, ARodSwingsWithThePeriodOfAPendulum) {
   EXPECT_NEAR(4.0 * crossing, period, 2e-3 * period);  // the first step is of first order
 }
 
+// Rod of 0.2 m and 0.2 kg on a hinge of 6 N m/rad and 0.02 N m s/rad, taken at its end: I = m L^2 / 3 + what the rod
+// has about itself is 2.667e-3 kg m^2; mobility L^2 / I, stiffness K / I, damping D / I, all along z.
+TEST(Simulation, TheGripTellsHowAFreePointOfABoneMoves) {
+  const anatomy::Specimen specimen = testing::hinged_bones();
+  Simulation simulation(specimen, {});
+  ToolState tool;
+  tool.tool_position_world_m = {0.21, 0.0, 0.0};
+  messages::LocalModel model;
+  simulation.write_local_model(tool, model);
+  const double inertia_kg_m2 = 0.2 * 0.2 * 0.2 / 3.0;
+  const messages::LocalGrip& grip = model.grip;
+  EXPECT_EQ(grip.body, 1);
+  EXPECT_LT((to_vec3(grip.point_rest_m) - Vec3(0.2, 0.0, 0.0)).norm(), 1e-12);
+  EXPECT_EQ(grip.position_world_m, grip.point_rest_m);
+  for (std::size_t k = 0; k < 9; ++k) {
+    EXPECT_NEAR(grip.mobility_1_kg[k], k == 8 ? 0.04 / inertia_kg_m2 : 0.0, 1e-9);
+    EXPECT_NEAR(grip.stiffness_1_s2[k], k == 8 ? 6.0 / inertia_kg_m2 : 0.0, 1e-6);
+    EXPECT_NEAR(grip.damping_1_s[k], k == 8 ? 0.02 / inertia_kg_m2 : 0.0, 1e-9);
+  }
+  tool.tool_position_world_m = {0.25, 0.0, 0.0};  // 50 mm away: out of reach
+  simulation.write_local_model(tool, model);
+  EXPECT_EQ(model.grip.body, -1);
+}
+
+TEST(Simulation, AGripOnABonePullsAndReportsItsForce) {
+  const anatomy::Specimen specimen = testing::hinged_bones();
+  Simulation simulation(specimen, {});
+  ToolState tool;
+  tool.grabbed_body = 1;
+  tool.body_point_rest_m = {0.2, 0.0, 0.0};
+  tool.body_target_world_m = {0.2, 0.0, 0.01};
+  tool.body_stiffness_N_m = 500.0;
+  for (int i = 0; i < 200; ++i) simulation.step({&tool, 1});
+  messages::LocalModel model;
+  simulation.write_local_model(tool, model);
+  const Vec3 force_N = to_vec3(model.grip.force_world_N), point_m = to_vec3(model.grip.position_world_m);
+  EXPECT_LT((force_N - 500.0 * (to_vec3(tool.body_target_world_m) - point_m)).norm(), 1e-9);
+  const double torque_Nm = point_m.x() * force_N.z() - point_m.z() * force_N.x();
+  EXPECT_NEAR(torque_Nm, 6.0 * simulation.joint(0).angle_rad, 1e-6);
+  EXPECT_GT(torque_Nm, 0.1);
+  EXPECT_LT(to_vec3(model.grip.velocity_world_m_s).norm(), 1e-6);
+}
+
 TEST(Simulation, SurvivesJumpsAndNonsense) {
   const anatomy::Specimen specimen = coarse_pair();
   Simulation simulation(specimen, {});
@@ -210,6 +253,12 @@ TEST(Simulation, SurvivesJumpsAndNonsense) {
   yank.line_stiffness_N_m = 2e3;
   ToolState nonsense = press(99, -5, Vec3(std::nan(""), 1e300, 0.0), -1.0);
   nonsense.grabbed_line = 77;
+  yank.grabbed_body = 1;
+  yank.body_point_rest_m = {0.2, 0.0, 0.0};
+  yank.body_target_world_m = {0.0, 0.1, 0.3};
+  yank.body_stiffness_N_m = 1e5;
+  nonsense.grabbed_body = -7;
+  nonsense.body_point_rest_m[1] = std::nan("");
   for (int i = 0; i < 8; ++i) {
     simulation.step(i % 4 < 2 ? std::span<const ToolState>(&yank, 1) : std::span<const ToolState>(&nonsense, 1));
     EXPECT_TRUE(std::isfinite(simulation.joint(0).angle_rad));

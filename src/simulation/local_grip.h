@@ -1,0 +1,31 @@
+#pragma once
+
+#include "messages/local_model.h"
+#include "messages/tool_state.h"
+#include "simulation/limb.h"
+#include "simulation/local_patch.h"
+
+namespace myotact::simulation {
+
+/// A bone farther than this from the tool is not offered to the hand; as far as a muscle line is.
+inline constexpr double kBoneReach_m = kLineReach_m;
+
+/// The point in hand, with the force of the hand's spring on it in the last step; else the nearest point of a bone
+/// within reach; else body -1. Its motion is left zero.
+messages::LocalGrip local_grip(const Limb& limb, const anatomy::Specimen& specimen, const LocalPatch& patch,
+                               const messages::ToolState& tool);
+
+/// What a hand at a point of a body feels until the next step, with the limb's joints held together in a few 3x3
+/// matrices. M, D, K: mass, damping and stiffness of the joints that may turn; J = dx/dq of the point.
+///
+///   M q'' = torques + J^T f     mobility W = J M^-1 J^T
+///   x'' = J q''  (the point's own turning about the axis, v^2 / r, is left to the next step)
+///   dq = M^-1 J^T W^+ dx        the turn that belongs to a displacement of the point; exact under one joint
+///   stiffness J M^-1 K M^-1 J^T W^+, damping likewise with D
+///
+/// `damping_Nms_rad` (joints x joints): of the muscles alone; the joints' own is in the limb. `dt_s`: of the last step.
+/// Sets everything but what local_grip() has set.
+void write_grip_motion(const Limb& limb, const Eigen::MatrixXd& damping_Nms_rad, double dt_s,
+                       messages::LocalGrip& grip);
+
+}  // namespace myotact::simulation
