@@ -223,6 +223,49 @@ TEST(Simulation, TheGripTellsHowAFreePointOfABoneMoves) {
   EXPECT_EQ(model.grip.body, -1);
 }
 
+/// Velocity of the tip of two rods in a row, bent, after one step of 0.1 ms under a force on it.
+Vec3 tip_velocity_m_s(const anatomy::Specimen& specimen, const Vec3& force_N, messages::LocalGrip& grip) {
+  SimulationSettings settings;
+  settings.dt_s = 1e-4;
+  Simulation simulation(specimen, settings);
+  const std::array<double, 2> bent_rad{0.4, -0.7};
+  EXPECT_TRUE(simulation.settle(bent_rad, {}));
+  ToolState tool;
+  tool.grabbed_body = 2;
+  tool.body_point_rest_m = {0.4, 0.0, 0.0};
+  messages::LocalModel model;
+  simulation.write_local_model(tool, model);
+  grip = model.grip;
+  tool.body_stiffness_N_m = 1.0;  // so soft that the force stays what it is
+  tool.body_target_world_m = to_array(to_vec3(grip.position_world_m) + force_N);
+  simulation.step({&tool, 1});
+  simulation.write_local_model(tool, model);
+  return to_vec3(model.grip.velocity_world_m_s);
+}
+
+TEST(Simulation, TheGripsMobilityIsThatOfAllJointsTogether) {
+  anatomy::Specimen specimen = testing::hinged_bones();
+  specimen.bodies.push_back(specimen.bodies[1]);
+  specimen.bodies[2].key = "paw";
+  specimen.bodies[2].com_m.x() += 0.2;
+  specimen.joints.push_back(specimen.joints[0]);
+  specimen.joints[1].key = "carpus";
+  specimen.joints[1].parent = 1;
+  specimen.joints[1].child = 2;
+  specimen.joints[1].centre_m = {0.2, 0.0, 0.0};
+  specimen.joints[1].range_rad = {{-1.5, 1.5}};
+  messages::LocalGrip grip;
+  const Vec3 free_m_s = tip_velocity_m_s(specimen, Vec3::Zero(), grip);
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 pushed_m_s = tip_velocity_m_s(specimen, 0.5 * Vec3::Unit(k), grip);
+    const Vec3 mobility_1_kg = (pushed_m_s - free_m_s) / (0.5 * 1e-4);
+    for (int i = 0; i < 3; ++i) {  // 0.5 %: dampers and a turn by 1e-5 rad within the step
+      EXPECT_NEAR(grip.mobility_1_kg[static_cast<std::size_t>(3 * i + k)], mobility_1_kg[i], 0.005 * 30.0);
+    }
+  }
+  EXPECT_GT(grip.mobility_1_kg[0], 1.0);  // bent, the tip can also go along
+}
+
 TEST(Simulation, AGripOnABonePullsAndReportsItsForce) {
   const anatomy::Specimen specimen = testing::hinged_bones();
   Simulation simulation(specimen, {});
