@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "device/mouse_device.h"
 #include "device/simulated_device.h"
 #include "haptics/faults.h"
 #include "haptics/haptic_loop.h"
@@ -271,15 +272,34 @@ TEST(BoneGrab, LetGoTheLimbIsFree) {
   EXPECT_NEAR(limb.simulation.joint(0).angle_rad, 0.0, 2e-3);
 }
 
+// The hand also goes 3 mm into the bone: the grip alone is felt, not the contact on top of it.
 TEST(BoneGrab, ABoneThatNothingTurnsIsAWall) {
   HeldDevice device(Vec3(-0.1, 0.0, 0.012));
   Limb limb(rod(), device, quick_to_ramp());
   open_gate(limb);
   hold(device, limb, 0.3);
   ASSERT_EQ(limb.loop.tool_state().grabbed_body, 0);
-  device.position_m += Vec3(1e-3, -2e-3, 1e-3);
+  const Vec3 way_m(1e-3, -2e-3, -4e-3);
+  device.position_m += way_m;
   hold(device, limb, 0.5);
-  EXPECT_LT((limb.force_N() + 800.0 * Vec3(1e-3, -2e-3, 1e-3)).norm(), 1e-6);
+  EXPECT_LT((limb.force_N() + haptics::BoneDragSettings{}.stiffness_N_m * way_m).norm(), 1e-6);
+  EXPECT_EQ(limb.loop.tool_state().contact.surface, -1);
+}
+
+TEST(BoneGrab, TheMouseTakesABoneAndDragsIt) {
+  device::MouseDevice mouse(kPaw_m);
+  Limb limb(rod(), mouse, quick_to_ramp());
+  open_gate(limb);
+  mouse.set_pointer(kPaw_m, messages::kGrabBoneButton);
+  for (int i = 0; i < 200; ++i) limb.tick();
+  ASSERT_EQ(limb.loop.tool_state().grabbed_body, 1);
+  mouse.set_pointer(kPaw_m + Vec3(0.0, 0.0, 0.01), messages::kGrabBoneButton);  // a jump, as a window makes it
+  for (int i = 0; i < 1000; ++i) limb.tick();
+  // Nothing moves the pointer back: joint and grip in series take up the whole way.
+  const double joint_N_m = 6.0 / (0.2 * 0.2), grip_N_m = haptics::BoneDragSettings{}.stiffness_N_m;
+  EXPECT_NEAR(limb.grip_m().z(), 0.01 * grip_N_m / (grip_N_m + joint_N_m), 1e-4);
+  const Vec3 shown_N = to_vec3(mouse.shown_force_world_N());
+  EXPECT_NEAR(shown_N.z(), -joint_N_m * limb.grip_m().z(), 0.02);
 }
 
 /// Force above 20 Hz, root of the mean square over the second half of 10 s in which a hand shakes the paw.

@@ -25,7 +25,10 @@ class RandomScript {
     if (chance(0.03)) simulation.set_joint_torque(elbow_, uniform(-2.0, 2.0));
     if (chance(0.02)) simulation.set_gravity(Vec3(uniform(-10, 10), uniform(-10, 10), uniform(-10, 10)));
     if (chance(0.06))
-      tool_ = chance(0.3) ? messages::ToolState{} : chance(0.5) ? line_drag(simulation) : push(simulation);
+      tool_ = chance(0.3)   ? messages::ToolState{}
+              : chance(0.4) ? line_drag(simulation)
+              : chance(0.5) ? push(simulation)
+                            : bone_drag(simulation);
   }
   void let_go(Simulation& simulation) {
     for (int m = 0; m < static_cast<int>(specimen_.muscles.size()); ++m) simulation.set_excitation(m, 0.0);
@@ -66,6 +69,19 @@ class RandomScript {
     const int vertex = triangles[static_cast<std::size_t>(tool.contact.triangle)][0];
     tool.contact.target_world_m = near(simulation.skin_world_m(muscle)[static_cast<std::size_t>(vertex)], 0.01);
     tool.contact.stiffness_N_m = uniform(100, 1000);
+    return tool;
+  }
+
+  /// A point of a bone's surface is yanked by up to 4 cm.
+  messages::ToolState bone_drag(const Simulation& simulation) {
+    messages::ToolState tool;
+    const auto bone = static_cast<std::size_t>(uniform(0, static_cast<double>(specimen_.bones.size()) - 1e-9));
+    const auto& places_m = specimen_.bones[bone].surface.positions_m;
+    const Vec3& rest_m = places_m[static_cast<std::size_t>(uniform(0, static_cast<double>(places_m.size()) - 1e-9))];
+    tool.grabbed_body = specimen_.bones[bone].body;
+    tool.body_point_rest_m = to_array(rest_m);
+    tool.body_target_world_m = near(simulation.body_pose(tool.grabbed_body) * rest_m, 0.04);
+    tool.body_stiffness_N_m = uniform(100, 1000);
     return tool;
   }
 

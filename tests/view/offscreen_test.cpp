@@ -71,5 +71,18 @@ TEST_F(Offscreen, MusclesChangeColourWithActivationAndViewsDiffer) {
   EXPECT_GT(different_pixels(rest, picture(0.0, "cranial")), 200u);
 }
 
+TEST_F(Offscreen, ABoneInHandIsMarkedWhereItIsHeld) {
+  messages::SceneFrame frame = frame_of(specimen_, 0.0);
+  frame.tools.resize(1);
+  messages::ToolFrame& tool = frame.tools.front();
+  tool.radius_m = 3e-3;
+  tool.tool_world_m = tool.proxy_world_m = {0.25, 0.0, 0.0};
+  tool.grip_world_m = {0.2, 0.0, 0.03};  // above the bone's end, where nothing else is
+  const auto camera = *standard_view("lateral", true, bounds_of(specimen_), 4.0f / 3.0f);
+  const Image empty_hand = renderer_->render(frame, camera);
+  tool.grabbed_body = 1;
+  EXPECT_GT(different_pixels(empty_hand, renderer_->render(frame, camera)), 10u);
+}
+
 }  // namespace
 }  // namespace myotact::view
