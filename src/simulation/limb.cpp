@@ -35,10 +35,12 @@ std::span<const double> as_span(const Eigen::VectorXd& v) {
 
 }  // namespace
 
-Limb::Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> models, Tendon tendon) : skeleton(specimen) {
+Limb::Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> models, Tendon tendon, bool contact)
+    : skeleton(specimen) {
   now.angle_rad = now.velocity_rad_s = Eigen::VectorXd::Zero(skeleton.joint_count());
   last = before = now;
   external_torque_Nm = now.angle_rad;
+  const auto bones = contact ? make_bone_shapes(specimen) : nullptr;
   for (int m = 0; m < static_cast<int>(specimen.muscles.size()); ++m) {
     LimbMuscle muscle;
     const TissueModel model = models.empty() ? TissueModel::Fem : models[static_cast<std::size_t>(m)];
@@ -48,9 +50,12 @@ Limb::Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> model
       muscle.line =
           make_line_tissue(specimen.muscles[static_cast<std::size_t>(m)], line_of(specimen, m), skeleton, tendon);
     }
+    if (bones && !muscle.rigid) {
+      muscle.tissue.bone_contact = make_bone_contact(bones, muscle.tissue.mesh, muscle.tissue.body);
+    }
     muscle.state = make_state(muscle.tissue);
     muscle.system = make_system(muscle.tissue, skeleton);
-    muscle.stiffness_Nm_rad = muscle.readout.torque_Nm = Eigen::VectorXd::Zero(skeleton.joint_count());
+    muscle.stiffness_Nm_rad = muscle.contact_stiffness_Nm_rad = muscle.readout.torque_Nm = Eigen::VectorXd::Zero(skeleton.joint_count());
     muscles.push_back(std::move(muscle));
   }
 }
@@ -119,8 +124,9 @@ void evaluate_lines(Limb& limb, const TimeRule& rule) {
 void read_out(Limb& limb) {
   for (LimbMuscle& muscle : limb.muscles) {
     if (muscle.rigid) continue;
-    muscle.readout = {muscle.system.muscle_torque_Nm, muscle.system.tension_N, muscle.system.smallest_J,
-                      muscle.system.volume_ratio};
+    const TissueSystem& system = muscle.system;
+    muscle.readout = {system.muscle_torque_Nm, system.tension_N,       system.smallest_J,
+                      system.volume_ratio,     system.contact.force_N, system.contact.deepest_m};
   }
   const auto span = [](const Eigen::VectorXd& v) {
     return std::span<const double>(v.data(), static_cast<std::size_t>(v.size()));

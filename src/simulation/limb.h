@@ -30,6 +30,8 @@ struct MuscleReadout {
   double tension_N = 0.0;     // on its insertion
   double smallest_J = 1.0;    // volume ratio over the integration points
   double volume_ratio = 1.0;  // of the whole muscle
+  double contact_N = 0.0;     // sum of the contact forces on its surface
+  double contact_depth_m = 0.0;
 };
 
 /// One muscle: model, state, and what a solve leaves behind. Owned by one task at a time.
@@ -54,6 +56,7 @@ struct LimbMuscle {
   bool sound = true;                  // the last factorisation and state were finite
   MuscleReadout readout;
   Eigen::VectorXd stiffness_Nm_rad;  // quasi-static, one a joint, of the last refresh
+  Eigen::VectorXd contact_stiffness_Nm_rad;  // the part of it by which contact's own torques fall
 };
 
 /// Angles of all joints at one instant.
@@ -64,9 +67,9 @@ struct JointFrameState {
 
 /// Everything that moves, and what a step needs. See step.h and settle.h.
 struct Limb {
-  /// `models`: one a muscle; empty: all Fem. `tendon`: of the Line ones.
+  /// `models`: one a muscle; empty: all Fem. `tendon`: of the Line ones. `contact`: the others touch the bones.
   explicit Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> models = {},
-                Tendon tendon = Tendon::Elastic);
+                Tendon tendon = Tendon::Elastic, bool contact = true);
 
   Skeleton skeleton;
   SkeletonLoads loads;

@@ -8,6 +8,7 @@
 #include "anatomy/specimen.h"
 #include "geometry/tet_mesh.h"
 #include "simulation/block_matrix.h"
+#include "simulation/bone_contact.h"
 #include "simulation/spring_net.h"
 #include "simulation/tendon_strand.h"
 #include "simulation/tissue_material.h"
@@ -79,6 +80,7 @@ struct MuscleTissue {
   std::vector<int> bodies;  // that clamp nodes
   Eigen::MatrixXd blend;    // n x bodies: share of each body's motion in a smooth guess, rows sum to 1
   BlockMatrix pattern;      // of the free nodes, zero
+  BoneContact bone_contact;  // none unless the limb puts it there
   int insertion_body = -1;
   Vec3 insertion_rest_m = Vec3::Zero();  // where the muscle's line ends, and the point before it
   int before_insertion_body = -1;

@@ -196,9 +196,14 @@ void refresh_muscle_stiffness(const Limb& limb, LimbMuscle& muscle) {
   Eigen::MatrixXd solution;
   const Pivots pivots = factor_system(muscle, muscle.system.coupling_N_rad, solution, Accuracy::Refined);
   if (pivots == Pivots::Unusable) return;
-  const Eigen::MatrixXd whole =
-      muscle.system.joint_stiffness_Nm_rad - muscle.system.coupling_N_rad.transpose() * solution;
-  if (whole.allFinite()) muscle.stiffness_Nm_rad = whole.diagonal();
+  const auto eliminated = [&](const Eigen::MatrixXd& joints, const Eigen::MatrixXd& coupling) {
+    return Eigen::VectorXd((joints - coupling.transpose() * solution).diagonal());
+  };
+  const Eigen::VectorXd whole = eliminated(muscle.system.joint_stiffness_Nm_rad, muscle.system.coupling_N_rad);
+  if (!whole.allFinite()) return;
+  muscle.stiffness_Nm_rad = whole;
+  muscle.contact_stiffness_Nm_rad =
+      eliminated(muscle.system.contact.joint_stiffness_Nm_rad, muscle.system.contact.coupling_N_rad);
 }
 
 }  // namespace myotact::simulation

@@ -42,7 +42,7 @@ struct Simulation::Impl {
   Impl(const anatomy::Specimen& given, const SimulationSettings& chosen)
       : specimen(given),
         settings(chosen),
-        limb(specimen, settings.tissue, settings.tendon),
+        limb(specimen, settings.tissue, settings.tendon, settings.contact),
         workers(chosen.workers),
         surfaces(specimen, limb) {
     limb.gravity_m_s2 = settings.gravity_m_s2;
@@ -284,6 +284,7 @@ JointReadout Simulation::joint(int joint) const {
     const int muscle = static_cast<int>(m);
     readout.net_torque_Nm += limb.muscles[m].readout.torque_Nm[joint];
     readout.stiffness_Nm_rad += limb.muscles[m].stiffness_Nm_rad[joint];
+    readout.contact_Nm_rad += limb.muscles[m].contact_stiffness_Nm_rad[joint];
     const LineJointTerms terms = line_joint_terms(impl_->line_geometry_of(muscle), impl_->line_force_of(muscle), joint);
     readout.line_muscle_Nm_rad += terms.muscle_Nm_rad;
     readout.line_geometry_Nm_rad += terms.geometry_Nm_rad;
@@ -312,6 +313,13 @@ std::vector<Vec3> Simulation::line_world_m(int muscle) const {
 
 double Simulation::volume_ratio(int muscle) const {
   return impl_->limb.muscles[at(muscle)].readout.volume_ratio;
+}
+
+double Simulation::contact_force_N(int muscle) const {
+  return impl_->limb.muscles[at(muscle)].readout.contact_N;
+}
+double Simulation::contact_depth_m(int muscle) const {
+  return impl_->limb.muscles[at(muscle)].readout.contact_depth_m;
 }
 
 double Simulation::residual_share() const {

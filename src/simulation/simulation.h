@@ -22,6 +22,7 @@ struct SimulationSettings {
   int workers = 2;                  // threads of a step, the caller's included; the result does not depend on it
   std::vector<TissueModel> tissue;  // one a muscle; empty: all Fem
   Tendon tendon = Tendon::Elastic;  // of the Line muscles
+  bool contact = true;              // muscles touch the bones; false is for speed where touch is all that counts
 };
 
 /// Joint stiffness K = -d(net torque)/dq at held activations, and what it is made of. All about the joint's axis.
@@ -32,6 +33,7 @@ struct JointReadout {
   double stiffness_Nm_rad = 0.0;      // Schur complement of the quasi-static system, passive joint included
   double line_muscle_Nm_rad = 0.0;    // sum r^2 k of the muscle lines
   double line_geometry_Nm_rad = 0.0;  // -sum (dr/dq) F of the muscle lines
+  double contact_Nm_rad = 0.0;        // by which the torque of the contact forces on the bones falls; in the stiffness
   double passive_Nm_rad = 0.0;        // the joint's own
   double inertia_kg_m2 = 0.0;
   double damping_Nms_rad = 0.0;  // of the joint itself and the muscle lines' fibres, sum r^2 b
@@ -73,6 +75,8 @@ class Simulation {
   Pose body_pose(int body) const;  // X_WL: maps rest position to now
   std::span<const Vec3> skin_world_m(int muscle) const;
   std::vector<Vec3> line_world_m(int muscle) const;
+  double contact_force_N(int muscle) const;        // sum of the contact forces on the muscle's surface
+  double contact_depth_m(int muscle) const;        // how far it overlaps most, over what overlaps at the file pose
   double smallest_volume_ratio(int muscle) const;  // smallest J over the integration points
   double volume_ratio(int muscle) const;           // volume of the whole muscle over that at rest
   /// Largest out-of-balance share of a muscle after the last step: forces that nothing balances over the size of all.

@@ -58,6 +58,15 @@ struct TissueFactor {
   std::vector<TetSlots<LinearTet>> spring_slots;  // one a batch of a spring net
 };
 
+/// What contact adds to a muscle's system, already in its totals.
+struct ContactPart {
+  Eigen::VectorXd torque_Nm;               // that the contact forces exert on the joints themselves, positive flexes
+  Eigen::MatrixXd coupling_N_rad;          // slopes of those torques against the free nodes
+  Eigen::MatrixXd joint_stiffness_Nm_rad;  // and against the angles
+  double force_N = 0.0;                    // sum of the nodes' contact forces
+  double deepest_m = 0.0;                  // largest overlap
+};
+
 /// One muscle's part of the arrow system
 ///
 ///   | matrix + mean  coupling        | | d nodes  |      | residual       |
@@ -72,11 +81,12 @@ struct TissueSystem {
   Eigen::MatrixXd coupling_N_rad;
   Eigen::MatrixXd joint_stiffness_Nm_rad;
   Eigen::VectorXd joint_residual_Nm;
+  ContactPart contact;
   std::vector<PointBatch<QuadraticTet>> points;      // one a batch of elements
   Eigen::VectorXd points_at_m;                       // node positions that `points` belong to
   std::vector<PointBatch<LinearTet>> spring_points;  // of a spring net, one a batch
   // of the forces pass alone
-  Eigen::VectorXd internal_N;        // at all nodes: elastic forces and strands
+  Eigen::VectorXd internal_N;        // at all nodes: elastic forces, strands, contact
   Eigen::VectorXd muscle_torque_Nm;  // that the tissue exerts on the joints, positive flexes
   double tension_N = 0.0;            // on the insertion, along the line's last segment
   double force_scale_N = 0.0;        // size of the nodal forces, to judge a residual by
