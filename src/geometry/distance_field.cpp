@@ -16,6 +16,8 @@ namespace {
 constexpr double kMostSamples = 1e6;
 /// Samples beyond the surface's box: a spline at the box's rim needs two, and the rim itself is outside.
 constexpr int kPadding = 3;
+/// Farther outside than this a sample holds a lower bound: no place that may be inside has it among its 64.
+constexpr double kFarCells = 6.0;
 /// A barycentric coordinate below this counts as zero when a place is told apart as face, edge or corner.
 constexpr double kOnEdge = 1e-9;
 
@@ -88,18 +90,32 @@ DistanceField::DistanceField(const TriangleMesh& surface, double spacing_m) : sp
     size_[a] = static_cast<int>(std::ceil(box.sizes()[static_cast<int>(a)] / spacing_m_)) + 2 * kPadding + 1;
   centre_m_ = box.center();
   radius_m_ = 0.5 * box.sizes().norm() + 2.0 * kPadding * spacing_m_;
+  fill(surface);
+}
+
+void DistanceField::fill(const TriangleMesh& surface) {
   const TriangleTree tree(surface);
   const PseudoNormals normals(surface);
+  const double far_m = kFarCells * spacing_m_;
   values_m_.reserve(index(size_[0]) * index(size_[1]) * index(size_[2]));
   for (int k = 0; k < size_[2]; ++k) {
     for (int j = 0; j < size_[1]; ++j) {
-      double reach_m = 2.0 * radius_m_;
       for (int i = 0; i < size_[0]; ++i) {
+        // A neighbour is one cell away, so it bounds the distance here from both sides.
+        double nearest_m = -far_m;
+        if (i > 0) nearest_m = std::max(nearest_m, at(i - 1, j, k) - spacing_m_);
+        if (j > 0) nearest_m = std::max(nearest_m, at(i, j - 1, k) - spacing_m_);
+        if (k > 0) nearest_m = std::max(nearest_m, at(i, j, k - 1) - spacing_m_);
+        if (nearest_m > far_m) {
+          values_m_.push_back(static_cast<float>(nearest_m));
+          continue;
+        }
         const Vec3 p = origin_m_ + spacing_m_ * Vec3(i, j, k);
-        const SurfacePlace place = tree.nearest(p, surface.positions_m, reach_m);
+        const double reach_m = i > 0 ? std::abs(at(i - 1, j, k)) + 1.001 * spacing_m_ : 2.0 * radius_m_;
+        SurfacePlace place = tree.nearest(p, surface.positions_m, reach_m);
+        if (place.triangle < 0) place = tree.nearest(p, surface.positions_m);  // the neighbour's was a bound
         const bool inside = (p - place.point.position_m).dot(normals.at(place)) < 0.0;
         values_m_.push_back(static_cast<float>(inside ? -place.distance_m : place.distance_m));
-        reach_m = place.distance_m + 1.001 * spacing_m_;  // of the next sample: it is one cell away
       }
     }
   }
@@ -125,7 +141,8 @@ DistanceSample DistanceField::sample(const Vec3& p) const {
     for (std::size_t b = 0; b < 4; ++b) {
       double v = 0.0, vx = 0.0, vxx = 0.0;  // along x
       for (std::size_t a = 0; a < 4; ++a) {
-        const double value = at(i0 - 1 + static_cast<int>(a), j0 - 1 + static_cast<int>(b), k0 - 1 + static_cast<int>(c));
+        const double value =
+            at(i0 - 1 + static_cast<int>(a), j0 - 1 + static_cast<int>(b), k0 - 1 + static_cast<int>(c));
         v += x.value[a] * value;
         vx += x.slope[a] * value;
         vxx += x.curvature[a] * value;

@@ -38,6 +38,7 @@ class DistanceField {
   double radius_m() const { return radius_m_; }
 
  private:
+  void fill(const TriangleMesh& surface);
   double at(int i, int j, int k) const {
     return values_m_[static_cast<std::size_t>(i + size_[0] * (j + size_[1] * k))];
   }

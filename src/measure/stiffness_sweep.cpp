@@ -74,6 +74,7 @@ StiffnessRow measure_row(const scene::Scene& scene, const scene::TorqueTable& ta
   row.K_perturbed_Nm_rad = -(above - below) / (2.0 * kPerturbation_rad) + readout.passive_Nm_rad;
   row.K_muscle_Nm_rad = readout.line_muscle_Nm_rad;
   row.K_geometry_Nm_rad = readout.line_geometry_Nm_rad;
+  row.K_contact_Nm_rad = readout.contact_Nm_rad;
   row.K_passive_Nm_rad = readout.passive_Nm_rad;
   row.K_line_Nm_rad = row.K_muscle_Nm_rad + row.K_geometry_Nm_rad + row.K_passive_Nm_rad;
   row.net_torque_Nm = readout.net_torque_Nm;

@@ -19,7 +19,7 @@ struct StiffnessRow {
   double K_line_Nm_rad = 0.0;       // of the muscle lines alone, passive joint included
   double net_torque_Nm = 0.0;
   double K_muscle_Nm_rad = 0.0, K_geometry_Nm_rad = 0.0;  // the lines' two parts
-  double K_contact_Nm_rad = 0.0;                          // 0: no contact between tissues yet
+  double K_contact_Nm_rad = 0.0;                          // of the tissue: lost if contact forces were held
   double K_passive_Nm_rad = 0.0;
   bool held = false;       // net torque balanced to within 1 % of the stronger side's
   bool converged = false;  // every static solve of the row did

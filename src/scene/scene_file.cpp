@@ -157,6 +157,7 @@ void read_parts(JsonObject& root, Scene& scene) {
   if (const auto dt = root.find("dt_s")) scene.settings.dt_s = dt->number_between(1e-3, 0.05);
   if (const auto gravity = root.find("gravity_m_s2")) scene.settings.gravity_m_s2 = gravity->vec3();
   if (const auto joints = root.find("joints")) read_joints(*joints, scene);
+  if (const auto contact = root.find("contact")) scene.settings.contact = contact->boolean();
   if (const auto tissue = root.find("tissue")) read_tissue(*tissue, scene);
   if (const auto activations = root.find("activations")) read_activations(*activations, scene);
   if (const auto set = root.find("co_contraction")) scene.co_contraction = read_co_contraction(*set, scene);

@@ -29,11 +29,11 @@ struct Touch {
 };
 
 void add_touch_forces(const TissuePass& pass, const Touch& touch) {
-  ContactPart& contact = pass.system.contact;
   pass.system.internal_N.segment<3>(3 * touch.node) += touch.gradient_N;
+  pass.system.force_scale_N += touch.gradient_N.squaredNorm();
   for (int j = 0; j < pass.skeleton.joint_count(); ++j) {
     const Vec3 lever = pass.skeleton.point_derivative(touch.body, j, touch.position_m);
-    contact.torque_Nm[j] += lever.dot(touch.gradient_N);
+    pass.system.muscle_torque_Nm[j] += lever.dot(touch.gradient_N);
   }
 }
 
@@ -42,7 +42,6 @@ void add_touch_forces(const TissuePass& pass, const Touch& touch) {
 /// `turns`: the forces' directions turn (left out of a safe tangent).
 void add_touch_tangent(const TissuePass& pass, const Touch& touch, bool turns) {
   const Skeleton& skeleton = pass.skeleton;
-  ContactPart& contact = pass.system.contact;
   const int f = pass.tissue.free_index[at(touch.node)];
   if (pass.load.in_factor)
     pass.system.factor.matrix.add(f, f, touch.curvature_N_m);
@@ -55,7 +54,7 @@ void add_touch_tangent(const TissuePass& pass, const Touch& touch, bool turns) {
     if (!skeleton.is_distal(touch.body, j)) continue;
     const Vec3 lever = skeleton.point_derivative(touch.body, j, touch.position_m);
     const Vec3 pushed = touch.curvature_N_m * lever;
-    contact.coupling_N_rad.col(j).segment<3>(3 * f) += turned(j) - pushed;
+    pass.system.coupling_N_rad.col(j).segment<3>(3 * f) += turned(j) - pushed;
     for (int k = 0; k < skeleton.joint_count(); ++k) {
       if (!skeleton.is_distal(touch.body, k)) continue;
       const Vec3 other = skeleton.point_derivative(touch.body, k, touch.position_m);
@@ -64,7 +63,7 @@ void add_touch_tangent(const TissuePass& pass, const Touch& touch, bool turns) {
         const Vec3 second = skeleton.point_second_derivative(touch.body, j, k, touch.position_m);
         stiffness -= touch.gradient_N.dot(second);
       }
-      contact.joint_stiffness_Nm_rad(j, k) += stiffness;
+      pass.system.joint_stiffness_Nm_rad(j, k) += stiffness;
     }
   }
 }
@@ -78,11 +77,11 @@ void add_node(const TissuePass& pass, const BoneShape& bone, const BonePatch::No
   const double overlap_m = -d.distance_m - node.rest_depth_m;
   const ContactPressure law = contact_pressure(kBoneContact, overlap_m);
   if (!(law.pressure_Pa > 0.0)) return;
-  pass.system.contact.deepest_m = std::max(pass.system.contact.deepest_m, overlap_m);
-  pass.system.contact.force_N += node.area_m2 * law.pressure_Pa * d.gradient.norm();
+  pass.system.contact_depth_m = std::max(pass.system.contact_depth_m, overlap_m);
+  pass.system.contact_N += node.area_m2 * law.pressure_Pa * d.gradient.norm();
   Touch touch{node.node, bone.body, x, -node.area_m2 * law.pressure_Pa * (X_WL.rotation * d.gradient), Mat3::Zero()};
   add_touch_forces(pass, touch);
-  if (!pass.tangent) return;
+  if (!pass.tangent || pass.load.contact_held) return;
   const bool turns = !pass.load.definite;
   Mat3 curvature = node.area_m2 * law.slope_Pa_m * d.gradient * d.gradient.transpose();
   if (turns) curvature -= node.area_m2 * law.pressure_Pa * d.hessian_1_m;
@@ -155,11 +154,6 @@ void add_bone_contact(const TissuePass& pass) {
     if (box_of(patch, pass.state.now.position_m).exteriorDistance(centre_W) > bone.field.radius_m()) continue;
     for (const BonePatch::Node& node : patch.nodes) add_node(pass, bone, node);
   }
-  ContactPart& part = pass.system.contact;
-  pass.system.muscle_torque_Nm += part.torque_Nm;
-  if (!pass.tangent) return;
-  pass.system.coupling_N_rad += part.coupling_N_rad;
-  pass.system.joint_stiffness_Nm_rad += part.joint_stiffness_Nm_rad;
 }
 
 }  // namespace myotact::simulation

@@ -55,7 +55,8 @@ Limb::Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> model
     }
     muscle.state = make_state(muscle.tissue);
     muscle.system = make_system(muscle.tissue, skeleton);
-    muscle.stiffness_Nm_rad = muscle.contact_stiffness_Nm_rad = muscle.readout.torque_Nm = Eigen::VectorXd::Zero(skeleton.joint_count());
+    muscle.stiffness_Nm_rad = muscle.contact_stiffness_Nm_rad = muscle.readout.torque_Nm =
+        Eigen::VectorXd::Zero(skeleton.joint_count());
     muscles.push_back(std::move(muscle));
   }
 }
@@ -125,8 +126,8 @@ void read_out(Limb& limb) {
   for (LimbMuscle& muscle : limb.muscles) {
     if (muscle.rigid) continue;
     const TissueSystem& system = muscle.system;
-    muscle.readout = {system.muscle_torque_Nm, system.tension_N,       system.smallest_J,
-                      system.volume_ratio,     system.contact.force_N, system.contact.deepest_m};
+    muscle.readout = {system.muscle_torque_Nm, system.tension_N, system.smallest_J,
+                      system.volume_ratio,     system.contact_N, system.contact_depth_m};
   }
   const auto span = [](const Eigen::VectorXd& v) {
     return std::span<const double>(v.data(), static_cast<std::size_t>(v.size()));

@@ -55,8 +55,8 @@ struct LimbMuscle {
   bool made_definite = false;         // the last tangent had to be
   bool sound = true;                  // the last factorisation and state were finite
   MuscleReadout readout;
-  Eigen::VectorXd stiffness_Nm_rad;  // quasi-static, one a joint, of the last refresh
-  Eigen::VectorXd contact_stiffness_Nm_rad;  // the part of it by which contact's own torques fall
+  Eigen::VectorXd stiffness_Nm_rad;          // quasi-static, one a joint, of the last refresh
+  Eigen::VectorXd contact_stiffness_Nm_rad;  // what contact adds to it, of the last such refresh
 };
 
 /// Angles of all joints at one instant.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace myotact::simulation {
 namespace {
@@ -151,6 +152,18 @@ void bring_to_rest(Limb& limb) {
   limb.spring_compliance_m_N.clear();
 }
 
+/// -d(torque)/d(angle) about every joint, the tissue following in equilibrium; none when the tangent is singular.
+std::optional<Eigen::VectorXd> eliminated_stiffness(const Limb& limb, const TissueLoad& load, LimbMuscle& muscle) {
+  compute_system(limb.skeleton, load, muscle, Accuracy::Refined);
+  Eigen::MatrixXd solution;
+  const Pivots pivots = factor_system(muscle, muscle.system.coupling_N_rad, solution, Accuracy::Refined);
+  if (pivots == Pivots::Unusable) return std::nullopt;
+  const Eigen::MatrixXd whole =
+      muscle.system.joint_stiffness_Nm_rad - muscle.system.coupling_N_rad.transpose() * solution;
+  if (!whole.allFinite()) return std::nullopt;
+  return Eigen::VectorXd(whole.diagonal());
+}
+
 }  // namespace
 
 bool settle_muscle(const Skeleton& skeleton, const Vec3& gravity_m_s2, double wanted_share, LimbMuscle& muscle) {
@@ -192,18 +205,19 @@ void refresh_muscle_stiffness(const Limb& limb, LimbMuscle& muscle) {
     muscle.stiffness_Nm_rad = load.stiffness_Nm_rad.diagonal();
   }
   if (muscle.rigid) return;
-  compute_system(limb.skeleton, static_load(limb.gravity_m_s2), muscle, Accuracy::Refined);
-  Eigen::MatrixXd solution;
-  const Pivots pivots = factor_system(muscle, muscle.system.coupling_N_rad, solution, Accuracy::Refined);
-  if (pivots == Pivots::Unusable) return;
-  const auto eliminated = [&](const Eigen::MatrixXd& joints, const Eigen::MatrixXd& coupling) {
-    return Eigen::VectorXd((joints - coupling.transpose() * solution).diagonal());
-  };
-  const Eigen::VectorXd whole = eliminated(muscle.system.joint_stiffness_Nm_rad, muscle.system.coupling_N_rad);
-  if (!whole.allFinite()) return;
-  muscle.stiffness_Nm_rad = whole;
-  muscle.contact_stiffness_Nm_rad =
-      eliminated(muscle.system.contact.joint_stiffness_Nm_rad, muscle.system.contact.coupling_N_rad);
+  if (const auto stiffness = eliminated_stiffness(limb, static_load(limb.gravity_m_s2), muscle))
+    muscle.stiffness_Nm_rad = *stiffness;
+}
+
+void refresh_contact_stiffness(const Limb& limb, LimbMuscle& muscle) {
+  if (muscle.rigid) return;
+  refresh_muscle_stiffness(limb, muscle);
+  muscle.contact_stiffness_Nm_rad.setZero();
+  if (muscle.system.contact_N == 0.0) return;
+  TissueLoad held = static_load(limb.gravity_m_s2);
+  held.contact_held = true;
+  if (const auto without = eliminated_stiffness(limb, held, muscle))
+    muscle.contact_stiffness_Nm_rad = muscle.stiffness_Nm_rad - *without;
 }
 
 }  // namespace myotact::simulation

@@ -19,4 +19,8 @@ bool settle_muscle(const Skeleton& skeleton, const Vec3& gravity_m_s2, double wa
 /// the old value when the tangent is singular.
 void refresh_muscle_stiffness(const Limb& limb, LimbMuscle& muscle);
 
+/// The same, and what contact adds to it: the stiffness less the one that is left when all contact forces are held as
+/// they are while the joint turns. Twice the cost.
+void refresh_contact_stiffness(const Limb& limb, LimbMuscle& muscle);
+
 }  // namespace myotact::simulation

@@ -212,7 +212,7 @@ bool Simulation::settle(std::span<const double> joint_angles_rad, std::span<cons
   }
   const bool settled = settle_limb(in.limb, joint_angles_rad, in.workers);
   in.workers.run(static_cast<int>(in.limb.muscles.size()),
-                 [&](int m) { refresh_muscle_stiffness(in.limb, in.limb.muscles[at(m)]); });
+                 [&](int m) { refresh_contact_stiffness(in.limb, in.limb.muscles[at(m)]); });
   in.workers.run(in.surfaces.count(), [&](int surface) { in.surfaces.follow(in.limb, surface, true); });
   in.whole_steps = 0;
   return settled;
@@ -297,7 +297,7 @@ JointReadout Simulation::joint(int joint) const {
 
 void Simulation::refresh_stiffness(int /*joint*/) {  // one factor serves all joints
   impl_->workers.run(static_cast<int>(impl_->limb.muscles.size()),
-                     [&](int m) { refresh_muscle_stiffness(impl_->limb, impl_->limb.muscles[at(m)]); });
+                     [&](int m) { refresh_contact_stiffness(impl_->limb, impl_->limb.muscles[at(m)]); });
 }
 
 Pose Simulation::body_pose(int body) const {

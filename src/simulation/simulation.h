@@ -33,8 +33,8 @@ struct JointReadout {
   double stiffness_Nm_rad = 0.0;      // Schur complement of the quasi-static system, passive joint included
   double line_muscle_Nm_rad = 0.0;    // sum r^2 k of the muscle lines
   double line_geometry_Nm_rad = 0.0;  // -sum (dr/dq) F of the muscle lines
-  double contact_Nm_rad = 0.0;        // by which the torque of the contact forces on the bones falls; in the stiffness
-  double passive_Nm_rad = 0.0;        // the joint's own
+  double contact_Nm_rad = 0.0;  // of the stiffness: lost if contact forces stayed as they are while the joint turns
+  double passive_Nm_rad = 0.0;  // the joint's own
   double inertia_kg_m2 = 0.0;
   double damping_Nms_rad = 0.0;  // of the joint itself and the muscle lines' fibres, sum r^2 b
   bool preview = false;  // a mass-spring muscle spans the joint: torque and stiffness are no more than a preview
@@ -69,8 +69,10 @@ class Simulation {
   double muscle_force_N(int muscle) const;  // tension that the muscle hands to its tendon
   /// Torque of one muscle about a joint, positive flexes [N m]; of the last step or settle.
   double muscle_torque_Nm(int muscle, int joint) const;
-  JointReadout joint(int joint) const;  // of the last step or settle; stiffness as of the last refresh
-  /// Refreshes the stiffness of a joint for all muscles at once (costs a factorisation a muscle).
+  /// Of the last step or settle; stiffness as of the last refresh, contact's part as of the last settle or
+  /// refresh_stiffness().
+  JointReadout joint(int joint) const;
+  /// Refreshes the stiffness of a joint for all muscles at once (costs two factorisations a muscle).
   void refresh_stiffness(int joint);
   Pose body_pose(int body) const;  // X_WL: maps rest position to now
   std::span<const Vec3> skin_world_m(int muscle) const;

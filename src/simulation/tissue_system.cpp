@@ -305,23 +305,19 @@ void run(const Pass& pass) {
   system.internal_N.setZero();
   system.muscle_torque_Nm.setZero();
   system.joint_residual_Nm.setZero();
-  system.contact.torque_Nm.setZero();
-  system.contact.force_N = system.contact.deepest_m = 0.0;
-  system.tension_N = system.force_scale_N = 0.0;
+  system.tension_N = system.force_scale_N = system.contact_N = system.contact_depth_m = 0.0;
   system.smallest_J = 1e300;
   if (pass.tangent) {
     with_matrix(pass, [](auto& matrix) { matrix.set_zero(); });
     system.coupling_N_rad.setZero();
     system.joint_stiffness_Nm_rad.setZero();
-    system.contact.coupling_N_rad.setZero();
-    system.contact.joint_stiffness_Nm_rad.setZero();
     system.mean.gradient.setZero();
     system.mean.joint_gradient.setZero();
   }
   add_elements(pass);
+  add_bone_contact(pass);
   system.force_scale_N = std::sqrt(system.force_scale_N);
   for (const TendonStrand& strand : pass.tissue.strands) add_strand(pass, strand);
-  add_bone_contact(pass);
   system.joint_residual_Nm = -system.muscle_torque_Nm;  // so far: of strands and contact
   add_nodes(pass);
   add_tension(pass);
@@ -377,7 +373,6 @@ TissueSystem make_system(const MuscleTissue& tissue, const Skeleton& skeleton) {
   system.coupling_N_rad = Eigen::MatrixXd::Zero(3 * tissue.free_nodes, joints);
   system.joint_stiffness_Nm_rad = Eigen::MatrixXd::Zero(joints, joints);
   system.joint_residual_Nm = system.muscle_torque_Nm = Eigen::VectorXd::Zero(joints);
-  system.contact = {system.muscle_torque_Nm, system.coupling_N_rad, system.joint_stiffness_Nm_rad, 0.0, 0.0};
   system.mean = {Eigen::VectorXd::Zero(3 * tissue.free_nodes), Eigen::VectorXd::Zero(joints), 0.0};
   system.internal_N = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * tissue.body.size()));
   system.points.resize(tissue.batches.size());

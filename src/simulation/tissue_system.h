@@ -39,8 +39,9 @@ struct TissueLoad {
   TimeRule rule;               // all zero: static, no inertia, no force-velocity
   bool force_velocity = true;  // false in static solves that use the rule as a damper only
   Vec3 gravity_m_s2 = Vec3::Zero();
-  bool definite = false;   // build a safe positive definite tangent
-  bool in_factor = false;  // the sparse part of the tangent goes where it is factored, in its precision
+  bool definite = false;      // build a safe positive definite tangent
+  bool contact_held = false;  // contact forces stay as they are: the tangent has none of their slopes
+  bool in_factor = false;     // the sparse part of the tangent goes where it is factored, in its precision
 };
 
 /// What the mean length of the fibres adds to the tangent: factor * gradient gradient^T over free nodes and angles.
@@ -58,15 +59,6 @@ struct TissueFactor {
   std::vector<TetSlots<LinearTet>> spring_slots;  // one a batch of a spring net
 };
 
-/// What contact adds to a muscle's system, already in its totals.
-struct ContactPart {
-  Eigen::VectorXd torque_Nm;               // that the contact forces exert on the joints themselves, positive flexes
-  Eigen::MatrixXd coupling_N_rad;          // slopes of those torques against the free nodes
-  Eigen::MatrixXd joint_stiffness_Nm_rad;  // and against the angles
-  double force_N = 0.0;                    // sum of the nodes' contact forces
-  double deepest_m = 0.0;                  // largest overlap
-};
-
 /// One muscle's part of the arrow system
 ///
 ///   | matrix + mean  coupling        | | d nodes  |      | residual       |
@@ -81,7 +73,6 @@ struct TissueSystem {
   Eigen::MatrixXd coupling_N_rad;
   Eigen::MatrixXd joint_stiffness_Nm_rad;
   Eigen::VectorXd joint_residual_Nm;
-  ContactPart contact;
   std::vector<PointBatch<QuadraticTet>> points;      // one a batch of elements
   Eigen::VectorXd points_at_m;                       // node positions that `points` belong to
   std::vector<PointBatch<LinearTet>> spring_points;  // of a spring net, one a batch
@@ -92,6 +83,8 @@ struct TissueSystem {
   double force_scale_N = 0.0;        // size of the nodal forces, to judge a residual by
   double smallest_J = 1.0;           // over the integration points
   double volume_ratio = 1.0;         // of the whole muscle, now over rest
+  double contact_N = 0.0;            // sum of the nodes' contact forces
+  double contact_depth_m = 0.0;      // largest overlap
 };
 
 /// What a pass over the elements reads and fills.

@@ -15,7 +15,7 @@ geometry::TriangleMesh cylinder_surface(const Vec3& centre_m, double radius_m, d
 struct WrappedBar {
   double radius_m = 0.03;  // of the cylinder
   double half_arc_rad = 0.7;
-  double straight_m = 0.03;   // each end
+  double straight_m = 0.03;    // each end
   double thickness_m = 0.004;  // thin against the radius: the pressure of a wrapped belly squeezes it sideways
   double width_m = 0.02;
   std::array<int, 3> cells{14, 2, 1};  // along, across, through
