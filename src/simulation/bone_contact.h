@@ -38,7 +38,8 @@ struct BonePatch {
 /// Frictionless contact of a muscle's surface nodes with bones. Empty: none.
 ///
 /// Energy of a node: area times the law's over the overlap s = -d(y) - rest_depth, y the node in the bone's frame, d
-/// the bone's signed distance. The joints enter through y, so forces, torques and their tangents follow from one energy.
+/// the bone's signed distance. The joints enter through y, so forces, torques and their tangents follow from one
+/// energy.
 struct BoneContact {
   std::shared_ptr<const BoneShapes> bones;
   std::vector<BonePatch> patches;

@@ -24,9 +24,9 @@ inline ContactPressure contact_pressure(const ContactLaw& law, double overlap_m)
   return {law.stiffness_Pa_m * (overlap_m - 0.5 * law.onset_m), law.stiffness_Pa_m};
 }
 
-/// Muscle on bone. 600 kPa (a belly at full tension around a bone as thick as itself) press it in by 0.4 mm, 100 kPa (10
-/// N on 1 cm^2) by 0.15 mm. A surface node of 10 mm^2 then holds 2e4 N/m, about what the bulk modulus gives its element:
-/// stiffer would gain little and spoil the solve's conditioning.
+/// Muscle on bone. 600 kPa (a belly at full tension around a bone as thick as itself) press it in by 0.4 mm, 100 kPa
+/// (10 N on 1 cm^2) by 0.15 mm. A surface node of 10 mm^2 then holds 2e4 N/m, about what the bulk modulus gives its
+/// element: stiffer would gain little and spoil the solve's conditioning.
 inline constexpr ContactLaw kBoneContact{2e9, 0.2e-3};
 
 }  // namespace myotact::simulation

@@ -77,9 +77,9 @@ struct MuscleTissue {
   std::vector<SpringBatch> springs;  // of a mass-spring muscle: all elements
   FibreMap fibre_map;
   std::vector<TendonStrand> strands;
-  std::vector<int> bodies;  // that clamp nodes
-  Eigen::MatrixXd blend;    // n x bodies: share of each body's motion in a smooth guess, rows sum to 1
-  BlockMatrix pattern;      // of the free nodes, zero
+  std::vector<int> bodies;   // that clamp nodes
+  Eigen::MatrixXd blend;     // n x bodies: share of each body's motion in a smooth guess, rows sum to 1
+  BlockMatrix pattern;       // of the free nodes, zero
   BoneContact bone_contact;  // none unless the limb puts it there
   int insertion_body = -1;
   Vec3 insertion_rest_m = Vec3::Zero();  // where the muscle's line ends, and the point before it

@@ -210,8 +210,8 @@ void refresh_muscle_stiffness(const Limb& limb, LimbMuscle& muscle) {
 }
 
 void refresh_contact_stiffness(const Limb& limb, LimbMuscle& muscle) {
-  if (muscle.rigid) return;
   refresh_muscle_stiffness(limb, muscle);
+  if (muscle.rigid) return;
   muscle.contact_stiffness_Nm_rad.setZero();
   if (muscle.system.contact_N == 0.0) return;
   TissueLoad held = static_load(limb.gravity_m_s2);
