@@ -7,6 +7,8 @@
 #include "simulation/simulation.h"
 
 // One muscle, one mechanics: in both embedded whole limbs, every muscle of finite elements pulls as its line does.
+// Without contact, which no line has: the humerus, on which the brachialis bears, changes that muscle's lever by a
+// twelfth.
 
 namespace myotact::simulation {
 namespace {
@@ -45,7 +47,8 @@ class WholeLimb : public ::testing::TestWithParam<const char*> {
 
   anatomy::Specimen specimen_ = anatomy::load_specimen(std::string(MYOTACT_SOURCE_DIR "/meshes/") + GetParam());
   Simulation simulation_{
-      specimen_, {.workers = 2, .tissue = std::vector<TissueModel>(specimen_.muscles.size(), TissueModel::Fem)}};
+      specimen_,
+      {.workers = 2, .tissue = std::vector<TissueModel>(specimen_.muscles.size(), TissueModel::Fem), .contact = false}};
 };
 INSTANTIATE_TEST_SUITE_P(Embedded, WholeLimb, ::testing::Values("canine_forelimb", "canine_hindlimb"));
 
