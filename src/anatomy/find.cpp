@@ -24,4 +24,11 @@ int find_body(const Specimen& specimen, const std::string& key) {
   return index_of(specimen.bodies, key);
 }
 
+const LineWrap* wrap_after(const MuscleLine& line, std::size_t after) {
+  for (const LineWrap& wrap : line.wraps) {
+    if (wrap.after == static_cast<int>(after)) return &wrap;
+  }
+  return nullptr;
+}
+
 }  // namespace myotact::anatomy

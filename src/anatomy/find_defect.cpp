@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
+#include "anatomy/find_wrap_defects.h"
 #include "anatomy/specimen.h"
 #include "core/text.h"
 
@@ -66,6 +67,10 @@ void find_reference_defects(const Specimen& specimen, Defects& defects) {
     for (const LinePoint& point : line.points) {
       if (is_index(point.body, bodies)) continue;
       defects.push_back(fmt::format("a line names body {}; there are {}", point.body, bodies));
+    }
+    for (const LineWrap& wrap : line.wraps) {
+      if (is_index(wrap.body, bodies)) continue;
+      defects.push_back(fmt::format("a wrap of a line names body {}; there are {}", wrap.body, bodies));
     }
   }
   for (const MuscleGroup& group : specimen.groups) {
@@ -260,7 +265,12 @@ std::string defect_of_line(const MuscleLine& line, const std::string& key) {
 void find_line_defects(const Specimen& specimen, Defects& defects) {
   std::vector<int> lines_of_muscle(specimen.muscles.size(), 0);
   for (const MuscleLine& line : specimen.lines) {
-    add(defects, defect_of_line(line, specimen.muscles[static_cast<std::size_t>(line.muscle)].key));
+    const std::string& key = specimen.muscles[static_cast<std::size_t>(line.muscle)].key;
+    const std::string defect = defect_of_line(line, key);
+    add(defects, defect);
+    if (defect.empty()) {
+      for (std::string& wrong : find_wrap_defects(line, "line of " + key)) defects.push_back(std::move(wrong));
+    }
     ++lines_of_muscle[static_cast<std::size_t>(line.muscle)];
   }
   for (std::size_t m = 0; m < specimen.muscles.size(); ++m) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "anatomy/read_body.h"
+#include "anatomy/read_wrap.h"
 #include "anatomy/specimen.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -165,13 +166,22 @@ LinePoint read_line_point(const JsonValue& value, const Loader& loader) {
   return point;
 }
 
+LineWrap read_wrap(const JsonValue& value, const Loader& loader) {
+  JsonObject fields(value);
+  LineWrap wrap = read_wrap_shape(fields);
+  wrap.body = reference(fields.at("body"), loader.specimen.bodies, "body");
+  wrap.after = fields.at("after").integer_between(0, 1'000'000);  // how many points there are is checked later
+  fields.finish();
+  return wrap;
+}
+
 MuscleLine read_line(const JsonValue& value, const Loader& loader) {
   JsonObject fields(value);
   MuscleLine line;
   line.muscle = reference(fields.at("muscle"), loader.specimen.muscles, "muscle");
   for (const JsonValue& point : fields.at("points").elements()) line.points.push_back(read_line_point(point, loader));
-  if (const auto wraps = fields.find("wraps"); wraps && !wraps->elements().empty()) {
-    throw wraps->error("wrapping is not read by this version; leave the list empty and use via points");
+  if (const auto wraps = fields.find("wraps")) {
+    for (const JsonValue& wrap : wraps->elements()) line.wraps.push_back(read_wrap(wrap, loader));
   }
   fields.finish();
   return line;

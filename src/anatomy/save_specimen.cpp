@@ -61,6 +61,24 @@ Json json_of(const Muscle& muscle) {
           {"sources", muscle.sources}};
 }
 
+Json json_of(const LineWrap& wrap, const Specimen& specimen) {
+  static constexpr const char* kShapes[] = {"cylinder", "sphere", "ellipsoid"};
+  Json json = {{"body", specimen.bodies[static_cast<std::size_t>(wrap.body)].key},
+               {"shape", kShapes[static_cast<int>(wrap.shape)]},
+               {"after", wrap.after},
+               {"centre_m", json_of(wrap.centre_m)}};
+  if (wrap.shape == geometry::WrapShape::Cylinder) json["axis"] = json_of(Vec3(wrap.axes.row(2)));
+  if (wrap.shape == geometry::WrapShape::Ellipsoid) {
+    json["radii_m"] = json_of(wrap.radii_m);
+    json["axes"] = Json::array();
+    for (int row = 0; row < 3; ++row) json["axes"].push_back(json_of(Vec3(wrap.axes.row(row))));
+  } else {
+    json["radius_m"] = wrap.radii_m[0];
+  }
+  json["side"] = json_of(wrap.side);
+  return json;
+}
+
 Json json_of(const MuscleLine& line, const Specimen& specimen) {
   static constexpr const char* kKinds[] = {"origin", "via", "insertion"};
   Json points = Json::array();
@@ -69,9 +87,10 @@ Json json_of(const MuscleLine& line, const Specimen& specimen) {
                       {"position_m", json_of(point.position_m)},
                       {"kind", kKinds[static_cast<int>(point.kind)]}});
   }
-  return {{"muscle", specimen.muscles[static_cast<std::size_t>(line.muscle)].key},
-          {"points", points},
-          {"wraps", Json::array()}};
+  Json wraps = Json::array();
+  for (const LineWrap& wrap : line.wraps) wraps.push_back(json_of(wrap, specimen));
+  return {
+      {"muscle", specimen.muscles[static_cast<std::size_t>(line.muscle)].key}, {"points", points}, {"wraps", wraps}};
 }
 
 Json keys_of(const std::vector<int>& muscles, const Specimen& specimen) {

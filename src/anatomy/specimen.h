@@ -9,6 +9,7 @@
 #include "core/vector.h"
 #include "geometry/tet_mesh.h"
 #include "geometry/triangle_mesh.h"
+#include "geometry/wrap/wrap_path.h"
 
 namespace myotact::anatomy {
 
@@ -74,11 +75,36 @@ struct LinePoint {
   LinePointKind kind = LinePointKind::Via;
 };
 
+/// A surface that a segment of a line goes round, at most one a segment. It moves with its body. In the file
+/// (lines[].wraps[]): body, shape, after, centre_m, side; a cylinder's axis and radius_m, a sphere's radius_m, an
+/// ellipsoid's radii_m and axes (three rows).
+struct LineWrap {
+  int body = -1;
+  int after = 0;  // the segment from this point of the line to the next
+  geometry::WrapShape shape = geometry::WrapShape::Cylinder;
+  Vec3 centre_m = Vec3::Zero();
+  Mat3 axes = Mat3::Identity();  // rows: unit, the surface's own x, y and z; a cylinder's axis is z
+  Vec3 radii_m = Vec3::Zero();   // along these axes; cylinder and sphere: all the same
+  Vec3 side = Vec3::UnitX();     // unit, from the centre: on this side the line goes round, in every pose
+};
+
+/// The surface in its own frame, and a point of the specimen frame there.
+inline geometry::WrapSurface surface_of(const LineWrap& wrap) {
+  return {wrap.shape, wrap.radii_m, wrap.axes * wrap.side};
+}
+inline Vec3 in_frame_of(const LineWrap& wrap, const Vec3& p_m) {
+  return wrap.axes * (p_m - wrap.centre_m);
+}
+
 /// From origin to insertion; a point moves with its body.
 struct MuscleLine {
   int muscle = -1;
   std::vector<LinePoint> points;
+  std::vector<LineWrap> wraps;
 };
+
+/// The surface round which the line goes after point `after`, or null.
+const LineWrap* wrap_after(const MuscleLine& line, std::size_t after);
 
 struct MuscleGroup {
   int joint = -1;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "simulation/fibre_curves.h"
+#include "simulation/line_segment.h"
 
 namespace myotact::simulation {
 namespace {
@@ -12,37 +13,34 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-/// A point on a body, where it is now.
-struct BodyPoint {
-  int body;
-  Vec3 p_W;
-};
-
-BodyPoint body_point(const anatomy::LinePoint& point, const Skeleton& skeleton) {
+LineStop stop_at(const anatomy::LinePoint& point, const Skeleton& skeleton) {
   return {point.body, skeleton.body_pose(point.body) * point.position_m};
 }
 
-Vec3 spread(const Skeleton& skeleton, const BodyPoint& a, const BodyPoint& b, int joint) {
-  return skeleton.point_derivative(b.body, joint, b.p_W) - skeleton.point_derivative(a.body, joint, a.p_W);
-}
-
-/// With e = b - a, s = |e|, u = e/s: ds = u.de, d2s = u.d2e + (de.de - (u.de)(u.de))/s.
-void add_segment(const Skeleton& skeleton, const BodyPoint& a, const BodyPoint& b, LineGeometry& geometry) {
-  const Vec3 e = b.p_W - a.p_W;
-  const double s = e.norm();
-  if (s == 0.0) return;
-  const Vec3 u = e / s;
-  geometry.length_m += s;
+void add_segment(const Skeleton& skeleton, const LineSegment& segment, LineGeometry& geometry) {
+  geometry.length_m += segment.length_m;
   for (int j = 0; j < skeleton.joint_count(); ++j) {
-    const Vec3 de_j = spread(skeleton, a, b, j);
-    geometry.slope_m_rad[j] += u.dot(de_j);
+    if (!segment.changes_with(skeleton, j)) continue;
+    geometry.slope_m_rad[j] += segment.by_angle(skeleton, j);
     for (int k = 0; k < skeleton.joint_count(); ++k) {
-      const Vec3 de_k = spread(skeleton, a, b, k);
-      const Vec3 d2e =
-          skeleton.point_second_derivative(b.body, j, k, b.p_W) - skeleton.point_second_derivative(a.body, j, k, a.p_W);
-      geometry.curvature_m_rad2(j, k) += u.dot(d2e) + (de_j.dot(de_k) - u.dot(de_j) * u.dot(de_k)) / s;
+      if (segment.changes_with(skeleton, k)) geometry.curvature_m_rad2(j, k) += segment.by_angles(skeleton, j, k);
     }
   }
+}
+
+/// `pose_of` gives the pose of a body.
+template <class PoseOf>
+std::vector<Vec3> line_points(const anatomy::MuscleLine& line, PoseOf&& pose_of) {
+  std::vector<Vec3> points_m;
+  points_m.reserve(line.points.size() + line.wraps.size() * kWrapPoints);
+  for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
+    const anatomy::LinePoint &from = line.points[i], &to = line.points[i + 1];
+    const anatomy::LineWrap* wrap = anatomy::wrap_after(line, i);
+    add_segment_points(pose_of(from.body) * from.position_m, pose_of(to.body) * to.position_m, wrap,
+                       wrap == nullptr ? Pose{} : pose_of(wrap->body), points_m);
+  }
+  points_m.push_back(pose_of(line.points.back().body) * line.points.back().position_m);
+  return points_m;
 }
 
 }  // namespace
@@ -52,22 +50,29 @@ void measure_line(const anatomy::MuscleLine& line, const Skeleton& skeleton, Lin
   geometry.length_m = 0.0;
   geometry.slope_m_rad.setZero(n);
   geometry.curvature_m_rad2.setZero(n, n);
+  geometry.stuck_wrap = -1;
   for (std::size_t i = 1; i < line.points.size(); ++i) {
-    add_segment(skeleton, body_point(line.points[i - 1], skeleton), body_point(line.points[i], skeleton), geometry);
+    const anatomy::LineWrap* wrap = anatomy::wrap_after(line, i - 1);
+    const LineSegment segment =
+        measure_segment(skeleton, stop_at(line.points[i - 1], skeleton), stop_at(line.points[i], skeleton), wrap);
+    if (!segment.clears) geometry.stuck_wrap = static_cast<int>(wrap - line.wraps.data());
+    add_segment(skeleton, segment, geometry);
   }
 }
 
 bool spans_joint(const anatomy::MuscleLine& line, const Skeleton& skeleton, int joint) {
-  const auto distal = [&](const anatomy::LinePoint& point) { return skeleton.is_distal(point.body, joint); };
-  return std::any_of(line.points.begin(), line.points.end(), distal) &&
-         !std::all_of(line.points.begin(), line.points.end(), distal);
+  const bool distal = skeleton.is_distal(line.points.front().body, joint);
+  const auto differs = [&](const auto& part) { return skeleton.is_distal(part.body, joint) != distal; };
+  return std::any_of(line.points.begin(), line.points.end(), differs) ||
+         std::any_of(line.wraps.begin(), line.wraps.end(), differs);
 }
 
 std::vector<Vec3> line_points_W(const anatomy::MuscleLine& line, const Skeleton& skeleton) {
-  std::vector<Vec3> points_W;
-  points_W.reserve(line.points.size());
-  for (const anatomy::LinePoint& point : line.points) points_W.push_back(body_point(point, skeleton).p_W);
-  return points_W;
+  return line_points(line, [&](int body) { return skeleton.body_pose(body); });
+}
+
+std::vector<Vec3> line_points_L(const anatomy::MuscleLine& line) {
+  return line_points(line, [](int) { return Pose{}; });
 }
 
 LineForce line_force(const anatomy::Muscle& muscle, double elongation_m, double speed_m_s, double activation) {

@@ -16,17 +16,21 @@ struct LineGeometry {
   double length_m = 0.0;
   Eigen::VectorXd slope_m_rad;       // dl/dq; the moment arm is r = -dl/dq, positive flexes
   Eigen::MatrixXd curvature_m_rad2;  // d2l/dq2 = -dr/dq
+  int stuck_wrap = -1;               // index of a wrap that the line cannot clear in this pose; -1: none
 };
 
-/// Exact for straight segments between points that ride on bodies. Two points that coincide add nothing.
+/// Exact for points and surfaces that ride on bodies (ellipsoids: 1e-9). Two points that coincide add nothing.
 /// Allocates only when `geometry` was made for another number of joints.
 void measure_line(const anatomy::MuscleLine& line, const Skeleton& skeleton, LineGeometry& geometry);
 
-/// Whether the line has points on both sides of the joint.
+/// Whether the line has points or surfaces on both sides of the joint.
 bool spans_joint(const anatomy::MuscleLine& line, const Skeleton& skeleton, int joint);
 
-/// Where the points of the line are now.
+/// Where the line is now: its points, and kWrapPoints (line_segment.h) between the ends of each wrapped segment, evenly
+/// spread. Their number does not change with the pose.
 std::vector<Vec3> line_points_W(const anatomy::MuscleLine& line, const Skeleton& skeleton);
+/// The same at the file pose.
+std::vector<Vec3> line_points_L(const anatomy::MuscleLine& line);
 
 /// The pull of a Hill muscle whose tendon is rigid, along its line.
 struct LineForce {

@@ -209,6 +209,7 @@ MuscleTissue build_muscle_tissue(const anatomy::Specimen& specimen, int index, T
   tissue.insertion_rest_m = last.position_m;
   tissue.before_insertion_body = before.body;
   tissue.before_insertion_rest_m = before.position_m;
+  if (const auto* wrap = anatomy::wrap_after(*found, found->points.size() - 2)) tissue.insertion_wrap = *wrap;
   return tissue;
 }
 

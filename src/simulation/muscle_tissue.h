@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -85,6 +86,7 @@ struct MuscleTissue {
   Vec3 insertion_rest_m = Vec3::Zero();  // where the muscle's line ends, and the point before it
   int before_insertion_body = -1;
   Vec3 before_insertion_rest_m = Vec3::Zero();
+  std::optional<anatomy::LineWrap> insertion_wrap;  // the surface between the two
 };
 
 /// Numbers of an element's nodes among the free ones; -1 for the clamped.

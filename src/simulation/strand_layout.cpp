@@ -4,6 +4,8 @@
 #include <map>
 #include <numeric>
 
+#include "simulation/line_model.h"
+#include "simulation/line_segment.h"
 #include "simulation/muscle_tissue.h"
 
 namespace myotact::simulation {
@@ -28,13 +30,12 @@ std::size_t at(int i) {
 }
 
 /// Arc length of the place on the rest line nearest to p [m].
-double place_on_line_m(const anatomy::MuscleLine& line, const Vec3& p) {
+double place_on_line_m(const std::vector<Vec3>& line_m, const Vec3& p) {
   double best_m = 0.0, nearest = 1e300, before_m = 0.0;
-  for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
-    const Vec3& a = line.points[k].position_m;
-    const Vec3 step = line.points[k + 1].position_m - a;
-    const double share = std::clamp(step.dot(p - a) / std::max(step.squaredNorm(), 1e-18), 0.0, 1.0);
-    const double distance = (p - a - share * step).norm();
+  for (std::size_t k = 0; k + 1 < line_m.size(); ++k) {
+    const Vec3 step = line_m[k + 1] - line_m[k];
+    const double share = std::clamp(step.dot(p - line_m[k]) / std::max(step.squaredNorm(), 1e-18), 0.0, 1.0);
+    const double distance = (p - line_m[k] - share * step).norm();
     if (distance < nearest) {
       nearest = distance;
       best_m = before_m + share * step.norm();
@@ -69,12 +70,12 @@ Vec3 middle_of(const TissueElement& element, const MuscleTissue& tissue) {
 
 /// Mean place along the line of the tets for which `pick` holds.
 template <class Pick>
-double mean_place_m(const MuscleTissue& tissue, const anatomy::MuscleLine& line, Pick&& pick) {
+double mean_place_m(const MuscleTissue& tissue, const std::vector<Vec3>& line_m, Pick&& pick) {
   double sum = 0.0, volume = 0.0;
   for (std::size_t t = 0; t < tissue.elements.size(); ++t) {
     if (!pick(t)) continue;
     const double v = tissue.elements[t].point_volume_m3();
-    sum += v * place_on_line_m(line, middle_of(tissue.elements[t], tissue));
+    sum += v * place_on_line_m(line_m, middle_of(tissue.elements[t], tissue));
     volume += v;
   }
   return volume > 0.0 ? sum / volume : 0.0;
@@ -136,26 +137,33 @@ Vec3 border_middle(const TendonStrand& strand, const MuscleTissue& tissue) {
   return p;
 }
 
-/// The points of the line beyond the border, from the border to the bone; at least the line's end.
+/// The points of the line beyond the border with the surfaces on the way to them, from the border to the bone; at least
+/// the line's end.
 void add_points(const anatomy::MuscleLine& line, double border_place_m, bool at_insertion, TendonStrand& strand) {
+  const std::vector<Vec3> line_m = line_points_L(line);
   double place_m = 0.0;
+  std::size_t seen = 0;  // of line_m
   for (std::size_t k = 0; k < line.points.size(); ++k) {
-    if (k > 0) place_m += (line.points[k].position_m - line.points[k - 1].position_m).norm();
+    const auto* before = k > 0 ? anatomy::wrap_after(line, k - 1) : nullptr;
+    const auto* after = anatomy::wrap_after(line, k);
+    const std::size_t place = k == 0 ? 0 : seen + 1 + (before != nullptr ? at(kWrapPoints) : 0);
+    for (; seen < place; ++seen) place_m += (line_m[seen + 1] - line_m[seen]).norm();
     const bool end = at_insertion ? k + 1 == line.points.size() : k == 0;
     const bool beyond = at_insertion ? place_m > border_place_m : place_m < border_place_m;
-    if (end || beyond) strand.points.push_back({line.points[k].body, line.points[k].position_m});
+    if (!end && !beyond) continue;
+    const auto* wrap = at_insertion ? before : after;
+    strand.points.push_back(
+        {line.points[k].body, line.points[k].position_m, wrap != nullptr ? std::optional(*wrap) : std::nullopt});
   }
   if (!at_insertion) std::reverse(strand.points.begin(), strand.points.end());
 }
 
 /// Length of the string from its first point on, in the skeleton's pose.
 double tail_length_m(const TendonStrand& strand, const Skeleton& skeleton) {
-  double length = 0.0;
-  for (std::size_t k = 0; k + 1 < strand.points.size(); ++k) {
-    const TendonStrand::BodyPoint &a = strand.points[k], &b = strand.points[k + 1];
-    length += (skeleton.body_pose(b.body) * b.rest_m - skeleton.body_pose(a.body) * a.rest_m).norm();
-  }
-  return length;
+  const TendonStrand::BodyPoint& first = strand.points[0];
+  TendonStrand tail = strand;
+  tail.points.erase(tail.points.begin());
+  return strand_length(tail, skeleton, skeleton.body_pose(first.body) * first.rest_m);
 }
 
 /// Longest tail over the ranges of the joints, one joint at a time.
@@ -176,16 +184,24 @@ double longest_tail_m(const TendonStrand& strand, Skeleton& skeleton) {
   return std::max(longest, tail_length_m(strand, skeleton));
 }
 
+/// Leaves out the string's first point; the surface before it stays on the way, unless the next point has its own.
+void leave_out_first(TendonStrand& strand) {
+  if (!strand.points[1].wrap) strand.points[1].wrap = strand.points[0].wrap;
+  strand.points.erase(strand.points.begin());
+}
+
 /// Leaves out the points that the belly's end comes too near to: a taut string keeps its length, so what its tail gains
-/// the way to its first point loses. Sets the rest length.
+/// the way to its first point loses. A surface that the belly's end lies in at rest is left out too. Sets the rest
+/// length; the skeleton is in the file pose.
 void fit_points(const Vec3& border_m, Skeleton& skeleton, TendonStrand& strand) {
   while (true) {
+    auto& wrap = strand.points[0].wrap;
+    if (wrap && geometry::is_inside(anatomy::surface_of(*wrap), anatomy::in_frame_of(*wrap, border_m))) wrap.reset();
     const double tail_m = tail_length_m(strand, skeleton);
-    const double first_m = (strand.points[0].rest_m - border_m).norm();
-    strand.rest_length_m = first_m + tail_m;
+    strand.rest_length_m = strand_length(strand, skeleton, border_m);
     const double gain_m = longest_tail_m(strand, skeleton) - tail_m;
-    if (strand.points.size() == 1 || first_m - gain_m > kClearance_m) return;
-    strand.points.erase(strand.points.begin());
+    if (strand.points.size() == 1 || strand.rest_length_m - tail_m - gain_m > kClearance_m) return;
+    leave_out_first(strand);
   }
 }
 
@@ -194,7 +210,12 @@ void fit_points(const Vec3& border_m, Skeleton& skeleton, TendonStrand& strand) 
 double line_length_m(const anatomy::MuscleLine& line) {
   double length = 0.0;
   for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
-    length += (line.points[k + 1].position_m - line.points[k].position_m).norm();
+    const Vec3 &from_m = line.points[k].position_m, &to_m = line.points[k + 1].position_m;
+    const auto* wrap = anatomy::wrap_after(line, k);
+    length += wrap == nullptr ? (to_m - from_m).norm()
+                              : geometry::wrap_path(anatomy::surface_of(*wrap), anatomy::in_frame_of(*wrap, from_m),
+                                                    anatomy::in_frame_of(*wrap, to_m))
+                                    .length_m;
   }
   return length;
 }
@@ -202,11 +223,12 @@ double line_length_m(const anatomy::MuscleLine& line) {
 std::vector<TendonStrand> lay_strands(const anatomy::Muscle& muscle, const anatomy::MuscleLine& line,
                                       const MuscleTissue& tissue, Skeleton& skeleton) {
   const std::vector<int> group = tendon_groups(tissue);
-  const double belly_place_m = mean_place_m(tissue, line, [&](std::size_t t) { return group[t] < 0; });
+  const std::vector<Vec3> line_m = line_points_L(line);
+  const double belly_place_m = mean_place_m(tissue, line_m, [&](std::size_t t) { return group[t] < 0; });
   std::map<int, double> place_of_group;
   for (int g : group) {
     if (g < 0 || place_of_group.contains(g)) continue;
-    place_of_group[g] = mean_place_m(tissue, line, [&](std::size_t t) { return group[t] == g; });
+    place_of_group[g] = mean_place_m(tissue, line_m, [&](std::size_t t) { return group[t] == g; });
   }
   std::vector<TendonStrand> strands;
   for (const bool at_insertion : {false, true}) {
@@ -218,7 +240,7 @@ std::vector<TendonStrand> lay_strands(const anatomy::Muscle& muscle, const anato
     TendonStrand strand = border(tissue, of_end, at_insertion ? 1.0 : -1.0);
     if (strand.nodes.empty()) continue;
     const Vec3 p = border_middle(strand, tissue);
-    add_points(line, place_on_line_m(line, p), at_insertion, strand);
+    add_points(line, place_on_line_m(line_m, p), at_insertion, strand);
     fit_points(p, skeleton, strand);
     strand.stiffness_N_m = kStrandOverMuscle * kMuscleStiffness_F0_lo * muscle.peak_force_N / muscle.optimal_fibre_m;
     strand.at_insertion = at_insertion;

@@ -1,18 +1,28 @@
 #include "simulation/tendon_strand.h"
 
-#include <cmath>
+#include "simulation/line_segment.h"
 
 namespace myotact::simulation {
 namespace {
 
-/// Segments shorter than this have no direction [m]; far below any anatomical distance.
-constexpr double kShortestSegment_m = 1e-9;
 /// Share of the stiffness that a slack strand keeps, so that the tangent never vanishes.
 constexpr double kSlackShare = 1e-6;
 
-Vec3 point_at(const TendonStrand& strand, const Skeleton& skeleton, std::size_t k) {
+LineStop stop_at(const TendonStrand& strand, const Skeleton& skeleton, std::size_t k) {
   const TendonStrand::BodyPoint& point = strand.points[k];
-  return skeleton.body_pose(point.body) * point.rest_m;
+  return {point.body, skeleton.body_pose(point.body) * point.rest_m};
+}
+
+/// Calls act(segment) for each segment from the belly's end to the bone.
+template <class Act>
+void each_segment(const TendonStrand& strand, const Skeleton& skeleton, const Vec3& p_W_m, Act&& act) {
+  LineStop from{-1, p_W_m};
+  for (std::size_t k = 0; k < strand.points.size(); ++k) {
+    const LineStop to = stop_at(strand, skeleton, k);
+    const auto& wrap = strand.points[k].wrap;
+    act(measure_segment(skeleton, from, to, wrap ? &*wrap : nullptr));
+    from = to;
+  }
 }
 
 struct Tension {
@@ -30,77 +40,43 @@ Tension tension_at(const TendonStrand& strand, double extension_m) {
   return {slack + k * (extension_m - 0.5 * strand.toe_m), k * (1.0 + kSlackShare)};
 }
 
-/// A point of the strand on its way from end to end; body -1 for the free end.
-struct Stop {
-  int body = -1;
-  Vec3 position_m;
-};
-
-/// Adds what a segment's ends do to the stiffness by moving on arcs.
-void add_bend(const Skeleton& skeleton, const Stop& from, const Stop& to, const Vec3& force_N,
-              Eigen::MatrixXd& stiffness_Nm_rad) {
-  for (int b = 0; b < skeleton.joint_count(); ++b) {
-    for (int a = 0; a < skeleton.joint_count(); ++a) {
-      Vec3 bend = skeleton.point_second_derivative(to.body, a, b, to.position_m);
-      if (from.body >= 0) bend -= skeleton.point_second_derivative(from.body, a, b, from.position_m);
-      stiffness_Nm_rad(a, b) += force_N.dot(bend);
-    }
-  }
-}
-
-Eigen::Matrix3Xd slope_of(const Skeleton& skeleton, const Stop& stop) {
-  Eigen::Matrix3Xd slope(3, skeleton.joint_count());
-  for (int j = 0; j < skeleton.joint_count(); ++j) {
-    slope.col(j) = skeleton.point_derivative(stop.body, j, stop.position_m);
-  }
-  return slope;
-}
-
 }  // namespace
 
 double strand_length(const TendonStrand& strand, const Skeleton& skeleton, const Vec3& p_W_m) {
   double length = 0.0;
-  Vec3 from = p_W_m;
-  for (std::size_t k = 0; k < strand.points.size(); ++k) {
-    const Vec3 to = point_at(strand, skeleton, k);
-    length += (to - from).norm();
-    from = to;
-  }
+  each_segment(strand, skeleton, p_W_m, [&](const LineSegment& segment) { length += segment.length_m; });
   return length;
 }
 
 StrandState evaluate_strand(const TendonStrand& strand, const Skeleton& skeleton, const Vec3& p_W_m) {
-  const auto joints = Eigen::Index{skeleton.joint_count()};
+  const int joints = skeleton.joint_count();
   StrandState state;
   state.length_m = strand_length(strand, skeleton, p_W_m);
   const Tension tension = tension_at(strand, state.length_m - strand.rest_length_m);
   state.tension_N = tension.force_N;
   state.coupling_N_rad = Eigen::Matrix3Xd::Zero(3, joints);
   state.stiffness_Nm_rad = Eigen::MatrixXd::Zero(joints, joints);
-  Vec3 by_p = Vec3::Zero();                                         // dl/dp
-  Eigen::VectorXd by_angle = Eigen::VectorXd::Zero(joints);         // dl/dq
-  Eigen::Matrix3Xd slope_from = Eigen::Matrix3Xd::Zero(3, joints);  // of the segment's start; p moves by itself
-  Stop from{-1, p_W_m};
-  for (std::size_t k = 0; k < strand.points.size(); ++k) {
-    const Stop to{strand.points[k].body, point_at(strand, skeleton, k)};
-    const Eigen::Matrix3Xd slope_to = slope_of(skeleton, to);
-    const double length = (to.position_m - from.position_m).norm();
-    if (length > kShortestSegment_m) {
-      const Vec3 t = (to.position_m - from.position_m) / length;
-      const Mat3 turning = tension.force_N / length * (Mat3::Identity() - t * t.transpose());
-      const Eigen::Matrix3Xd slope = slope_to - slope_from;
-      if (k == 0) {
-        by_p = -t;
-        state.stiffness_N_m = turning;
-        state.coupling_N_rad = -turning * slope;
-      }
-      by_angle += slope.transpose() * t;
-      state.stiffness_Nm_rad += slope.transpose() * turning * slope;
-      add_bend(skeleton, from, to, tension.force_N * t, state.stiffness_Nm_rad);
+  Vec3 by_p = Vec3::Zero();                                  // dl/dp
+  Eigen::VectorXd by_angle = Eigen::VectorXd::Zero(joints);  // dl/dq
+  each_segment(strand, skeleton, p_W_m, [&](const LineSegment& segment) {
+    const bool first = segment.from.body < 0;
+    if (first) {
+      by_p = segment.slope_from;
+      state.stiffness_N_m = tension.force_N * segment.bend_from_1_m;
     }
-    from = to;
-    slope_from = slope_to;
-  }
+    for (int a = 0; a < joints; ++a) {
+      if (!segment.changes_with(skeleton, a)) continue;
+      by_angle[a] += segment.by_angle(skeleton, a);
+      for (int b = 0; b < joints; ++b) {
+        if (segment.changes_with(skeleton, b)) {
+          state.stiffness_Nm_rad(a, b) += tension.force_N * segment.by_angles(skeleton, a, b);
+        }
+      }
+    }
+    for (int a = 0; first && a < joints; ++a) {
+      state.coupling_N_rad.col(a) = tension.force_N * segment.slope_from_by_angle(skeleton, a);
+    }
+  });
   state.pull_N = tension.force_N * by_p;
   state.torque_Nm = tension.force_N * by_angle;
   state.stiffness_N_m += tension.slope_N_m * by_p * by_p.transpose();

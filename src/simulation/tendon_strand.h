@@ -1,21 +1,24 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "anatomy/specimen.h"
 #include "core/vector.h"
 #include "simulation/skeleton.h"
 
 namespace myotact::simulation {
 
 /// The load-bearing part of a tendon as a one-dimensional elastic string: from the weighted mean p of the belly's end
-/// nodes over points on bodies to the bone. A string has true lever arms and no bending stiffness; tendon tets of 1 GPa
-/// would lock in bending and spoil the solve.
+/// nodes over points and surfaces on bodies to the bone. A string has true lever arms and no bending stiffness; tendon
+/// tets of 1 GPa would lock in bending and spoil the solve.
 struct TendonStrand {
   struct BodyPoint {
     int body = -1;
     Vec3 rest_m = Vec3::Zero();
+    std::optional<anatomy::LineWrap> wrap = std::nullopt;  // the surface on the way here
   };
   std::vector<int> nodes;         // of the muscle's mesh, on the border between belly and tendon
   std::vector<double> weights;    // one a node, >= 0, sum 1

@@ -8,6 +8,7 @@
 #include "simulation/bone_contact.h"
 #include "simulation/element/muscle_batch.h"
 #include "simulation/fibre_field.h"
+#include "simulation/line_segment.h"
 #include "simulation/material/fibre_family.h"
 #include "simulation/spring_elements.h"
 
@@ -295,9 +296,13 @@ void add_tension(const Pass& pass) {
   for (int node = 0; node < static_cast<int>(tissue.body.size()); ++node) {
     if (tissue.body[at(node)] == tissue.insertion_body) hold += node_vector(pass.system.internal_N, node);
   }
-  const Vec3 end = pass.skeleton.body_pose(tissue.insertion_body) * tissue.insertion_rest_m;
-  const Vec3 before = pass.skeleton.body_pose(tissue.before_insertion_body) * tissue.before_insertion_rest_m;
-  pass.system.tension_N += hold.dot((end - before).normalized());
+  const auto stop = [&](int body, const Vec3& rest_m) {
+    return LineStop{body, pass.skeleton.body_pose(body) * rest_m};
+  };
+  const LineSegment last = measure_segment(
+      pass.skeleton, stop(tissue.before_insertion_body, tissue.before_insertion_rest_m),
+      stop(tissue.insertion_body, tissue.insertion_rest_m), tissue.insertion_wrap ? &*tissue.insertion_wrap : nullptr);
+  pass.system.tension_N += hold.dot(last.slope_to);
 }
 
 void run(const Pass& pass) {

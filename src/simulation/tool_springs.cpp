@@ -59,8 +59,7 @@ std::optional<ToolSpring> contact_spring(const messages::ToolContact& contact, c
 
 /// The place of the line in the belly: nearest material point of its rest position.
 MaterialPoint belly_point(const anatomy::MuscleLine& line, double fraction, const MuscleTissue& tissue) {
-  std::vector<Vec3> rest_m;
-  for (const anatomy::LinePoint& point : line.points) rest_m.push_back(point.position_m);
+  const std::vector<Vec3> rest_m = line_points_L(line);
   const LinePlace place = place_at_fraction(rest_m, arc_fractions(rest_m), fraction);
   const geometry::TriangleMesh single{{place.position_m}, {}};
   const NodeWeights weights = embed_skin(single, tissue.mesh).vertices[0];

@@ -42,6 +42,11 @@ anatomy::Specimen mirrored(anatomy::Specimen specimen) {
   }
   for (anatomy::MuscleLine& line : specimen.lines) {
     for (anatomy::LinePoint& point : line.points) flip(point.position_m);
+    for (anatomy::LineWrap& wrap : line.wraps) {
+      flip(wrap.centre_m);
+      flip(wrap.side);
+      wrap.axes.col(1) = -wrap.axes.col(1);  // directions of a surface that is its own mirror image
+    }
   }
   return specimen;
 }
