@@ -142,5 +142,45 @@ TEST(FindDefect, EveryMuscleHasOneLineFromOriginToInsertion) {
   });
 }
 
+/// Round a cylinder of 25 mm about the joint, below the line that runs 30 mm above it.
+Specimen wrapped() {
+  Specimen specimen = example();
+  LineWrap wrap;
+  wrap.body = 0;
+  wrap.axes << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+  wrap.radii_m.setConstant(0.025);
+  wrap.side = Vec3::UnitZ();
+  specimen.lines[0].wraps = {wrap};
+  return specimen;
+}
+
+TEST(FindDefect, WrapsAreSurfacesThatTheLineCanClear) {
+  EXPECT_EQ(find_defect(wrapped()), "");
+  using Change = std::function<void(MuscleLine&)>;
+  const std::vector<std::pair<const char*, Change>> changes = {
+      {"a wrap of a line names body 2; there are 2", [](MuscleLine& l) { l.wraps[0].body = 2; }},
+      {"line of flexor: wrap 0: after is 1; must be 0 .. 0", [](MuscleLine& l) { l.wraps[0].after = 1; }},
+      {"wraps 0 and 1 are on the same segment, after point 0", [](MuscleLine& l) { l.wraps.push_back(l.wraps[0]); }},
+      {"a radius is 0 m; must be between 1e-04 and 0.2", [](MuscleLine& l) { l.wraps[0].radii_m[1] = 0.0; }},
+      {"a radius is nan m", [](MuscleLine& l) { l.wraps[0].radii_m[0] = std::nan(""); }},
+      {"largest radius is 5 times its smallest", [](MuscleLine& l) { l.wraps[0].radii_m = Vec3(0.002, 0.01, 0.01); }},
+      {"centre_m must lie within 10 m", [](MuscleLine& l) { l.wraps[0].centre_m.x() = 100.0; }},
+      {"its axes must be of length 1 and at right angles", [](MuscleLine& l) { l.wraps[0].axes(0, 0) = 0.1; }},
+      {"side must be of length 1", [](MuscleLine& l) { l.wraps[0].side *= 1.1; }},
+      {"side points along the axis", [](MuscleLine& l) { l.wraps[0].side = Vec3::UnitY(); }},
+      {"point 1 of the line lies inside it", [](MuscleLine& l) { l.wraps[0].centre_m = l.points[1].position_m; }},
+      {"more than half round",
+       [](MuscleLine& l) {
+         l.wraps[0].shape = geometry::WrapShape::Sphere;
+         l.wraps[0].side = -Vec3::UnitZ();
+       }},
+  };
+  for (const auto& [told, change] : changes) {
+    Specimen specimen = wrapped();
+    change(specimen.lines[0]);
+    EXPECT_THAT(find_defect(specimen), HasSubstr(told));
+  }
+}
+
 }  // namespace
 }  // namespace myotact::anatomy

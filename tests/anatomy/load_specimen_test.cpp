@@ -91,9 +91,27 @@ TEST_F(LoadSpecimen, UnknownNamesSuggestTheNearest) {
   EXPECT_THAT(problem([](json& s) { s["bodies"].push_back(s["bodies"][0]); }), HasSubstr("\"upper\" is used twice"));
 }
 
-TEST_F(LoadSpecimen, WrappingIsNotReadYet) {
-  const std::string told = problem([](json& s) { s["lines"][0]["wraps"] = {{{"shape", "cylinder"}}}; });
-  EXPECT_THAT(told, AllOf(HasSubstr("/lines/0/wraps"), HasSubstr("not read by this version"), HasSubstr("via points")));
+TEST_F(LoadSpecimen, WrapsNameTheirPlaceWhenTheyAreWrong) {
+  const json wrap = {{"body", "upper"},
+                     {"shape", "cylinder"},
+                     {"after", 0},
+                     {"centre_m", {0.0, 0.0, 0.0}},
+                     {"axis", {0.0, 1.0, 0.0}},
+                     {"radius_m", 0.01},
+                     {"side", {0.0, 0.0, 1.0}}};
+  const auto told = [&](const char* key, const json& value) {
+    return problem([&](json& s) {
+      s["lines"][0]["wraps"] = {wrap};
+      s["lines"][0]["wraps"][0][key] = value;
+    });
+  };
+  EXPECT_THAT(told("body", "uper"), HasSubstr("/lines/0/wraps/0/body: names the body \"uper\" that is not there; the "
+                                              "nearest is \"upper\""));
+  EXPECT_THAT(told("shape", "cone"), HasSubstr("/lines/0/wraps/0/shape"));
+  EXPECT_THAT(told("after", -1), HasSubstr("/lines/0/wraps/0/after"));
+  EXPECT_THAT(told("axis", {0.0, 2.0, 0.0}), HasSubstr("line of flexor: wrap 0: its axes must be of length 1"));
+  EXPECT_THAT(told("radius", 0.01), HasSubstr("the nearest known one is \"radius_m\""));
+  EXPECT_THAT(told("shape", "ellipsoid"), HasSubstr("the key \"radii_m\" is missing"));
 }
 
 TEST_F(LoadSpecimen, PartsStayInsideTheFolder) {

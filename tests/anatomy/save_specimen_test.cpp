@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "anatomy/read_wrap.h"
 #include "anatomy/specimen.h"
 #include "core/file.h"
 #include "support/complaint.h"
@@ -21,6 +22,18 @@ Specimen example() {
   specimen.overlaps = {{"upper", "flexor", 1e-3, 2e-9}};
   specimen.joints[0].centre_uncertainty_m = 2e-3;
   specimen.muscles[0].pennation_rad = 1.0 / 3.0;
+  LineWrap cylinder;
+  cylinder.body = 1;
+  cylinder.axes = axes_about(Vec3(0.0, 0.6, 0.8));
+  cylinder.radii_m.setConstant(0.01 / 3.0);
+  LineWrap egg = cylinder;
+  egg.after = 1;
+  egg.body = 0;
+  egg.shape = geometry::WrapShape::Ellipsoid;
+  egg.centre_m = Vec3(0.01, 0.0, -0.01 / 3.0);
+  egg.radii_m = Vec3(0.01, 0.02, 0.015);
+  egg.side = Vec3(0.0, 0.0, 1.0);
+  specimen.lines[0].wraps = {cylinder, egg};
   return specimen;
 }
 
@@ -68,6 +81,17 @@ TEST(SaveSpecimen, EverythingComesBackBitForBit) {
   ASSERT_EQ(back.lines[0].points.size(), 3u);
   EXPECT_EQ(back.lines[0].points[1].position_m, specimen.lines[0].points[1].position_m);
   EXPECT_EQ(back.lines[0].points[1].kind, LinePointKind::Via);
+  ASSERT_EQ(back.lines[0].wraps.size(), 2u);
+  for (std::size_t w = 0; w < 2; ++w) {
+    const LineWrap &here = back.lines[0].wraps[w], &there = specimen.lines[0].wraps[w];
+    EXPECT_EQ(here.body, there.body);
+    EXPECT_EQ(here.after, there.after);
+    EXPECT_EQ(here.shape, there.shape);
+    EXPECT_EQ(here.centre_m, there.centre_m);
+    EXPECT_EQ(here.axes, there.axes);
+    EXPECT_EQ(here.radii_m, there.radii_m);
+    EXPECT_EQ(here.side, there.side);
+  }
   EXPECT_EQ(back.groups[0].flexors, std::vector<int>{0});
   EXPECT_EQ(back.overlaps[0].volume_m3, 2e-9);
 }

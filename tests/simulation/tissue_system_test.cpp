@@ -89,10 +89,26 @@ struct Bench {
 class TissueSystemOf : public ::testing::TestWithParam<TissueModel> {};
 INSTANTIATE_TEST_SUITE_P(Models, TissueSystemOf, ::testing::Values(TissueModel::Fem, TissueModel::MassSpring));
 
+/// The tendon goes over a cylinder beside the hinge.
+anatomy::Specimen wrapped_bar() {
+  anatomy::Specimen specimen = testing::single_muscle(short_bar(1));
+  anatomy::LineWrap wrap;
+  wrap.body = 0;
+  wrap.axes << 0, 0, 1, 1, 0, 0, 0, 1, 0;  // about y
+  wrap.centre_m = Vec3(0.008, 0.0, 0.0);
+  wrap.radii_m.setConstant(0.0335);  // its top lies 3.5 mm above the straight line
+  wrap.side = Vec3::UnitZ();
+  specimen.lines[0].wraps = {wrap};
+  specimen.lines[0].wraps[0].after = 1;
+  return specimen;
+}
+
 TEST_P(TissueSystemOf, TangentIsTheSlopeOfTheResidualWithJointAndTendon) {
-  for (int tendon_cells : {0, 1}) {
-    Bench bench(testing::single_muscle(short_bar(tendon_cells)), GetParam());
-    ASSERT_EQ(bench.tissue.strands.size(), static_cast<std::size_t>(tendon_cells));
+  const std::array<anatomy::Specimen, 3> specimens = {testing::single_muscle(short_bar(0)),
+                                                      testing::single_muscle(short_bar(1)), wrapped_bar()};
+  for (const anatomy::Specimen& specimen : specimens) {
+    Bench bench(specimen, GetParam());
+    ASSERT_EQ(bench.tissue.strands.size(), &specimen == &specimens[0] ? 0u : 1u);
     const Eigen::MatrixXd tangent = bench.tangent();
     const double largest = tangent.cwiseAbs().maxCoeff(), h = 1e-7;
     for (Eigen::Index k = 0; k < tangent.cols(); ++k) {
