@@ -1,12 +1,18 @@
 #include "prepare/architecture/muscle_line.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "anatomy/read_wrap.h"
 #include "core/error.h"
 #include "prepare/shapes.h"
+#include "support/complaint.h"
 
 namespace myotact::prepare {
 namespace {
+
+using myotact::testing::complaint;
+using ::testing::HasSubstr;
 
 /// A straight muscle along x from 0 to 0.1 m, slices every centimetre.
 MuscleProfile straight_profile() {
@@ -50,6 +56,88 @@ TEST(TraceLine, ChangesTheBodyAtTheJointAndKeepsClearOfIt) {
 TEST(MomentArm, IsTheDistanceOfAStraightLineFromTheAxis) {
   const Line l;
   EXPECT_NEAR(moment_arm_m(l.line, l.limb.anatomy.joints[0], l.bones), 0.02, 1e-12);  // above the axis: flexes
+}
+
+/// The same rod, 20 mm above the axis, with a crossing.
+struct CrossedLine : Line {
+  explicit CrossedLine(const CrossingData& crossing) {
+    LineGuide guide{Vec3::Zero(), {0.1, 0.0, 0.0}, {crossing}};
+    line = trace_line("rod", straight_profile(), {0.02, 0.1}, guide, bones);
+  }
+};
+
+/// Distances in the plane across the axis.
+double from_axis_m(const anatomy::Joint& joint, const Vec3& p) {
+  return (p - joint.centre_m).cross(joint.axes[0]).norm();
+}
+
+TEST(TraceLine, CrossesAJointAtTheDistancesGiven) {
+  const CrossedLine l({0, 0.025, 0.03, {}});
+  const auto& points = l.line.points;
+  const anatomy::Joint& joint = l.limb.anatomy.joints[0];
+  int crossings = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (points[i - 1].body == points[i].body) continue;
+    ++crossings;
+    EXPECT_NEAR(from_axis_m(joint, points[i - 1].position_m), 0.025, 2e-5);
+    EXPECT_NEAR(from_axis_m(joint, points[i].position_m), 0.03, 2e-5);
+  }
+  EXPECT_EQ(crossings, 1);
+}
+
+TEST(TraceLine, CrossesToTheInsertionOrToAGivenPoint) {
+  const CrossedLine to_end({0, 0.025, 0.0, {}});
+  EXPECT_EQ(to_end.line.points[to_end.line.points.size() - 2].body, 0);
+  const Vec3 tuberosity(0.09, 0.01, 0.0);
+  const CrossedLine to_point({0, 0.025, 0.0, tuberosity});
+  EXPECT_EQ(to_point.line.points.back().position_m, tuberosity);
+  EXPECT_EQ(to_point.line.points.back().body, 1);
+}
+
+TEST(TraceLine, RefusesACrossingOfAJointThatIsNotOnTheWay) {
+  Line l;
+  l.limb.anatomy.joints.push_back(l.limb.anatomy.joints[0]);
+  l.limb.anatomy.joints.back().key = "other";
+  l.limb.anatomy.bodies.push_back(l.limb.anatomy.bodies[0]);
+  l.limb.anatomy.joints.back().child = 2;
+  const LineGuide guide{Vec3::Zero(), {0.1, 0.0, 0.0}, {{1, 0.02, 0.02, {}}}};
+  EXPECT_THAT(complaint(ExitStatus::BadData,
+                        [&] {
+                          trace_line("rod", straight_profile(), {0.02, 0.1}, guide, l.bones);
+                        }),
+              ::testing::AllOf(HasSubstr("rod"), HasSubstr("does not cross the joint other")));
+}
+
+WrapData cylinder(const Line& l, double radius_m) {
+  WrapData data;
+  data.joint = 0;
+  data.wrap.body = 0;
+  data.wrap.centre_m = l.limb.anatomy.joints[0].centre_m;
+  data.wrap.axes = anatomy::axes_about(l.limb.anatomy.joints[0].axes[0]);
+  data.wrap.radii_m.setConstant(radius_m);
+  return data;
+}
+
+TEST(AddWraps, LieOnTheCrossingSegmentAndGiveTheirRadiusAsLever) {
+  Line l;
+  add_wraps("rod", {cylinder(l, 0.0205)}, l.bones, l.line);
+  ASSERT_EQ(l.line.wraps.size(), 1u);
+  const auto after = static_cast<std::size_t>(l.line.wraps[0].after);
+  EXPECT_NE(l.line.points[after].body, l.line.points[after + 1].body);
+  for (const int body : {0, 1}) {
+    l.line.wraps[0].body = body;
+    EXPECT_NEAR(moment_arm_m(l.line, l.limb.anatomy.joints[0], l.bones), 0.0205, 1e-12);
+  }
+}
+
+TEST(AddWraps, RefusesWhatTheLineCannotGoRound) {
+  Line l;
+  EXPECT_THAT(complaint(ExitStatus::BadData, [&] { add_wraps("rod", {cylinder(l, 0.04)}, l.bones, l.line); }),
+              ::testing::AllOf(HasSubstr("rod"), HasSubstr("lies inside it")));
+  Line same;
+  for (anatomy::LinePoint& point : same.line.points) point.body = 1;
+  EXPECT_THAT(complaint(ExitStatus::BadData, [&] { add_wraps("rod", {cylinder(l, 0.02)}, same.bones, same.line); }),
+              HasSubstr("does not cross the joint"));
 }
 
 TEST(JointsBetween, RefusesBodiesThatNoJointConnects) {

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "anatomy/find_wrap_defects.h"
 #include "core/error.h"
 
 namespace myotact::prepare {
@@ -115,6 +116,87 @@ int body_at(double arc_m, const LineBones& bones, const std::vector<int>& path, 
   return body;
 }
 
+/// Part of the way in which a crossing allows no points.
+struct Gap {
+  double begin_m = 0.0, end_m = 0.0;
+
+  bool holds(double arc_m) const { return arc_m > begin_m - kLeastSpacing_m && arc_m < end_m + kLeastSpacing_m; }
+};
+
+/// From `arc_m` on in the direction `sense`: where the way is first so far from the joint, or its end.
+double arc_at_distance_m(const Way& way, const Joint& joint, double arc_m, int sense, double distance_m) {
+  const double step_m = way.length_m() / kSamples;
+  double here_m = arc_m, away_m = distance_to_joint_m(joint, way.at(here_m));
+  while (away_m < distance_m) {
+    const double next_m = here_m + sense * step_m;
+    if (next_m < 0.0 || next_m > way.length_m()) return sense < 0 ? 0.0 : way.length_m();
+    const double next_away_m = distance_to_joint_m(joint, way.at(next_m));
+    if (next_away_m >= distance_m) {
+      return here_m + (next_m - here_m) * (distance_m - away_m) / (next_away_m - away_m);
+    }
+    here_m = next_m;
+    away_m = next_away_m;
+  }
+  return here_m;
+}
+
+/// The joints from origin to insertion.
+struct JointPath {
+  const LineBones& bones;
+  const std::vector<int>& joints;
+};
+
+std::vector<Gap> gaps_of(const std::string& name, const LineGuide& guide, const JointPath& path, const Way& way,
+                         const std::vector<double>& crossed_m) {
+  std::vector<Gap> gaps;
+  for (const CrossingData& crossing : guide.crossings) {
+    const Joint& joint = path.bones.joints[static_cast<std::size_t>(crossing.joint)];
+    const auto found = std::find(path.joints.begin(), path.joints.end(), crossing.joint);
+    if (found == path.joints.end()) {
+      throw bad_data(name, "crossing",
+                     fmt::format("it does not cross the joint {} between its origin and its insertion", joint.key));
+    }
+    const double arc_m = crossed_m[static_cast<std::size_t>(found - path.joints.begin())];
+    const double end_m =
+        crossing.distal_m > 0.0 ? arc_at_distance_m(way, joint, arc_m, +1, crossing.distal_m) : way.length_m();
+    gaps.push_back({arc_at_distance_m(way, joint, arc_m, -1, crossing.proximal_m), end_m});
+  }
+  return gaps;
+}
+
+/// Bodies that move with the joint: the child and what hangs on it.
+std::vector<bool> distal_bodies(const Joint& joint, const LineBones& bones) {
+  std::vector<bool> distal(bones.bodies.size(), false);
+  distal[static_cast<std::size_t>(joint.child)] = true;
+  for (bool grown = true; grown;) {
+    grown = false;
+    for (const Joint& other : bones.joints) {
+      if (distal[static_cast<std::size_t>(other.parent)] && !distal[static_cast<std::size_t>(other.child)]) {
+        grown = distal[static_cast<std::size_t>(other.child)] = true;
+      }
+    }
+  }
+  return distal;
+}
+
+/// Across the cylinder's axis, between the directions of the two ends, on the side of the straight segment.
+Vec3 side_of(const anatomy::LineWrap& wrap, const Vec3& p_m, const Vec3& q_m) {
+  const Vec3 axis = wrap.axes.row(2).transpose();
+  const auto across = [&](const Vec3& v) { return Vec3(v - axis * axis.dot(v)); };
+  const Vec3 p = across(p_m - wrap.centre_m), q = across(q_m - wrap.centre_m);
+  return (p.normalized() + q.normalized()).normalized();
+}
+
+/// Unit directions of the line at the begin and at the end of the segment after point i.
+std::pair<Vec3, Vec3> directions_at(const anatomy::MuscleLine& line, std::size_t i) {
+  const Vec3 &from_m = line.points[i].position_m, &to_m = line.points[i + 1].position_m;
+  const anatomy::LineWrap* wrap = anatomy::wrap_after(line, i);
+  if (wrap == nullptr) return {(to_m - from_m).normalized(), (to_m - from_m).normalized()};
+  const auto path = geometry::wrap_path(anatomy::surface_of(*wrap), anatomy::in_frame_of(*wrap, from_m),
+                                        anatomy::in_frame_of(*wrap, to_m));
+  return {-(wrap->axes.transpose() * path.slope_p), wrap->axes.transpose() * path.slope_q};
+}
+
 }  // namespace
 
 std::vector<int> joints_between(const std::string& name, const LineBones& bones) {
@@ -130,17 +212,24 @@ std::vector<int> joints_between(const std::string& name, const LineBones& bones)
 }
 
 anatomy::MuscleLine trace_line(const std::string& name, const MuscleProfile& profile, const BellySpan& belly,
-                               const LineEnds& ends, const LineBones& bones) {
-  std::vector<Vec3> points_m{ends.origin_m};
+                               const LineGuide& guide, const LineBones& bones) {
+  std::vector<Vec3> points_m{guide.origin_m};
   points_m.insert(points_m.end(), profile.centre_m.begin(), profile.centre_m.end());
-  points_m.push_back(ends.insertion_m);
+  points_m.push_back(guide.insertion_m);
   const Way way(std::move(points_m));
   const std::vector<int> path = joints_between(name, bones);
   const std::vector<double> crossed_m = crossings_m(way, bones, path);
+  const std::vector<Gap> gaps = gaps_of(name, guide, {bones, path}, way, crossed_m);
 
   std::vector<double> taken_m{0.0, way.length_m()};
+  for (const Gap& gap : gaps) {
+    for (const double arc_m : {gap.begin_m, gap.end_m}) {
+      if (clear_of(taken_m, arc_m, 1e-9)) taken_m.push_back(arc_m);
+    }
+  }
   for (const double arc_m : wanted_arcs_m(way, profile, belly)) {
-    if (clear_of(taken_m, arc_m, kLeastSpacing_m) && clear_of(crossed_m, arc_m, kClearOfAxis_m)) {
+    const bool in_gap = std::any_of(gaps.begin(), gaps.end(), [&](const Gap& gap) { return gap.holds(arc_m); });
+    if (!in_gap && clear_of(taken_m, arc_m, kLeastSpacing_m) && clear_of(crossed_m, arc_m, kClearOfAxis_m)) {
       taken_m.push_back(arc_m);
     }
   }
@@ -149,33 +238,50 @@ anatomy::MuscleLine trace_line(const std::string& name, const MuscleProfile& pro
   for (const double arc_m : taken_m) {
     line.points.push_back({body_at(arc_m, bones, path, crossed_m), way.at(arc_m), LinePointKind::Via});
   }
-  line.points.front() = {bones.origin_body, ends.origin_m, LinePointKind::Origin};
-  line.points.back() = {bones.insertion_body, ends.insertion_m, LinePointKind::Insertion};
+  line.points.front() = {bones.origin_body, guide.origin_m, LinePointKind::Origin};
+  line.points.back() = {bones.insertion_body, guide.insertion_m, LinePointKind::Insertion};
+  for (const CrossingData& crossing : guide.crossings) {
+    if (crossing.distal_point_m) line.points.back().position_m = *crossing.distal_point_m;
+  }
   return line;
+}
+
+void add_wraps(const std::string& name, const std::vector<WrapData>& wraps, const LineBones& bones,
+               anatomy::MuscleLine& line) {
+  for (const WrapData& data : wraps) {
+    const Joint& joint = bones.joints[static_cast<std::size_t>(data.joint)];
+    const std::vector<bool> distal = distal_bodies(joint, bones);
+    const auto is_distal = [&](const LinePoint& point) { return distal[static_cast<std::size_t>(point.body)]; };
+    const auto crosses = [&](const LinePoint& a, const LinePoint& b) { return is_distal(a) != is_distal(b); };
+    const auto first = std::adjacent_find(line.points.begin(), line.points.end(), crosses);
+    if (first == line.points.end()) {
+      throw bad_data(name, "wraps", fmt::format("its line does not cross the joint {}; leave the wrap out", joint.key));
+    }
+    anatomy::LineWrap wrap = data.wrap;
+    wrap.after = static_cast<int>(first - line.points.begin());
+    if (!data.side_is_given) wrap.side = side_of(wrap, first->position_m, (first + 1)->position_m);
+    line.wraps.push_back(wrap);
+  }
+  const std::vector<std::string> defects = anatomy::find_wrap_defects(line, "its line");
+  if (!defects.empty()) throw bad_data(name, "wraps", defects.front());
 }
 
 double moment_arm_m(const anatomy::MuscleLine& line, const Joint& joint, const LineBones& bones) {
   if (joint.type != anatomy::JointType::Hinge) return 0.0;
-  // Bodies that move with the joint: the child and what hangs on it.
-  std::vector<bool> distal(bones.bodies.size(), false);
-  distal[static_cast<std::size_t>(joint.child)] = true;
-  for (bool grown = true; grown;) {
-    grown = false;
-    for (const Joint& other : bones.joints) {
-      if (distal[static_cast<std::size_t>(other.parent)] && !distal[static_cast<std::size_t>(other.child)]) {
-        grown = distal[static_cast<std::size_t>(other.child)] = true;
-      }
-    }
-  }
+  const std::vector<bool> distal = distal_bodies(joint, bones);
   double lever_m = 0.0;
   for (std::size_t i = 1; i < line.points.size(); ++i) {
     const LinePoint& a = line.points[i - 1];
     const LinePoint& b = line.points[i];
     const bool a_distal = distal[static_cast<std::size_t>(a.body)], b_distal = distal[static_cast<std::size_t>(b.body)];
     if (a_distal == b_distal) continue;
-    const Vec3& pulled = a_distal ? a.position_m : b.position_m;
-    const Vec3 pull = ((a_distal ? b.position_m : a.position_m) - pulled).normalized();
-    lever_m += joint.axes[0].dot((pulled - joint.centre_m).cross(pull));
+    // The straight part that joins the two sides; a surface belongs to the side of its body.
+    const anatomy::LineWrap* wrap = anatomy::wrap_after(line, i - 1);
+    const bool with_b = wrap != nullptr && distal[static_cast<std::size_t>(wrap->body)] == b_distal;
+    const auto [begin, end] = directions_at(line, i - 1);
+    const Vec3 along = with_b ? begin : end;
+    const Vec3& through_m = with_b ? a.position_m : b.position_m;
+    lever_m += (a_distal ? 1.0 : -1.0) * joint.axes[0].dot((through_m - joint.centre_m).cross(along));
   }
   return lever_m;
 }

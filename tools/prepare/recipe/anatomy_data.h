@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,11 +26,30 @@ struct PublishedMuscle {
   double fascicle_m = 0.0;
 };
 
+/// How a muscle's line passes a joint: between two points on the middle of its sections, at these distances from the
+/// joint's axis (in the plane across it), or its ends where the middle comes nowhere so far.
+struct CrossingData {
+  int joint = -1;  // index into AnatomyData::joints
+  double proximal_m = 0.0;
+  double distal_m = 0.0;               // 0: the insertion
+  std::optional<Vec3> distal_point_m;  // the line ends here, past the joint, in place of the insertion
+};
+
+/// A surface that the line goes round where it crosses a joint.
+struct WrapData {
+  int joint = -1;              // index into AnatomyData::joints
+  anatomy::LineWrap wrap;      // `after` is not known yet
+  bool side_is_given = false;  // else: the side on which the muscle passes
+};
+
 struct MuscleData {
   anatomy::Muscle mechanics;                        // key, names, material, forces, lengths, sources; no meshes
   std::vector<AttachmentSite> origins, insertions;  // at least one each; the muscle line ends at the first
   PublishedMuscle published;
-  std::string file;  // of its surface, in the input's folder; empty: muscles/KEY
+  std::vector<CrossingData> crossings;
+  std::vector<WrapData> wraps;
+  std::vector<anatomy::LinePoint> line;  // given by hand; empty: through the middle of the sections
+  std::string file;                      // of its surface, in the input's folder; empty: muscles/KEY
 };
 
 struct BoneData {

@@ -5,22 +5,12 @@
 #include "anatomy/read_body.h"
 #include "core/json_reader.h"
 #include "core/text.h"
+#include "prepare/recipe/index_of.h"
+#include "prepare/recipe/read_line.h"
 
 namespace myotact::prepare {
 
 namespace {
-
-template <class Part>
-int index_of(const JsonValue& name, const std::vector<Part>& parts, const char* kind) {
-  std::vector<std::string> keys;
-  for (const Part& part : parts) keys.push_back(part.key);
-  const std::string key = name.string();
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    if (keys[i] == key) return static_cast<int>(i);
-  }
-  throw name.error(
-      fmt::format("names the {} \"{}\" that is not there; the nearest is \"{}\"", kind, key, nearest_word(key, keys)));
-}
 
 BoneData read_bone(const JsonValue& value, const AnatomyData& data) {
   JsonObject fields(value);
@@ -95,6 +85,11 @@ PublishedMuscle read_published(const JsonValue& value) {
   return published;
 }
 
+/// One, or a list of them.
+std::vector<JsonValue> one_or_more(const JsonValue& value) {
+  return value.raw().is_array() ? value.elements() : std::vector<JsonValue>{value};
+}
+
 MuscleData read_muscle(const JsonValue& value, const AnatomyData& data) {
   JsonObject fields(value);
   MuscleData muscle;
@@ -115,6 +110,13 @@ MuscleData read_muscle(const JsonValue& value, const AnatomyData& data) {
   muscle.origins = read_sites(fields.at("origin"), data);
   muscle.insertions = read_sites(fields.at("insertion"), data);
   if (const auto published = fields.find("published")) muscle.published = read_published(*published);
+  if (const auto crossing = fields.find("crossing")) {
+    for (const JsonValue& v : one_or_more(*crossing)) muscle.crossings.push_back(read_crossing(v, data));
+  }
+  if (const auto wraps = fields.find("wraps")) {
+    for (const JsonValue& v : wraps->elements()) muscle.wraps.push_back(read_wrap(v, data));
+  }
+  if (const auto line = fields.find("line")) muscle.line = read_line(*line, data);
   muscle.file = fields.string_or("file", "");
   fields.string_or("note", "");
   fields.finish();

@@ -163,10 +163,14 @@ void trace_lines(LimbWork& limb, const PartDone& done) {
     const std::string& name = muscle.data.mechanics.key;
     const LineBones bones{limb.anatomy.bodies, limb.anatomy.joints, muscle.origin_bodies.front(),
                           muscle.insertion_bodies.front()};
-    // The line ends where the attachment was measured, not at the patch: the cage may have lost a thin tip.
-    const LineEnds ends{line_end_m(limb, name, muscle.data.origins.front()),
-                        line_end_m(limb, name, muscle.data.insertions.front())};
-    muscle.line = trace_line(name, muscle.profile, muscle.belly, ends, bones);
+    muscle.line = {-1, muscle.data.line, {}};
+    if (muscle.line.points.empty()) {
+      // The line ends where the attachment was measured, not at the patch: the cage may have lost a thin tip.
+      const LineGuide guide{line_end_m(limb, name, muscle.data.origins.front()),
+                            line_end_m(limb, name, muscle.data.insertions.front()), muscle.data.crossings};
+      muscle.line = trace_line(name, muscle.profile, muscle.belly, guide, bones);
+    }
+    add_wraps(name, muscle.data.wraps, bones, muscle.line);
     for (const int j : joints_between(name, bones)) {
       const anatomy::Joint& joint = limb.anatomy.joints[static_cast<std::size_t>(j)];
       if (joint.type != anatomy::JointType::Hinge) continue;
