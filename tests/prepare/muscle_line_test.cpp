@@ -1,5 +1,6 @@
 #include "prepare/architecture/muscle_line.h"
 
+#include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
