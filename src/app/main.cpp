@@ -54,11 +54,16 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
   run->add_option("--every", options.every, "keep every n-th tick in samples.csv")->check(CLI::Range(1, 1000000));
   bind(run, myotact::app::run);
   CLI::App* stiffness = add_scene_command(program, options, "stiffness", "joint stiffness against co-contraction");
-  stiffness->add_option("--angles", options.angles_deg, "joint angles q [degrees]")->delimiter(',');
+  stiffness->add_option("--angles", options.angles, "joint angles q [degrees]: 0,10 or first:step:last")
+      ->capture_default_str();
+  stiffness->add_option("--joint", options.joint,
+                        "joint of the specimen; without: the one that the scene co-contracts");
+  stiffness->add_option("--shard", options.shard, "measure one part of the table: 2/8 is the second of eight");
+  stiffness->add_option("--merge", options.merge, "join the parts of a table instead of measuring: their files");
   for (CLI::App* command : {run, stiffness}) {
-    command->add_option("--levels", options.levels, "co-contraction levels 0 .. 1 of the stiffness table")
-        ->delimiter(',')
-        ->check(CLI::Range(0.0, 1.0));
+    command
+        ->add_option("--levels", options.levels, "co-contraction levels 0 .. 1 of the stiffness table: 0,1 or 0:0.1:1")
+        ->capture_default_str();
   }
   bind(stiffness, myotact::app::stiffness);
   CLI::App* replay = program.add_subcommand("replay", "run a recording again and compare the states");

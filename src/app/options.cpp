@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/number_list.h"
 #include "core/text.h"
 
 namespace myotact::app {
@@ -33,6 +34,16 @@ scene::Scene scene_of(const Options& options) {
   }
   if (!options.devices.empty()) scene.tools.front().device = options.devices.front();
   return scene;
+}
+
+std::vector<double> levels_of(const Options& options) {
+  const auto levels = parse_number_list("--levels", options.levels);
+  for (const double level : levels) {
+    if (level >= 0.0 && level <= 1.0) continue;
+    throw Error(ExitStatus::Usage, "--levels: " + to_text(level) +
+                                       " is no level of co-contraction; must be in 0 .. 1, which is full activation");
+  }
+  return levels;
 }
 
 std::unique_ptr<scene::RecordingWriter> open_recorder(const Options& options, const scene::Scene& scene) {

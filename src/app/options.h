@@ -26,8 +26,11 @@ struct Options {
   bool realtime = false;
   int every = 1;
   int workers = 2;
-  std::vector<double> angles_deg = {0.0};
-  std::vector<double> levels = {0.0, 0.25, 0.5, 0.75, 1.0};
+  std::string angles = "0";  // stiffness: a number list, degrees
+  std::string levels = "0:0.25:1";
+  std::optional<std::string> joint;  // stiffness
+  std::string shard;
+  std::vector<std::filesystem::path> merge;
   std::filesystem::path file;                // replay, solve
   std::optional<std::filesystem::path> vtk;  // solve
   std::string filter;                        // validate
@@ -39,6 +42,9 @@ scene::Overrides overrides_of(const Options& options);
 
 /// The scene of the command line with --set, --device and --workers applied.
 scene::Scene scene_of(const Options& options);
+
+/// --levels. Throws Error Usage for one outside 0 .. 1.
+std::vector<double> levels_of(const Options& options);
 
 /// A recorder on the file of --record, or null. Throws Error InputOutput.
 std::unique_ptr<scene::RecordingWriter> open_recorder(const Options& options, const scene::Scene& scene);

@@ -116,20 +116,24 @@ nlohmann::json summary_json(const scene::Scene& scene, const RunSummary& summary
           {"fault_bits", summary.extremes.faults}};
 }
 
-/// Sweep and chart at the scene's own angle, on a fresh simulation: the run's end does not matter to it.
-nlohmann::json measure_stiffness(const Options& options, const scene::Scene& scene) {
-  simulation::Simulation simulation(scene.specimen, scene.settings);
+/// Sweep and chart at the scene's own angle, on fresh simulations: the run's end does not matter to it. Null when
+/// interrupted.
+nlohmann::json measure_stiffness(const Options& options, const scene::Scene& scene, std::vector<double> levels) {
   const double q_rad = scene.joints[static_cast<std::size_t>(scene.co_contraction->joint)].angle_rad;
-  const auto rows = measure::sweep_stiffness(scene, simulation, q_rad, options.levels);
+  measure::SweepWatch watch;
+  watch.stopped = [] { return interruption() != 0; };
+  const auto rows = measure::sweep_stiffness(scene, {{q_rad}, std::move(levels)}, watch);
+  if (interruption() != 0) return nullptr;
   write_file(options.out / "stiffness.csv", measure::stiffness_csv(rows));
   write_stiffness_chart(rows, scene.title, options.out / "stiffness.svg");
-  return nlohmann::json::parse(measure::stiffness_json(rows));
+  return measure::stiffness_json(rows);
 }
 
 }  // namespace
 
 int run(const Options& options) {
   const scene::Scene scene = scene_of(options);
+  const std::vector<double> levels = levels_of(options);
   make_writable_folder(options.out);
   watch_for_interruption();
   RunSummary summary;
@@ -144,7 +148,7 @@ int run(const Options& options) {
   }
   nlohmann::json report = summary_json(scene, summary);
   if (options.realtime) report["realtime"] = timing;
-  if (scene.co_contraction && interruption() == 0) report["stiffness"] = measure_stiffness(options, scene);
+  if (scene.co_contraction && interruption() == 0) report["stiffness"] = measure_stiffness(options, scene, levels);
   write_file(options.out / "summary.json", report.dump(2) + "\n");
   if (options.json) {
     std::cout << report.dump(2) << std::endl;

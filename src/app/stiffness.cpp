@@ -1,18 +1,22 @@
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <numbers>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "app/interruption.h"
 #include "app/options.h"
-#include "app/stiffness_chart.h"
+#include "app/progress.h"
+#include "app/stiffness_answer.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/number_list.h"
+#include "core/text.h"
 #include "measure/line/line_stiffness.h"
-#include "measure/stiffness_sweep.h"
-#include "messages/scene_frame.h"
-#include "simulation/simulation.h"
+#include "measure/stiffness_band.h"
+#include "measure/stiffness_part.h"
 #include "view/chart_svg.h"
 
 namespace myotact::app {
@@ -34,8 +38,9 @@ void write_line_chart(const measure::LineModel& model, const std::vector<measure
 
 /// Of a line model, which needs no specimen and brings its own angles and levels.
 int line_model_stiffness(const Options& options) {
-  if (!options.set.empty() || !options.devices.empty()) {
-    throw Error(ExitStatus::Usage, options.scene + ": is a line model, which takes no --set and no --device; edit it");
+  if (!options.set.empty() || !options.devices.empty() || options.joint || !options.shard.empty()) {
+    throw Error(ExitStatus::Usage,
+                options.scene + ": is a line model, which takes no --set, --device, --joint or --shard; edit it");
   }
   if (options.angles_deg != Options{}.angles_deg || options.levels != Options{}.levels) {
     throw Error(ExitStatus::Usage,
@@ -60,27 +65,87 @@ int line_model_stiffness(const Options& options) {
   return static_cast<int>(agree ? ExitStatus::Done : ExitStatus::CheckFailed);
 }
 
+constexpr double kRadians = std::numbers::pi / 180.0;
+
+struct Shard {
+  int part = 1, parts = 1;
+};
+
+/// "2/8".
+Shard shard_of(const std::string& text) {
+  if (text.empty()) return {};
+  const std::size_t slash = text.find('/');
+  const auto part = parse_number(text.substr(0, slash));
+  const auto parts = slash == std::string::npos ? std::nullopt : parse_number(text.substr(slash + 1));
+  const bool usable = part && parts && *parts >= 1.0 && *parts <= measure::kMostParts && *part >= 1.0 &&
+                      *part <= *parts && std::floor(*part) == *part && std::floor(*parts) == *parts;
+  if (!usable) {
+    throw Error(ExitStatus::Usage,
+                fmt::format("--shard {}: must be part/parts with 1 <= part <= parts <= {}, such as 2/8", text,
+                            measure::kMostParts));
+  }
+  return {static_cast<int>(*part), static_cast<int>(*parts)};
+}
+
+/// The scene with the co-contraction of the joint that is asked for.
+scene::Scene scene_to_sweep(const Options& options) {
+  scene::Scene scene = scene_of(options);
+  if (options.joint) scene.co_contraction = scene::co_contraction_of(scene, *options.joint);
+  if (!scene.co_contraction) {
+    throw bad_data(scene.name, "/co_contraction",
+                   "is missing; add it to the scene, or name a joint of the specimen with --joint");
+  }
+  return scene;
+}
+
+measure::SweepGrid grid_of(const Options& options, const anatomy::Joint& joint) {
+  constexpr double kRounding_rad = 1e-9;  // the range's ends are typed in degrees with a few digits
+  measure::SweepGrid grid{{}, levels_of(options)};
+  const auto [lowest, highest] = joint.range_rad[0];
+  for (const double angle_deg : parse_number_list("--angles", options.angles)) {
+    const double q_rad = angle_deg * kRadians;
+    if (!(q_rad >= lowest - kRounding_rad && q_rad <= highest + kRounding_rad)) {
+      throw Error(ExitStatus::Usage,
+                  fmt::format("--angles: {} is outside the range of the joint {}, {:.2f} .. {:.2f} degrees",
+                              to_text(angle_deg), joint.key, lowest / kRadians, highest / kRadians));
+    }
+    grid.angles_rad.push_back(q_rad);
+  }
+  return grid;
+}
+
+int sweep(const Options& options) {
+  const scene::Scene scene = scene_to_sweep(options);
+  const anatomy::Joint& joint = scene.specimen.joints[static_cast<std::size_t>(scene.co_contraction->joint)];
+  const Shard shard = shard_of(options.shard);
+  const measure::SweepGrid grid = grid_of(options, joint);
+  measure::SweepPart result{measure::sweep_origin(scene, grid, MYOTACT_VERSION), shard.part, shard.parts, {}};
+  const std::string missing = measure::missing_uncertainty(joint);
+  if (!missing.empty()) spdlog::warn("{}", missing);
+  watch_for_interruption();
+  {
+    Progress progress;
+    const auto cells = measure::share_of_cells(grid, shard.part, shard.parts);
+    result.rows = measure::sweep_stiffness(
+        scene, grid, cells, {[&](int done, int all) { progress.show(done, all); }, [] { return interruption() != 0; }});
+    if (interruption() == 0 && !result.rows.empty()) {
+      spdlog::debug("{} cells in {:.1f} s, {:.2f} s a cell", result.rows.size(), progress.seconds(),
+                    progress.seconds() / static_cast<double>(result.rows.size()));
+    }
+  }
+  if (interruption() != 0) return interruption();
+  return options.shard.empty() ? answer_sweep(options, result) : answer_part(options, result);
+}
+
 }  // namespace
 
 int stiffness(const Options& options) {
-  if (measure::is_line_model(options.scene)) return line_model_stiffness(options);
-  const scene::Scene scene = scene_of(options);
+  if (!options.merge.empty() && !options.shard.empty()) {
+    throw Error(ExitStatus::Usage, "--merge and --shard: give one of them; merging measures nothing");
+  }
+  if (options.merge.empty() && measure::is_line_model(options.scene)) return line_model_stiffness(options);
   make_writable_folder(options.out);
-  simulation::Simulation simulation(scene.specimen, scene.settings);
-  std::vector<measure::StiffnessRow> rows;
-  for (const double angle_deg : options.angles_deg) {
-    const auto part = measure::sweep_stiffness(scene, simulation, angle_deg * std::numbers::pi / 180.0, options.levels);
-    rows.insert(rows.end(), part.begin(), part.end());
-  }
-  write_file(options.out / "stiffness.csv", measure::stiffness_csv(rows));
-  write_stiffness_chart(rows, scene.title, options.out / "stiffness.svg");
-  std::cout << (options.json ? measure::stiffness_json(rows) : measure::stiffness_csv(rows)) << std::flush;
-  if (std::any_of(rows.begin(), rows.end(), [](const auto& row) { return row.preview; })) {
-    spdlog::warn("these figures are a {}; set the scene's tissue to fem for ones to quote", messages::kPreviewMark);
-  }
-  const bool converged = std::all_of(rows.begin(), rows.end(), [](const auto& row) { return row.converged; });
-  if (!converged) spdlog::warn("some rows did not converge: see the column converged");
-  return static_cast<int>(converged ? ExitStatus::Done : ExitStatus::CheckFailed);
+  return options.merge.empty() ? sweep(options) : answer_sweep(options, measure::merge_parts(options.merge));
 }
 
 }  // namespace myotact::app

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace myotact::scene {
 
@@ -54,17 +55,35 @@ double TorqueTable::torque(int muscle, double activation) const {
   return (1.0 - s) * row[i - 1] + s * row[i];
 }
 
+CoContraction co_contraction_of(const Scene& scene, const std::string& joint_key) {
+  const anatomy::Specimen& specimen = scene.specimen;
+  const int joint = anatomy::find_joint(specimen, joint_key);
+  if (scene.co_contraction && joint == scene.co_contraction->joint) return *scene.co_contraction;
+  std::vector<std::string> keys;
+  for (const anatomy::MuscleGroup& group : specimen.groups) {
+    const anatomy::Joint& candidate = specimen.joints[static_cast<std::size_t>(group.joint)];
+    if (candidate.type != anatomy::JointType::Hinge || group.flexors.empty() || group.extensors.empty()) continue;
+    keys.push_back(candidate.key);
+    if (group.joint != joint) continue;
+    CoContraction set;
+    set.joint = joint;
+    set.flexors = group.flexors;
+    set.extensors = group.extensors;
+    return set;
+  }
+  const std::string problem = joint < 0 ? "the specimen has no such joint"
+                                        : "this joint does not turn or lacks flexors or extensors in the specimen";
+  throw Error(ExitStatus::Usage,
+              fmt::format("--joint {}: {}; joints of {} whose stiffness can be measured: {} (nearest: {})", joint_key,
+                          problem, specimen.name, join(keys), nearest_word(joint_key, keys)));
+}
+
 TorqueTable measure_torques(const Scene& scene, simulation::Simulation& simulation,
                             std::span<const double> angles_rad) {
   const CoContraction& set = *scene.co_contraction;
   TorqueTable table{kLevels, std::vector<std::vector<double>>(scene.specimen.muscles.size())};
   const auto settle = [&](const std::vector<double>& activations, double level) {
-    if (simulation.settle(angles_rad, activations)) return;
-    throw Error(
-        ExitStatus::CheckFailed,
-        fmt::format("no static equilibrium with the co-contracting muscles at activation {}; try a posture nearer "
-                    "to the specimen's own, or finer tetrahedra",
-                    level));
+    if (!simulation.settle(angles_rad, activations) && !table.unsettled_level) table.unsettled_level = level;
   };
   for (const double level : kLevels) {
     std::vector<double> activations = scene.activations;
@@ -108,6 +127,13 @@ Balance balance(const TorqueTable& table, const CoContraction& set, std::span<co
   result.flexors = std::clamp(result.flexors + std::max(set.difference, 0.0), 0.0, 1.0);
   result.extensors = std::clamp(result.extensors + std::max(-set.difference, 0.0), 0.0, 1.0);
   return result;
+}
+
+std::vector<double> driven_activations(const CoContraction& set, const Balance& levels,
+                                       std::vector<double> activations) {
+  for (const int m : set.flexors) activations[static_cast<std::size_t>(m)] = levels.flexors;
+  for (const int m : set.extensors) activations[static_cast<std::size_t>(m)] = levels.extensors;
+  return activations;
 }
 
 void PostureTrim::restart(double angle_rad) {

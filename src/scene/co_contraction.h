@@ -1,6 +1,8 @@
 #pragma once
 
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "scene/scene_file.h"
@@ -15,12 +17,19 @@ struct TorqueTable {
   std::vector<double> levels;                  // activations, rising from 0 to 1
   std::vector<std::vector<double>> torque_Nm;  // muscles x levels, positive flexes; constant for those not driven
 
+  std::optional<double> unsettled_level = {};  // lowest level at which the tissue found no equilibrium
+
   /// Linear between levels; `activation` is clamped to 0 .. 1.
   double torque(int muscle, double activation) const;
 };
 
+/// The co-contraction of any joint of the scene's specimen: the scene's own where it is of that joint, else the whole
+/// groups of the joint, balanced. Throws Error Usage that names what `joint_key` may be.
+CoContraction co_contraction_of(const Scene& scene, const std::string& joint_key);
+
 /// Settles the simulation with the co-contraction's muscles at each level in turn, all others as the scene says. Leaves
-/// it settled at the scene's own activations. Throws Error CheckFailed when the tissue finds no equilibrium.
+/// it settled at the scene's own activations. Where the tissue finds no equilibrium, the torques are those of its best
+/// state.
 TorqueTable measure_torques(const Scene& scene, simulation::Simulation& simulation, std::span<const double> angles_rad);
 
 struct Balance {
@@ -35,6 +44,10 @@ struct Balance {
 /// to the flexors (positive) or the extensors (negative) afterwards.
 Balance balance(const TorqueTable& table, const CoContraction& set, std::span<const double> activations,
                 double wanted_Nm = 0.0);
+
+/// Activations of all muscles: those of `activations`, the two driven sides at the levels of the balance.
+std::vector<double> driven_activations(const CoContraction& set, const Balance& levels,
+                                       std::vector<double> activations);
 
 /// Trims a balance so slowly that it does not count as stiffness: the wanted torque is minus the integral of the drift.
 class PostureTrim {

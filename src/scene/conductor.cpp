@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "core/error.h"
 
 namespace myotact::scene {
@@ -41,6 +43,13 @@ Conductor::Conductor(const Scene& scene, simulation::Simulation& simulation)
       gravity_m_s2_(scene.settings.gravity_m_s2) {
   if (scene.co_contraction) {
     torques_ = measure_torques(scene, simulation, start_angles(scene));
+    if (torques_.unsettled_level) {
+      throw Error(
+          ExitStatus::CheckFailed,
+          fmt::format("no static equilibrium with the co-contracting muscles at activation {}; try a posture nearer "
+                      "to the specimen's own, or finer tetrahedra",
+                      *torques_.unsettled_level));
+    }
   }
   settle();
 }

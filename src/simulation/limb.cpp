@@ -163,6 +163,31 @@ Eigen::MatrixXd solve(const LimbMuscle& muscle, const Eigen::MatrixXd& right) {
   return solution;
 }
 
+void stop_moving(Limb& limb) {
+  limb.now.velocity_rad_s.setZero();
+  for (LimbMuscle& muscle : limb.muscles) {
+    muscle.state.now.velocity_m_s.setZero();
+    std::fill(muscle.state.stretch_rate_1_s.begin(), muscle.state.stretch_rate_1_s.end(), 0.0);
+  }
+}
+
+void return_to_file_pose(Limb& limb) {
+  limb.now.angle_rad.setZero();
+  limb.now.velocity_rad_s.setZero();
+  limb.last = limb.before = limb.now;
+  for (LimbMuscle& muscle : limb.muscles) {
+    muscle.state = make_state(muscle.tissue);
+    muscle.stiffness_Nm_rad.setZero();
+    muscle.contact_stiffness_Nm_rad.setZero();
+  }
+  follow_angles(limb);
+  for (LimbMuscle& muscle : limb.muscles) {
+    if (!muscle.line) continue;
+    evaluate_line_tissue(limb.skeleton, {}, 0.0, *muscle.line);
+    bring_to_rest(0.0, *muscle.line);
+  }
+}
+
 std::uint64_t hash_of_state(const Limb& limb) {
   std::uint64_t hash = 14695981039346656037ull;
   add_to_hash(as_span(limb.now.angle_rad), hash);

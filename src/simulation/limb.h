@@ -107,6 +107,12 @@ std::uint64_t hash_of_state(const Limb& limb);
 /// Copies the outcome of the last forces pass to the muscles' readouts, and the bones' loads to `limb.loads`.
 void read_out(Limb& limb);
 
+/// All rates zero; the pose stays.
+void stop_moving(Limb& limb);
+
+/// All joints at the file pose, all tissue at its rest positions, no rates, no activation, no stiffness known.
+void return_to_file_pose(Limb& limb);
+
 /// Single: for a Newton step, whose residual tells what is left. Refined: for a solution that is read out itself.
 enum class Accuracy { Single, Refined };
 /// Tangent and residual of the present iterate, for factor_system() of the same accuracy.

@@ -76,7 +76,6 @@ struct Simulation::Impl {
 
   double time_s() const { return static_cast<double>(steps) * settings.dt_s; }
   bool advance_in_parts(double dt_s, int halvings);
-  void freeze();
   LineForce line_force_of(int muscle) const;
   LineGeometry line_geometry_of(int muscle) const;
   double tension_N(int muscle) const;
@@ -96,15 +95,6 @@ bool Simulation::Impl::advance_in_parts(double dt_s, int halvings) {
     if (halvings >= kMostHalvings || !advance_in_parts(0.5 * dt_s, halvings + 1)) return false;
   }
   return true;
-}
-
-/// Holds the last usable pose with all rates zero.
-void Simulation::Impl::freeze() {
-  limb.now.velocity_rad_s.setZero();
-  for (LimbMuscle& muscle : limb.muscles) {
-    muscle.state.now.velocity_m_s.setZero();
-    std::fill(muscle.state.stretch_rate_1_s.begin(), muscle.state.stretch_rate_1_s.end(), 0.0);
-  }
 }
 
 LineGeometry Simulation::Impl::line_geometry_of(int muscle) const {
@@ -201,6 +191,10 @@ void Simulation::set_joint_torque(int joint, double torque_Nm) {
   impl_->limb.external_torque_Nm[joint] = std::isfinite(torque_Nm) ? torque_Nm : 0.0;
 }
 
+void Simulation::restart() {
+  return_to_file_pose(impl_->limb);
+}
+
 bool Simulation::settle(std::span<const double> joint_angles_rad, std::span<const double> activations) {
   Impl& in = *impl_;
   const bool usable =
@@ -238,7 +232,7 @@ void Simulation::step(std::span<const messages::ToolState> tools) {
     ++in.failed_steps;
     restore_last(in.limb);
     sound = in.advance_in_parts(dt_s, 1);
-    if (!sound) in.freeze();
+    if (!sound) stop_moving(in.limb);  // in the last usable pose
   }
   // One muscle's stiffness beside the surfaces: it reads the positions that they read.
   const bool refreshes = !in.limb.muscles.empty() && in.steps % kStepsPerRefresh == 0;
@@ -271,6 +265,12 @@ double Simulation::muscle_torque_Nm(int muscle, int joint) const {
   return impl_->limb.muscles[at(muscle)].readout.torque_Nm[joint];
 }
 
+MuscleAtJoint Simulation::muscle_at_joint(int muscle, int joint) const {
+  const LineJointTerms line = line_joint_terms(impl_->line_geometry_of(muscle), impl_->line_force_of(muscle), joint);
+  const LimbMuscle& m = impl_->limb.muscles[at(muscle)];
+  return {m.readout.torque_Nm[joint], m.stiffness_Nm_rad[joint], line.muscle_Nm_rad, line.geometry_Nm_rad};
+}
+
 JointReadout Simulation::joint(int joint) const {
   const Limb& limb = impl_->limb;
   JointReadout readout;
@@ -293,11 +293,6 @@ JointReadout Simulation::joint(int joint) const {
                        spans_joint(*impl_->lines[m].line, limb.skeleton, joint);
   }
   return readout;
-}
-
-void Simulation::refresh_stiffness(int /*joint*/) {  // one factor serves all joints
-  impl_->workers.run(static_cast<int>(impl_->limb.muscles.size()),
-                     [&](int m) { refresh_contact_stiffness(impl_->limb, impl_->limb.muscles[at(m)]); });
 }
 
 Pose Simulation::body_pose(int body) const {

@@ -40,6 +40,14 @@ struct JointReadout {
   bool preview = false;  // a mass-spring muscle spans the joint: torque and stiffness are no more than a preview
 };
 
+/// One muscle's part in a joint's readout.
+struct MuscleAtJoint {
+  double torque_Nm = 0.0;             // positive flexes
+  double stiffness_Nm_rad = 0.0;      // of the quasi-static tissue, as of the last refresh
+  double line_muscle_Nm_rad = 0.0;    // r^2 k of its line
+  double line_geometry_Nm_rad = 0.0;  // -(dr/dq) F of its line
+};
+
 /// Soft muscles on a skeleton, advanced by a fixed implicit step. Single caller; makes its own workers.
 class Simulation {
  public:
@@ -56,8 +64,11 @@ class Simulation {
   /// External torque about a joint, positive flexes [N m]; held until set again.
   void set_joint_torque(int joint, double torque_Nm);
   /// Puts everything at rest in the given pose: angles, zero velocities, activations as given (empty: zero), tissue in
-  /// static equilibrium. Returns false when the static solve did not converge.
+  /// static equilibrium. Refreshes the stiffness of all muscles. Returns false when the static solve did not converge.
   bool settle(std::span<const double> joint_angles_rad, std::span<const double> activations);
+  /// Back to the file pose, everything at rest and inactive, so that the settle() that has to follow does not depend on
+  /// what went before.
+  void restart();
 
   /// One step of dt. `tools` are the newest states of the tools; their springs enter the solve implicitly.
   void step(std::span<const messages::ToolState> tools);
@@ -69,11 +80,9 @@ class Simulation {
   double muscle_force_N(int muscle) const;  // tension that the muscle hands to its tendon
   /// Torque of one muscle about a joint, positive flexes [N m]; of the last step or settle.
   double muscle_torque_Nm(int muscle, int joint) const;
-  /// Of the last step or settle; stiffness as of the last refresh, contact's part as of the last settle or
-  /// refresh_stiffness().
+  MuscleAtJoint muscle_at_joint(int muscle, int joint) const;
+  /// Of the last step or settle; stiffness as of the last refresh, contact's part as of the last settle.
   JointReadout joint(int joint) const;
-  /// Refreshes the stiffness of a joint for all muscles at once (costs two factorisations a muscle).
-  void refresh_stiffness(int joint);
   Pose body_pose(int body) const;  // X_WL: maps rest position to now
   std::span<const Vec3> skin_world_m(int muscle) const;
   std::vector<Vec3> line_world_m(int muscle) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 
 #include <fmt/format.h>
 
@@ -12,10 +13,11 @@ namespace myotact::view {
 
 namespace {
 
-constexpr double kWidth = 760, kHeight = 460, kLeft = 80, kRight = 24, kTop = 52, kBottom = 64;  // pixels
+constexpr double kWidth = 960, kHeight = 460, kLeft = 80, kRight = 260, kTop = 52, kBottom = 64;  // pixels
 
 /// Okabe and Ito's palette without its yellow, which vanishes on white.
-constexpr std::array<const char*, 6> kColours = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#000000"};
+constexpr std::array<const char*, kChartColours> kColours = {"#0072B2", "#D55E00", "#009E73",
+                                                             "#CC79A7", "#56B4E9", "#000000"};
 
 struct Range {
   double lowest, highest;
@@ -27,13 +29,15 @@ std::string tick_text(double value, double spacing) {
   return fmt::format("{:.{}f}", value, digits);
 }
 
-Range range_of(const Chart& chart, std::vector<double> ChartSeries::*values) {
+Range range_of(const Chart& chart, std::initializer_list<std::vector<double> ChartSeries::*> members) {
   Range range{0.0, 0.0};  // zero is always shown: a stiffness is read against it
   for (const ChartSeries& series : chart.series) {
-    for (const double value : series.*values) {
-      if (!std::isfinite(value)) continue;
-      range.lowest = std::min(range.lowest, value);
-      range.highest = std::max(range.highest, value);
+    for (const auto member : members) {
+      for (const double value : series.*member) {
+        if (!std::isfinite(value)) continue;
+        range.lowest = std::min(range.lowest, value);
+        range.highest = std::max(range.highest, value);
+      }
     }
   }
   if (range.highest - range.lowest < 1e-12) range.highest = range.lowest + 1.0;
@@ -79,21 +83,61 @@ std::string frame_svg(const Chart& chart, const Axes& axes) {
   return svg;
 }
 
-std::string series_svg(const ChartSeries& series, const Axes& axes, const char* colour, double legend_y) {
-  std::string points, markers;
-  for (std::size_t i = 0; i < series.x.size() && i < series.y.size(); ++i) {
-    if (!std::isfinite(series.x[i]) || !std::isfinite(series.y[i])) continue;
-    const double x = axes.px(series.x[i]);
-    const double y = axes.py(series.y[i]);
-    points += fmt::format("{:.1f},{:.1f} ", x, y);
-    markers += fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="3.5" fill="{}"/>)", x, y, colour);
+std::string colour_of(const ChartSeries& series, std::size_t place) {
+  if (series.colour == kInk) return "#222222";
+  const auto index = series.colour < 0 ? place : static_cast<std::size_t>(series.colour);
+  return kColours[index % kColours.size()];
+}
+
+/// The places that are known, one after the other, as "x,y x,y ".
+std::string points_text(const std::vector<double>& x, const std::vector<double>& y, const Axes& axes) {
+  std::string points;
+  for (std::size_t i = 0; i < x.size() && i < y.size(); ++i) {
+    if (std::isfinite(x[i]) && std::isfinite(y[i]))
+      points += fmt::format("{:.1f},{:.1f} ", axes.px(x[i]), axes.py(y[i]));
   }
-  std::string svg = fmt::format(R"(<polyline points="{}" fill="none" stroke="{}" stroke-width="2"/>)", points, colour);
-  svg += markers;
-  svg += fmt::format(R"(<line x1="{0}" y1="{1}" x2="{2}" y2="{1}" stroke="{3}" stroke-width="3"/>)", kLeft + 14,
-                     legend_y, kLeft + 38, colour);
-  svg += fmt::format(R"(<text x="{}" y="{}">{}</text>)", kLeft + 46, legend_y + 4, escape_markup(series.name)) + "\n";
-  return svg;
+  return points;
+}
+
+std::string band_svg(const ChartSeries& series, const Axes& axes, const std::string& colour) {
+  std::vector<double> back_x(series.x.rbegin(), series.x.rend()), back_low(series.low.rbegin(), series.low.rend());
+  const std::string outline = points_text(series.x, series.high, axes) + points_text(back_x, back_low, axes);
+  return fmt::format(R"(<polygon points="{}" fill="{}" fill-opacity="0.14"/>)", outline, colour) + "\n";
+}
+
+std::string dash_of(Stroke stroke) {
+  return stroke == Stroke::Dashed ? R"( stroke-dasharray="7 5")" : "";
+}
+
+std::string curve_svg(const ChartSeries& series, const Axes& axes, const std::string& colour) {
+  std::string svg;
+  if (series.stroke != Stroke::Rings) {
+    svg += fmt::format(R"(<polyline points="{}" fill="none" stroke="{}" stroke-width="2"{}/>)",
+                       points_text(series.x, series.y, axes), colour, dash_of(series.stroke));
+  }
+  const bool ring = series.stroke == Stroke::Rings;
+  for (std::size_t i = 0; i < series.x.size() && i < series.y.size() && series.stroke != Stroke::Dashed; ++i) {
+    if (!std::isfinite(series.x[i]) || !std::isfinite(series.y[i])) continue;
+    svg += fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="{}" fill="{}" stroke="{}"/>)", axes.px(series.x[i]),
+                       axes.py(series.y[i]), ring ? 5.5 : 3.0, ring ? "none" : colour, colour);
+  }
+  return svg + "\n";
+}
+
+std::string legend_svg(const ChartSeries& series, double y, const std::string& colour) {
+  const double x = kWidth - kRight + 14;
+  std::string svg;
+  if (!series.low.empty() || !series.high.empty()) {
+    svg +=
+        fmt::format(R"(<rect x="{}" y="{}" width="24" height="12" fill="{}" fill-opacity="0.14"/>)", x, y - 6, colour);
+  }
+  if (series.stroke == Stroke::Rings) {
+    svg += fmt::format(R"(<circle cx="{}" cy="{}" r="5.5" fill="none" stroke="{}"/>)", x + 12, y, colour);
+  } else {
+    svg += fmt::format(R"(<line x1="{0}" y1="{1}" x2="{2}" y2="{1}" stroke="{3}" stroke-width="2"{4}/>)", x, y, x + 24,
+                       colour, dash_of(series.stroke));
+  }
+  return svg + fmt::format(R"(<text x="{}" y="{}">{}</text>)", x + 32, y + 4, escape_markup(series.name)) + "\n";
 }
 
 }  // namespace
@@ -116,8 +160,8 @@ std::vector<double> round_ticks(double lowest, double highest, int wanted) {
 }
 
 std::string line_chart_svg(const Chart& chart) {
-  const Range x = range_of(chart, &ChartSeries::x);
-  const Range y = range_of(chart, &ChartSeries::y);
+  const Range x = range_of(chart, {&ChartSeries::x});
+  const Range y = range_of(chart, {&ChartSeries::y, &ChartSeries::low, &ChartSeries::high});
   const Axes axes{round_ticks(x.lowest, x.highest, 6), round_ticks(y.lowest, y.highest, 6)};
   std::string svg =
       fmt::format(
@@ -125,8 +169,15 @@ std::string line_chart_svg(const Chart& chart) {
           kWidth, kHeight) +
       "\n";
   svg += frame_svg(chart, axes);
+  double legend_y = kTop + 6;
   for (std::size_t i = 0; i < chart.series.size(); ++i) {
-    svg += series_svg(chart.series[i], axes, kColours[i % kColours.size()], kTop + 16 + 18 * static_cast<double>(i));
+    const ChartSeries& series = chart.series[i];
+    const std::string colour = colour_of(series, i);
+    if (!series.low.empty()) svg += band_svg(series, axes, colour);
+    svg += curve_svg(series, axes, colour);
+    if (series.name.empty()) continue;
+    svg += legend_svg(series, legend_y, colour);
+    legend_y += 20;
   }
   return svg + "</svg>\n";
 }

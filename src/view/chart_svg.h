@@ -5,10 +5,21 @@
 
 namespace myotact::view {
 
+enum class Stroke { Line, Dashed, Rings };
+
 struct ChartSeries {
-  std::string name;
+  std::string name;          // of its line in the legend; empty: none
   std::vector<double> x, y;  // same length
+  Stroke stroke = Stroke::Line;
+  std::vector<double> low = {}, high = {};  // a band to shade, as long as x; or empty
+  int colour = -1;                          // of the palette, -1: that of its place in the chart; kInk: the text's
 };
+
+/// Series of more colours repeat them.
+inline constexpr int kChartColours = 6;
+
+/// For series without points, which only explain a stroke in the legend.
+inline constexpr int kInk = -2;
 
 struct Chart {
   std::string title;
@@ -16,7 +27,8 @@ struct Chart {
   std::vector<ChartSeries> series;
 };
 
-/// A line chart as an SVG document: round ticks, markers, a colour-blind-safe palette, no outside fonts.
+/// A line chart as an SVG document: round ticks, markers, a colour-blind-safe palette of kChartColours, the legend
+/// beside the plot, no outside fonts.
 std::string line_chart_svg(const Chart& chart);
 
 /// Ticks at round numbers (1, 2 or 5 times a power of ten) that cover [lowest, highest], about `wanted` of them.
