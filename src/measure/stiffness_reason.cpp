@@ -80,7 +80,7 @@ std::string explain_stiffness(const StiffnessRow& row) {
         summands.begin(), summands.end(), [](const Summand& a, const Summand& b) { return a.K_Nm_rad < b.K_Nm_rad; });
     text +=
         fmt::format(" The joint is unstable: let go, it leaves this angle. What would change it: {}.", worst.remedy);
-  } else if (row.K_low_Nm_rad < 0.0) {
+  } else if (row.held && row.K_low_Nm_rad < 0.0) {
     text +=
         fmt::format(" Whether it is stable at all is open: the anatomy is known to within {:.2f} .. {:.2f} N m/rad.",
                     row.K_low_Nm_rad, row.K_high_Nm_rad);

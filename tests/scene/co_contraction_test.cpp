@@ -1,6 +1,10 @@
 #include "scene/co_contraction.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "support/complaint.h"
+#include "support/synthetic_specimen.h"
 
 namespace myotact::scene {
 namespace {
@@ -59,6 +63,44 @@ TEST(Balance, CountsTheTorqueOfMusclesThatAreNotDriven) {
   const double activations[] = {0.0, 0.0, 1.0};
   const Balance levels = balance(table, set_of(0.5), activations);
   EXPECT_NEAR(table.torque(0, levels.flexors) + table.torque(1, levels.extensors) + 0.5, 0.0, 1e-9);
+}
+
+/// A hinge with groups, and a second one without.
+Scene scene_of_two_joints() {
+  Scene scene;
+  scene.specimen = testing::antagonist_hinge();
+  scene.specimen.joints.push_back(scene.specimen.joints[0]);
+  scene.specimen.joints[1].key = "carpus";
+  return scene;
+}
+
+TEST(CoContractionOf, TakesTheGroupsOfAJointUnlessTheSceneHasItsOwnLists) {
+  Scene scene = scene_of_two_joints();
+  EXPECT_EQ(co_contraction_of(scene, "elbow").flexors, std::vector<int>{0});
+  EXPECT_EQ(co_contraction_of(scene, "elbow").extensors, std::vector<int>{1});
+  scene.co_contraction = set_of(0.3, 0.1);
+  scene.co_contraction->flexors = {1};
+  const CoContraction own = co_contraction_of(scene, "elbow");
+  EXPECT_EQ(own.flexors, std::vector<int>{1});
+  EXPECT_DOUBLE_EQ(own.difference, 0.1);
+}
+
+TEST(CoContractionOf, RefusesJointsThatCannotBeBalanced) {
+  Scene scene = scene_of_two_joints();
+  const auto complaint = [&](const std::string& key) {
+    return testing::complaint(ExitStatus::Usage, [&] { co_contraction_of(scene, key); });
+  };
+  EXPECT_THAT(complaint("elbo"), ::testing::HasSubstr("no such joint"));
+  EXPECT_THAT(complaint("elbo"), ::testing::HasSubstr("nearest: elbow"));
+  EXPECT_THAT(complaint("carpus"), ::testing::HasSubstr("lacks flexors or extensors"));
+  scene.specimen.joints[0].type = anatomy::JointType::Weld;
+  EXPECT_THAT(complaint("elbow"), ::testing::HasSubstr("does not turn"));
+}
+
+TEST(DrivenActivations, ReplaceThoseOfTheTwoSidesAlone) {
+  CoContraction set = set_of(0.0);
+  set.flexors = {2};
+  EXPECT_EQ(driven_activations(set, {0.7, 0.4, true}, {0.1, 0.2, 0.3}), (std::vector<double>{0.1, 0.4, 0.7}));
 }
 
 TEST(PostureTrim, AsksForTorqueAgainstALastingDrift) {

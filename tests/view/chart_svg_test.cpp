@@ -31,5 +31,20 @@ TEST(ChartSvg, EmptyChartIsStillADocument) {
   EXPECT_THAT(line_chart_svg({"", "", "", {}}), HasSubstr("</svg>"));
 }
 
+TEST(ChartSvg, DrawsBandsStrokesAndALegendOfNamedSeriesOnly) {
+  ChartSeries banded{"named", {0.0, 1.0}, {1.0, 2.0}};
+  banded.low = {0.5, -4.0};
+  banded.high = {1.5, std::nan("")};
+  const ChartSeries rings{"", {0.0, 1.0}, {1.0, 2.0}, Stroke::Rings};
+  const ChartSeries dashed{"", {0.0, 1.0}, {1.0, 2.0}, Stroke::Dashed};
+  const std::string svg = line_chart_svg({"t", "x", "y", {banded, rings, dashed}});
+  EXPECT_THAT(svg, HasSubstr("<polygon"));
+  EXPECT_THAT(svg, HasSubstr("stroke-dasharray"));
+  EXPECT_THAT(svg, HasSubstr(">named</text>"));
+  EXPECT_THAT(svg, HasSubstr(">-4</text>"));  // the axis reaches to the end of the band
+  EXPECT_THAT(svg, Not(HasSubstr("nan")));
+  EXPECT_THAT(svg, Not(HasSubstr("></text>")));
+}
+
 }  // namespace
 }  // namespace myotact::view
