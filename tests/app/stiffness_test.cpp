@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -33,7 +34,7 @@ std::string content(const std::filesystem::path& path) {
 
 class Stiffness : public ::testing::Test {
  protected:
-  std::string out(const std::string& name = "out") const { return " --out " + (folder_.path() / name).string(); }
+  std::string out(const std::string& name = "out") const { return fmt::format(" --out {}", file(name)); }
   std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
   std::vector<std::string> files_in(const std::string& name) const {
     std::vector<std::string> bytes;
@@ -51,7 +52,8 @@ TEST_F(Stiffness, LeavesTheSameFilesWithAnyNumberOfThreadsAndInParts) {
     ASSERT_EQ(run_program(sweep + out("parts") + " --shard " + part).status, 0) << part;
   }
   std::string merge = "stiffness --merge";
-  for (const char* part : {"3", "1", "4", "2"}) merge += " " + file("parts/stiffness_part_") + part + "_of_4.json";
+  for (const char* part : {"3", "1", "4", "2"})
+    merge += fmt::format(" {}{}_of_4.json", file("parts/stiffness_part_"), part);
   const Outcome merged = run_program(merge + out("merged"));
   ASSERT_EQ(merged.status, 0) << merged.output;
   const auto single = files_in("one");
@@ -85,8 +87,9 @@ TEST_F(Stiffness, AnotherJointIsDrivenByItsGroups) {
   const Outcome outcome =
       run_program("stiffness elbow --set specimen=canine_hindlimb --set co_contraction=null" + out());
   EXPECT_EQ(outcome.status, 65) << outcome.output;
-  std::ofstream(file("hind.json")) << R"({"schema": 1, "name": "hind", "specimen": "canine_hindlimb"})";
-  const std::string sweep = "stiffness " + file("hind.json") + rigid + out() + " --levels 0 ";
+  const std::string hind = file("hind.json");
+  std::ofstream(hind) << R"({"schema": 1, "name": "hind", "specimen": "canine_hindlimb"})";
+  const std::string sweep = fmt::format("stiffness {}{}{} --levels 0 ", hind, rigid, out());
   EXPECT_EQ(run_program(sweep).status, 65);
   const Outcome tarsus = run_program(sweep + "--joint tarsus --angles 10");
   EXPECT_EQ(tarsus.status, 0) << tarsus.output;
@@ -97,7 +100,7 @@ TEST_F(Stiffness, AnotherJointIsDrivenByItsGroups) {
 
 TEST_F(Stiffness, RefusesWhatCannotBeMeasuredByName) {
   const auto refused = [&](const std::string& more) {
-    const Outcome outcome = run_program("stiffness elbow " + more + out());
+    const Outcome outcome = run_program(fmt::format("stiffness elbow {}{}", more, out()));
     EXPECT_EQ(outcome.status, 2) << outcome.output;
     return outcome.output;
   };
@@ -114,7 +117,7 @@ TEST_F(Stiffness, RefusesWhatCannotBeMeasuredByName) {
   }
   EXPECT_THAT(refused("--shard 1/2 --merge x.json"), HasSubstr("give one of them"));
   EXPECT_EQ(run_program("run elbow --levels 2" + out()).status, 2);
-  EXPECT_EQ(run_program("stiffness --merge " + file("nothing.json") + out()).status, 66);
+  EXPECT_EQ(run_program(fmt::format("stiffness --merge {}{}", file("nothing.json"), out())).status, 66);
 }
 
 TEST_F(Stiffness, ArrayScriptMeasuresItsPart) {
@@ -123,8 +126,8 @@ TEST_F(Stiffness, ArrayScriptMeasuresItsPart) {
       " sh " MYOTACT_SOURCE_DIR "/tools/stiffness_array.slurm elbow --levels 0,1" + kFast + out();
   ASSERT_EQ(std::system((environment + "1" + script + " >/dev/null 2>&1").c_str()), 0);
   ASSERT_EQ(std::system((environment + "2" + script + " >/dev/null 2>&1").c_str()), 0);
-  const std::string parts = file("out/stiffness_part_1_of_2.json") + " " + file("out/stiffness_part_2_of_2.json");
-  const Outcome merged = run_program("stiffness --merge " + parts + out());
+  const std::string parts = fmt::format("{0}1_of_2.json {0}2_of_2.json", file("out/stiffness_part_"));
+  const Outcome merged = run_program(fmt::format("stiffness --merge {}{}", parts, out()));
   EXPECT_EQ(merged.status, 0) << merged.output;
   EXPECT_THAT(merged.output, HasSubstr("\nelbow,0,1,0,"));
   EXPECT_NE(std::system(("env -u SLURM_ARRAY_TASK_ID" + script + " >/dev/null 2>&1").c_str()), 0);

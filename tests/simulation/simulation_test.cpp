@@ -348,4 +348,42 @@ TEST(Simulation, WritesAFrameOfTheWholeScene) {
   EXPECT_EQ(frame.joints.size(), 1u);
 }
 
+TEST(Simulation, AfterARestartASettleIsThatOfAFreshOneToTheBit) {
+  const anatomy::Specimen specimen = coarse_pair();
+  Simulation fresh(specimen, {}), used(specimen, {});
+  const double far = 0.9, near = 0.1;
+  const std::vector<double> strong = {1.0, 0.2}, weak = {0.1, 0.3};
+  ASSERT_TRUE(used.settle({&far, 1}, strong));
+  for (int step = 0; step < 5; ++step) used.step({});
+  const std::uint64_t before = used.state_hash();
+  used.restart();
+  EXPECT_NE(used.state_hash(), before);
+  ASSERT_TRUE(fresh.settle({&near, 1}, weak));
+  ASSERT_TRUE(used.settle({&near, 1}, weak));
+  EXPECT_EQ(used.state_hash(), fresh.state_hash());
+  EXPECT_EQ(used.joint(0).stiffness_Nm_rad, fresh.joint(0).stiffness_Nm_rad);
+  EXPECT_EQ(used.joint(0).net_torque_Nm, fresh.joint(0).net_torque_Nm);
+}
+
+TEST(Simulation, AJointsReadoutIsTheSumOverItsMuscles) {
+  const anatomy::Specimen specimen = coarse_pair();
+  Simulation simulation(specimen, {});
+  const double q = 0.2;
+  const std::vector<double> activations = {0.6, 0.3};
+  ASSERT_TRUE(simulation.settle({&q, 1}, activations));
+  const JointReadout whole = simulation.joint(0);
+  MuscleAtJoint sum;
+  for (int muscle = 0; muscle < 2; ++muscle) {
+    const MuscleAtJoint part = simulation.muscle_at_joint(muscle, 0);
+    sum.torque_Nm += part.torque_Nm;
+    sum.stiffness_Nm_rad += part.stiffness_Nm_rad;
+    sum.line_muscle_Nm_rad += part.line_muscle_Nm_rad;
+    sum.line_geometry_Nm_rad += part.line_geometry_Nm_rad;
+  }
+  EXPECT_NEAR(sum.torque_Nm, whole.net_torque_Nm, 1e-12);
+  EXPECT_NEAR(sum.stiffness_Nm_rad + whole.passive_Nm_rad, whole.stiffness_Nm_rad, 1e-12);
+  EXPECT_NEAR(sum.line_muscle_Nm_rad, whole.line_muscle_Nm_rad, 1e-12);
+  EXPECT_NEAR(sum.line_geometry_Nm_rad, whole.line_geometry_Nm_rad, 1e-12);
+}
+
 }  // namespace myotact::simulation
