@@ -1,6 +1,7 @@
 #include "app/stiffness_chart.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numbers>
 
@@ -43,8 +44,10 @@ void add_angle(const Rows& rows, int colour, view::Chart& chart) {
   for (const auto& row : rows) {
     for (auto* series : {&schur, &perturbed, &line}) series->x.push_back(row.common);
     schur.y.push_back(row.K_schur_Nm_rad);
-    schur.low.push_back(row.K_low_Nm_rad);
-    schur.high.push_back(row.K_high_Nm_rad);
+    const double known =
+        row.held && row.converged ? 1.0 : std::nan("");  // a band round nothing to quote hides the rest
+    schur.low.push_back(known * row.K_low_Nm_rad);
+    schur.high.push_back(known * row.K_high_Nm_rad);
     perturbed.y.push_back(row.K_perturbed_Nm_rad);
     line.y.push_back(row.K_line_Nm_rad);
   }

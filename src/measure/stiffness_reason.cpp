@@ -10,6 +10,8 @@ namespace myotact::measure {
 
 namespace {
 
+constexpr double kShown_Nm_rad = 0.005;  // what two digits show
+
 /// One summand of K.
 struct Summand {
   const char* what;  // "X is the largest part"
@@ -75,6 +77,9 @@ std::string explain_stiffness(const StiffnessRow& row) {
   if (!std::isfinite(row.K_schur_Nm_rad)) return "K is not known: the tissue found no equilibrium here.";
   const auto summands = summands_of(row);
   std::string text = balance_text(row, summands);
+  if (std::abs(row.K_gravity_Nm_rad) >= kShown_Nm_rad) {
+    text += fmt::format(" The weight of the bones, which is not in it, adds {:+.2f}.", row.K_gravity_Nm_rad);
+  }
   if (row.K_schur_Nm_rad < 0.0) {
     const Summand& worst = *std::min_element(
         summands.begin(), summands.end(), [](const Summand& a, const Summand& b) { return a.K_Nm_rad < b.K_Nm_rad; });

@@ -54,6 +54,13 @@ TEST(StiffnessReason, ContactIsAPartOfItsOwn) {
   EXPECT_THAT(explain_stiffness(row), HasSubstr("its largest part is contact between tissues, +5.00;"));
 }
 
+TEST(StiffnessReason, WeightIsToldApart) {
+  StiffnessRow row = row_of(4.0, -1.0);
+  EXPECT_THAT(explain_stiffness(row), Not(HasSubstr("weight")));
+  row.K_gravity_Nm_rad = -0.3;
+  EXPECT_THAT(explain_stiffness(row), HasSubstr("The weight of the bones, which is not in it, adds -0.30."));
+}
+
 TEST(StiffnessReason, SaysWhatIsOpenOrNotToBeQuoted) {
   StiffnessRow open = row_of(4.0, -1.0);
   open.K_low_Nm_rad = -0.2;

@@ -68,6 +68,21 @@ TEST_F(SceneFile, TakesOneTissueModelForAllAndOneForAMuscle) {
   EXPECT_THAT(complaint(R"(, "tissue": {"default": "lines"})"), HasSubstr("line"));
 }
 
+TEST_F(SceneFile, AWeldCannotBeCoContracted) {
+  anatomy::Specimen fused = myotact::testing::antagonist_hinge();
+  anatomy::Joint& joint = fused.joints[0];
+  joint.type = anatomy::JointType::Weld;
+  joint.axes.clear();
+  joint.range_rad.clear();
+  anatomy::save_specimen(fused, folder_ / "fused");
+  try {
+    parse(R"(, "co_contraction": {"joint": "elbow"})", {{"specimen", "fused"}});
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("/co_contraction/joint: this joint does not turn"));
+  }
+}
+
 TEST_F(SceneFile, OverridesReplaceKeys) {
   EXPECT_DOUBLE_EQ(parse("", {{"dt_s", "0.005"}}).settings.dt_s, 0.005);
 }

@@ -350,19 +350,23 @@ TEST(Simulation, WritesAFrameOfTheWholeScene) {
 
 TEST(Simulation, AfterARestartASettleIsThatOfAFreshOneToTheBit) {
   const anatomy::Specimen specimen = coarse_pair();
-  Simulation fresh(specimen, {}), used(specimen, {});
-  const double far = 0.9, near = 0.1;
-  const std::vector<double> strong = {1.0, 0.2}, weak = {0.1, 0.3};
-  ASSERT_TRUE(used.settle({&far, 1}, strong));
-  for (int step = 0; step < 5; ++step) used.step({});
-  const std::uint64_t before = used.state_hash();
-  used.restart();
-  EXPECT_NE(used.state_hash(), before);
-  ASSERT_TRUE(fresh.settle({&near, 1}, weak));
-  ASSERT_TRUE(used.settle({&near, 1}, weak));
-  EXPECT_EQ(used.state_hash(), fresh.state_hash());
-  EXPECT_EQ(used.joint(0).stiffness_Nm_rad, fresh.joint(0).stiffness_Nm_rad);
-  EXPECT_EQ(used.joint(0).net_torque_Nm, fresh.joint(0).net_torque_Nm);
+  for (const TissueModel model : {TissueModel::Fem, TissueModel::MassSpring, TissueModel::Line}) {
+    SimulationSettings settings;
+    settings.tissue = {model, model};
+    Simulation fresh(specimen, settings), used(specimen, settings);
+    const double far = 0.9, near = 0.1;
+    const std::vector<double> strong = {1.0, 0.2}, weak = {0.1, 0.3};
+    ASSERT_TRUE(used.settle({&far, 1}, strong));
+    for (int step = 0; step < 5; ++step) used.step({});
+    const std::uint64_t before = used.state_hash();
+    used.restart();
+    EXPECT_NE(used.state_hash(), before);
+    ASSERT_TRUE(fresh.settle({&near, 1}, weak));
+    ASSERT_TRUE(used.settle({&near, 1}, weak));
+    EXPECT_EQ(used.state_hash(), fresh.state_hash());
+    EXPECT_EQ(used.joint(0).stiffness_Nm_rad, fresh.joint(0).stiffness_Nm_rad);
+    EXPECT_EQ(used.joint(0).net_torque_Nm, fresh.joint(0).net_torque_Nm);
+  }
 }
 
 TEST(Simulation, AJointsReadoutIsTheSumOverItsMuscles) {
