@@ -42,7 +42,7 @@ int line_model_stiffness(const Options& options) {
     throw Error(ExitStatus::Usage,
                 options.scene + ": is a line model, which takes no --set, --device, --joint or --shard; edit it");
   }
-  if (options.angles_deg != Options{}.angles_deg || options.levels != Options{}.levels) {
+  if (options.angles != Options{}.angles || options.levels != Options{}.levels) {
     throw Error(ExitStatus::Usage,
                 options.scene +
                     ": is a line model, which brings its own q_rad and levels; edit it instead of giving "
