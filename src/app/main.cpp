@@ -19,7 +19,7 @@ using myotact::app::Options;
 
 void add_common(CLI::App& command, Options& options) {
   command.add_option("--device", options.devices, "device name: simulated or mouse")->delimiter(',');
-  command.add_option("--set", options.set, "override a key of the scene: key=value");
+  command.add_option("--set", options.set, "override a key of the scene: key=value, e.g. dt_s=0.005 or tissue.default=line");
   command.add_option("--seconds", options.seconds, "simulated time to run [s]")->check(CLI::Range(0.0, 86400.0));
   command.add_option("--seed", options.seed, "seed of everything random")->capture_default_str();
   command.add_option("-o,--out", options.out, "folder for what the command leaves")->capture_default_str();

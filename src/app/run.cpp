@@ -135,6 +135,7 @@ int run(const Options& options) {
   const scene::Scene scene = scene_of(options);
   const std::vector<double> levels = levels_of(options);
   make_writable_folder(options.out);
+  if (!scene.note.empty()) spdlog::info("{}: {}", scene.name, scene.note);
   watch_for_interruption();
   RunSummary summary;
   nlohmann::json timing;

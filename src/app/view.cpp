@@ -33,6 +33,7 @@ int watched_joint(const scene::Scene& scene) {
 view::WindowSettings window_settings(const scene::Scene& scene, const device::Device& device, const Vec3& hand_m) {
   view::WindowSettings settings;
   settings.title = "Myotact: " + scene.title;
+  settings.note = scene.note;
   settings.device_peak_N = device.profile().peak_force_N;
   settings.joint = watched_joint(scene);
   settings.hand_start_world_m = to_array(hand_m);

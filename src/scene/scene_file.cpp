@@ -1,6 +1,7 @@
 #include "scene/scene_file.h"
 
 #include <algorithm>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -28,9 +29,21 @@ nlohmann::json value_of(const std::string& value) {
   }
 }
 
-/// --set key=value becomes a key of the scene. Returns the scene as text, for recordings.
+/// The place that `tissue.default` means; what is missing on the way is made.
+nlohmann::json& place_of(std::string_view dotted, nlohmann::json& scene) {
+  nlohmann::json* place = &scene;
+  for (std::size_t point = dotted.find('.'); point != std::string_view::npos; point = dotted.find('.')) {
+    place = &(*place)[std::string(dotted.substr(0, point))];
+    if (!place->is_object()) *place = nlohmann::json::object();
+    dotted.remove_prefix(point + 1);
+  }
+  return (*place)[std::string(dotted)];
+}
+
+/// --set key=value becomes a key of the scene, a.b=value one of the object a. Returns the scene as text, for
+/// recordings.
 std::string apply_overrides(nlohmann::json& scene, const Overrides& overrides) {
-  for (const auto& [key, value] : overrides) scene[key] = value_of(value);
+  for (const auto& [key, value] : overrides) place_of(key, scene) = value_of(value);
   try {
     return scene.dump();
   } catch (const nlohmann::json::exception&) {  // the file itself was checked when it was parsed
@@ -99,6 +112,17 @@ void read_tissue(const JsonValue& value, Scene& scene) {
   tissue.finish();
 }
 
+/// A scene's own choice of where on their force-length curve the fibres work, in place of the specimen's estimate.
+void read_rest_stretch(const JsonValue& value, Scene& scene) {
+  for (const auto& [key, entry] : JsonObject(value).entries()) {
+    const int index = require_muscle(JsonValue(nlohmann::json(key), value.file(), entry.pointer()), scene.specimen);
+    anatomy::Muscle& muscle = scene.specimen.muscles[static_cast<std::size_t>(index)];
+    muscle.rest_stretch = entry.number();
+    const auto defects = anatomy::find_defects(muscle, scene.specimen.bodies.size());
+    if (!defects.empty()) throw entry.error(defects.front());
+  }
+}
+
 void read_activations(const JsonValue& value, Scene& scene) {
   for (const auto& [key, entry] : JsonObject(value).entries()) {
     const int muscle = require_muscle(JsonValue(nlohmann::json(key), value.file(), entry.pointer()), scene.specimen);
@@ -162,6 +186,7 @@ void read_parts(JsonObject& root, Scene& scene) {
   if (const auto joints = root.find("joints")) read_joints(*joints, scene);
   if (const auto contact = root.find("contact")) scene.settings.contact = contact->boolean();
   if (const auto tissue = root.find("tissue")) read_tissue(*tissue, scene);
+  if (const auto rest_stretch = root.find("rest_stretch")) read_rest_stretch(*rest_stretch, scene);
   if (const auto activations = root.find("activations")) read_activations(*activations, scene);
   if (const auto set = root.find("co_contraction")) scene.co_contraction = read_co_contraction(*set, scene);
   if (const auto tools = root.find("tools")) {
@@ -183,6 +208,7 @@ Scene parse_scene(const std::string& text, const std::filesystem::path& file, co
   scene.source_text = source_text;
   scene.name = root.at("name").string();
   scene.title = root.string_or("title", scene.name);
+  scene.note = root.string_or("note", "");
   scene.specimen_folder = find_specimen(root.at("specimen"), file);
   scene.specimen = anatomy::with_hinge_chains(anatomy::load_specimen(scene.specimen_folder));
   scene.joints.resize(scene.specimen.joints.size());

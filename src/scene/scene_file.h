@@ -40,6 +40,7 @@ struct JointSetting {
 /// A scene file (FORMATS: Scene) with every name resolved against its specimen.
 struct Scene {
   std::string name, title;
+  std::string note;  // what a person should know about the scene's settings, shown with it
   std::filesystem::path specimen_folder;
   anatomy::Specimen specimen;
   simulation::SimulationSettings settings;
@@ -51,7 +52,7 @@ struct Scene {
   std::string source_text;           // the file as read, for recordings
 };
 
-/// What the command line overrides in a scene: keys of --set, e.g. "specimen", "dt_s", "gravity_m_s2".
+/// What the command line overrides in a scene: keys of --set, e.g. "specimen", "dt_s", "tissue.default".
 using Overrides = std::map<std::string, std::string>;
 
 /// Reads a built-in scene by name or a scene file by path. Throws Error NoInput (names the built-in ones) or BadData.

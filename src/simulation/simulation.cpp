@@ -285,6 +285,7 @@ JointReadout Simulation::joint(int joint) const {
     readout.net_torque_Nm += limb.muscles[m].readout.torque_Nm[joint];
     readout.stiffness_Nm_rad += limb.muscles[m].stiffness_Nm_rad[joint];
     readout.contact_Nm_rad += limb.muscles[m].contact_stiffness_Nm_rad[joint];
+    if (limb.muscles[m].rigid && !limb.muscles[m].line) continue;  // its line exerts nothing
     const LineJointTerms terms = line_joint_terms(impl_->line_geometry_of(muscle), impl_->line_force_of(muscle), joint);
     readout.line_muscle_Nm_rad += terms.muscle_Nm_rad;
     readout.line_geometry_Nm_rad += terms.geometry_Nm_rad;

@@ -165,7 +165,10 @@ void draw_panels(const anatomy::Specimen& specimen, const messages::SceneFrame& 
   }
   ImGui::Separator();
   draw_rates(frame);
-  ImGui::TextDisabled("Not a medical device.");
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::TextWrapped("%s", state.note.c_str());
+  ImGui::TextUnformatted("Not a medical device.");
+  ImGui::PopStyleColor();
   ImGui::End();
   if (state.help) draw_help();
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "anatomy/specimen.h"
 #include "messages/scene_frame.h"
 #include "view/plot.h"
@@ -14,6 +16,7 @@ struct PanelState {
   Plot angle{"joint angle q [deg]", 4.0};
   Plot stiffness{"joint stiffness [N m/rad]", 1.0};
   Plot force{"tool force [N]", 1.0};
+  std::string note;
   double device_peak_N = 3.3;
   int joint = 0;  // shown in the plots
   bool help = false;

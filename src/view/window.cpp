@@ -109,6 +109,7 @@ struct Window::Impl {
   Impl(const anatomy::Specimen& given, const WindowSettings& settings)
       : specimen(&given), window(settings), imgui(window.get()), renderer(given), bounds(bounds_of(given)) {
     panels.device_peak_N = settings.device_peak_N;
+    panels.note = settings.note;
     panels.joint = settings.joint;
     controls = settings.start;
     controls.hand_world_m = settings.hand_start_world_m;

@@ -13,6 +13,7 @@ namespace myotact::view {
 
 struct WindowSettings {
   std::string title = "Myotact";
+  std::string note;  // about the scene, shown above the rates
   int width = 1280, height = 800;
   double device_peak_N = 3.3;
   int joint = 0;                               // shown in the plots

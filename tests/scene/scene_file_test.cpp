@@ -85,6 +85,19 @@ TEST_F(SceneFile, AWeldCannotBeCoContracted) {
 
 TEST_F(SceneFile, OverridesReplaceKeys) {
   EXPECT_DOUBLE_EQ(parse("", {{"dt_s", "0.005"}}).settings.dt_s, 0.005);
+  const Scene scene = parse(R"(, "tissue": {"muscles": {"extensor": "fem"}})", {{"tissue.default", "line"}});
+  EXPECT_EQ(scene.settings.tissue[static_cast<std::size_t>(anatomy::find_muscle(scene.specimen, "flexor"))],
+            simulation::TissueModel::Line);
+  EXPECT_EQ(scene.settings.tissue[static_cast<std::size_t>(anatomy::find_muscle(scene.specimen, "extensor"))],
+            simulation::TissueModel::Fem);
+}
+
+TEST_F(SceneFile, ChoosesWhereFibresWork) {
+  const Scene scene = parse(R"(, "rest_stretch": {"flexor": 0.7})");
+  EXPECT_EQ(
+      scene.specimen.muscles[static_cast<std::size_t>(anatomy::find_muscle(scene.specimen, "flexor"))].rest_stretch,
+      0.7);
+  EXPECT_THAT(complaint(R"(, "rest_stretch": {"flexor": 7})"), HasSubstr("must be between 0.3 and 1.8"));
 }
 
 TEST_F(SceneFile, OverridesMustBeText) {
