@@ -129,7 +129,7 @@ int sweep(const Options& options) {
     result.rows = measure::sweep_stiffness(
         scene, grid, cells, {[&](int done, int all) { progress.show(done, all); }, [] { return interruption() != 0; }});
     if (interruption() == 0 && !result.rows.empty()) {
-      spdlog::debug("{} cells in {:.1f} s, {:.2f} s a cell", result.rows.size(), progress.seconds(),
+      spdlog::info("{} cells in {:.1f} s, {:.2f} s a cell", result.rows.size(), progress.seconds(),
                     progress.seconds() / static_cast<double>(result.rows.size()));
     }
   }
