@@ -123,17 +123,17 @@ int sweep(const Options& options) {
   const std::string missing = measure::missing_uncertainty(joint);
   if (!missing.empty()) spdlog::warn("{}", missing);
   watch_for_interruption();
+  double wall_s = 0.0;
   {
     Progress progress;
     const auto cells = measure::share_of_cells(grid, shard.part, shard.parts);
     result.rows = measure::sweep_stiffness(
         scene, grid, cells, {[&](int done, int all) { progress.show(done, all); }, [] { return interruption() != 0; }});
-    if (interruption() == 0 && !result.rows.empty()) {
-      spdlog::info("{} cells in {:.1f} s, {:.2f} s a cell", result.rows.size(), progress.seconds(),
-                    progress.seconds() / static_cast<double>(result.rows.size()));
-    }
+    wall_s = progress.seconds();
   }
   if (interruption() != 0) return interruption();
+  spdlog::info("{} cells in {:.1f} s, {:.2f} s a cell", result.rows.size(), wall_s,
+               wall_s / std::max(1.0, static_cast<double>(result.rows.size())));
   return options.shard.empty() ? answer_sweep(options, result) : answer_part(options, result);
 }
 
