@@ -40,6 +40,7 @@ Conductor::Conductor(const Scene& scene, simulation::Simulation& simulation)
     : scene_(&scene),
       simulation_(&simulation),
       hand_(scene.specimen, start_of_hand(scene.specimen)),
+      shove_test_(scene.settings.dt_s),
       gravity_m_s2_(scene.settings.gravity_m_s2) {
   if (scene.co_contraction) {
     torques_ = measure_torques(scene, simulation, start_angles(scene));
@@ -61,6 +62,7 @@ void Conductor::restart() {
   flexor_level_.reset();
   extensor_level_.reset();
   shoves_.clear();
+  shove_test_ = ShoveTest(scene_->settings.dt_s);
   settle();
 }
 
@@ -102,6 +104,8 @@ void Conductor::begin(const ScriptAction& action) {
     ask_hold_posture(hold->on);
   } else if (std::holds_alternative<Shove>(action.deed)) {
     shoves_.push_back(action);
+  } else if (const auto* test = std::get_if<TestShove>(&action.deed)) {
+    shove_test_.start(test->joint, *simulation_);
   } else if (const auto* picture = std::get_if<TakePicture>(&action.deed)) {
     picture_ = *picture;
   }
@@ -124,7 +128,7 @@ void Conductor::drive_co_contraction(double time_s, std::vector<double>& excitat
 
 /// While somebody shoves the joint the trim stands still: it would count as stiffness.
 double Conductor::trimmed_torque_Nm(int joint) {
-  if (!shoves_.empty()) return trim_.torque_Nm();
+  if (!shoves_.empty() || shove_test_.under_way()) return trim_.torque_Nm();
   const simulation::JointReadout readout = simulation_->joint(joint);
   return trim_.update(readout.angle_rad, readout.stiffness_Nm_rad, scene_->settings.dt_s);
 }
@@ -143,6 +147,10 @@ void Conductor::prepare_step(double simulated_s, StepRecord& input) {
   for (const ScriptAction& action : shoves_) {
     const auto& shove = std::get<Shove>(action.deed);
     input.joint_torques_Nm[static_cast<std::size_t>(shove.joint)] += shove.torque_Nm;
+  }
+  if (shove_test_.under_way()) {
+    const auto joint = static_cast<std::size_t>(shove_test_.joint());
+    input.joint_torques_Nm[joint] += shove_test_.next_torque_Nm(*simulation_);
   }
   input.gravity_m_s2 = gravity_m_s2_;
 }
@@ -170,6 +178,10 @@ void Conductor::ask_co_contraction(double common, double difference) {
   common_ = {now_s, now_s + kSliderGlide_s, common_.at(now_s), common};
   difference_ = {now_s, now_s + kSliderGlide_s, difference_.at(now_s), difference};
   co_contracting_ = true;
+}
+
+void Conductor::ask_shove_test() {
+  if (scene_->co_contraction) shove_test_.start(scene_->co_contraction->joint, *simulation_);
 }
 
 void Conductor::ask_hold_posture(bool on) {

@@ -7,6 +7,7 @@
 #include "scene/recording.h"
 #include "scene/scene_file.h"
 #include "scene/scripted_hand.h"
+#include "scene/shove_test.h"
 #include "simulation/simulation.h"
 
 namespace myotact::scene {
@@ -35,7 +36,10 @@ class Conductor {
   void ask_levels(double flexors, double extensors);
   void ask_co_contraction(double common, double difference);
   void ask_hold_posture(bool on);
+  void ask_shove_test();  // of the co-contraction's joint
   void ask_gravity(const Vec3& gravity_m_s2) { gravity_m_s2_ = gravity_m_s2; }
+
+  const ShoveTest& shove_test() const { return shove_test_; }
 
   double script_end_s() const;
 
@@ -56,6 +60,7 @@ class Conductor {
   ScriptedHand hand_;
   TorqueTable torques_;
   PostureTrim trim_;
+  ShoveTest shove_test_;
   double script_start_s_ = 0.0;  // simulated time at which the script began
   std::size_t next_action_ = 0;
   std::vector<Ramp> activations_;  // one a muscle

@@ -11,6 +11,8 @@
 #include "core/file.h"
 #include "core/json_reader.h"
 #include "core/text.h"
+#include "simulation/line_model.h"
+#include "simulation/skeleton.h"
 
 namespace myotact::scene {
 
@@ -140,6 +142,25 @@ std::vector<int> read_side(JsonObject& fields, const char* key, const std::vecto
   return muscles;
 }
 
+/// Names the first muscle that cannot do its part: one that does not cross the joint, or pulls on both sides.
+void check_sides(const CoContraction& set, const JsonValue& value, const anatomy::Specimen& specimen) {
+  const simulation::Skeleton skeleton(specimen);
+  const std::string& joint = specimen.joints[static_cast<std::size_t>(set.joint)].key;
+  for (const std::vector<int>* side : {&set.flexors, &set.extensors}) {
+    for (const int muscle : *side) {
+      const std::string& key = specimen.muscles[static_cast<std::size_t>(muscle)].key;
+      const auto line = std::find_if(specimen.lines.begin(), specimen.lines.end(),
+                                     [&](const anatomy::MuscleLine& candidate) { return candidate.muscle == muscle; });
+      if (line == specimen.lines.end() || !simulation::spans_joint(*line, skeleton, set.joint)) {
+        throw value.error(fmt::format("\"{}\" does not cross the joint \"{}\"; leave it out", key, joint));
+      }
+      const bool on_both =
+          side == &set.flexors && std::find(set.extensors.begin(), set.extensors.end(), muscle) != set.extensors.end();
+      if (on_both) throw value.error(fmt::format("\"{}\" is on both sides; leave it out of one", key));
+    }
+  }
+}
+
 CoContraction read_co_contraction(const JsonValue& value, const Scene& scene) {
   JsonObject fields(value);
   CoContraction set;
@@ -157,6 +178,7 @@ CoContraction read_co_contraction(const JsonValue& value, const Scene& scene) {
   if (const auto difference = fields.find("difference")) set.difference = difference->number_between(-1.0, 1.0);
   set.hold_posture = fields.boolean_or("hold_posture", false);
   fields.finish();
+  check_sides(set, value, scene.specimen);
   return set;
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
+#include "scene/shove_test.h"
 
 namespace myotact::scene {
 
@@ -92,19 +93,21 @@ Deed read_deed(const std::string& what, JsonObject& action, const anatomy::Speci
   if (what == "co_contract") return read_co_contract(action, specimen);
   if (what == "hold_posture") return HoldPosture{action.at("on").boolean()};
   if (what == "shove") return read_shove(action, specimen);
+  if (what == "shove_test") return TestShove{require_joint(action.at("joint"), specimen)};
   return TakePicture{action.at("view").one_of({"lateral", "medial", "cranial", "caudal", "dorsal", "palmar"})};
 }
 
 ScriptAction read_action(const JsonValue& value, const anatomy::Specimen& specimen) {
-  static const std::vector<std::string> kDeeds = {"move",         "touch",   "slide",    "grab_line",
-                                                  "grab_bone",    "release", "activate", "co_contract",
-                                                  "hold_posture", "shove",   "picture"};
+  static const std::vector<std::string> kDeeds = {"move",         "touch",   "slide",      "grab_line",
+                                                  "grab_bone",    "release", "activate",   "co_contract",
+                                                  "hold_posture", "shove",   "shove_test", "picture"};
   constexpr double kLongestRun_s = 86400.0;
   JsonObject object(value);
   ScriptAction action;
   action.start_s = object.at("t_s").number_between(0.0, kLongestRun_s);
   if (const auto duration = object.find("duration_s")) action.duration_s = duration->number_between(0.0, kLongestRun_s);
   action.deed = read_deed(object.at("do").one_of(kDeeds), object, specimen);
+  if (std::holds_alternative<TestShove>(action.deed)) action.duration_s = kShoveTest_s;
   object.finish();
   return action;
 }

@@ -52,12 +52,15 @@ struct Shove {  // a constant torque about a joint for the action's duration
   int joint = -1;
   double torque_Nm = 0.0;
 };
+struct TestShove {  // a slow push, then a stroke, with the joint's answer recorded
+  int joint = -1;
+};
 struct TakePicture {
   std::string view = "lateral";
 };
 
 using Deed = std::variant<MoveHand, TouchMuscle, SlideOnMuscle, GrabLine, GrabBone, ReleaseHand, Activate, CoContract,
-                          HoldPosture, Shove, TakePicture>;
+                          HoldPosture, Shove, TestShove, TakePicture>;
 
 struct ScriptAction {
   double start_s = 0.0;

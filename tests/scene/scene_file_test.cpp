@@ -92,6 +92,16 @@ TEST_F(SceneFile, OverridesReplaceKeys) {
             simulation::TissueModel::Fem);
 }
 
+TEST_F(SceneFile, RefusesMusclesThatCannotCoContract) {
+  EXPECT_THAT(complaint(R"(, "co_contraction": {"joint": "elbow", "extensors": ["flexor"]})"),
+              HasSubstr("\"flexor\" is on both sides"));
+  anatomy::Specimen specimen = myotact::testing::antagonist_hinge();
+  for (anatomy::LinePoint& point : specimen.lines[0].points) point.body = 0;
+  anatomy::save_specimen(specimen, folder_ / "hinge");
+  EXPECT_THAT(complaint(R"(, "co_contraction": {"joint": "elbow"})"),
+              HasSubstr("/co_contraction: \"flexor\" does not cross the joint \"elbow\""));
+}
+
 TEST_F(SceneFile, ChoosesWhereFibresWork) {
   const Scene scene = parse(R"(, "rest_stretch": {"flexor": 0.7})");
   EXPECT_EQ(
