@@ -34,6 +34,7 @@ struct RunSummary {
   double simulated_s = 0.0, wall_s = 0.0;
   std::uint64_t steps = 0;
   scene::Extremes extremes;
+  scene::ShoveRecord shove;  // joint -1: none was asked for
 };
 
 class Stopwatch {
@@ -53,8 +54,13 @@ RunSummary run_lockstep(const Options& options, const scene::Scene& scene, simul
   RunSummary summary;
   Stopwatch stopwatch;
   bool pictured = false;
+  std::string notice;
   for (; summary.steps < steps && interruption() == 0; ++summary.steps) {
     session.step();
+    if (const std::string now = session.conductor().notice(); now != notice) {
+      if (!now.empty()) spdlog::warn("at {} s: {}", simulation.time_s(), now);
+      notice = now;
+    }
     if (const auto wanted = session.conductor().take_picture()) {
       write_picture(scene, simulation, session.tool(), wanted->view, options.out / "scene.png");
       pictured = true;
@@ -63,6 +69,7 @@ RunSummary run_lockstep(const Options& options, const scene::Scene& scene, simul
   summary.wall_s = stopwatch.seconds();
   summary.simulated_s = simulation.time_s();
   summary.extremes = session.extremes();
+  summary.shove = session.conductor().shove_test().record();
   if (!pictured) write_picture(scene, simulation, session.tool(), "lateral", options.out / "scene.png");
   if (recorder) recorder->close();
   write_file(options.out / "samples.csv", samples.csv());

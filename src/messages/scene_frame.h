@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace myotact::messages {
@@ -51,6 +52,7 @@ struct SceneFrame {
   std::vector<JointFrame> joints;
   std::vector<ToolFrame> tools;
   RateFrame rates;
+  std::string notice;  // what the person should know now, or nothing
 };
 
 }  // namespace myotact::messages

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "scene/turned_torques.h"
 
 namespace myotact::scene {
 
@@ -43,7 +44,7 @@ Conductor::Conductor(const Scene& scene, simulation::Simulation& simulation)
       shove_test_(scene.settings.dt_s),
       gravity_m_s2_(scene.settings.gravity_m_s2) {
   if (scene.co_contraction) {
-    torques_ = measure_torques(scene, simulation, start_angles(scene));
+    measured_torques_ = torques_ = measure_torques(scene, simulation, start_angles(scene));
     if (torques_.unsettled_level) {
       throw Error(
           ExitStatus::CheckFailed,
@@ -63,6 +64,7 @@ void Conductor::restart() {
   extensor_level_.reset();
   shoves_.clear();
   shove_test_ = ShoveTest(scene_->settings.dt_s);
+  torques_ = measured_torques_;
   settle();
 }
 
@@ -114,6 +116,7 @@ void Conductor::begin(const ScriptAction& action) {
 void Conductor::drive_co_contraction(double time_s, std::vector<double>& excitations) {
   CoContraction set = *scene_->co_contraction;
   Balance levels;
+  levels.held = true;  // nothing is to be balanced where the sides have levels of their own
   if (flexor_level_) {
     levels.flexors = flexor_level_->at(time_s);
     levels.extensors = extensor_level_->at(time_s);
@@ -122,6 +125,7 @@ void Conductor::drive_co_contraction(double time_s, std::vector<double>& excitat
     set.difference = difference_.at(time_s);
     levels = balance(torques_, set, excitations, hold_posture_ ? trimmed_torque_Nm(set.joint) : 0.0);
   }
+  balanced_ = levels.held;
   for (const int m : set.flexors) excitations[static_cast<std::size_t>(m)] = levels.flexors;
   for (const int m : set.extensors) excitations[static_cast<std::size_t>(m)] = levels.extensors;
 }
@@ -180,13 +184,26 @@ void Conductor::ask_co_contraction(double common, double difference) {
   co_contracting_ = true;
 }
 
+std::string Conductor::notice() const {
+  if (balanced_ || !co_contracting_) return "";
+  const std::string& joint = scene_->specimen.joints[static_cast<std::size_t>(scene_->co_contraction->joint)].key;
+  return "the muscles cannot balance the " + joint +
+         " in this posture: the passive pull of one side is more than the other can hold; choose a posture nearer to "
+         "the middle of its range";
+}
+
 void Conductor::ask_shove_test() {
   if (scene_->co_contraction) shove_test_.start(scene_->co_contraction->joint, *simulation_);
 }
 
 void Conductor::ask_hold_posture(bool on) {
   if (on && !hold_posture_ && scene_->co_contraction) {
-    trim_.restart(simulation_->joint(scene_->co_contraction->joint).angle_rad);
+    std::vector<double> present_rad;
+    for (std::size_t j = 0; j < scene_->joints.size(); ++j) {
+      present_rad.push_back(simulation_->joint(static_cast<int>(j)).angle_rad);
+    }
+    torques_ = turned_torques(measured_torques_, *scene_, start_angles(*scene_), present_rad);
+    trim_.restart(present_rad[static_cast<std::size_t>(scene_->co_contraction->joint)]);
   }
   hold_posture_ = on;
 }

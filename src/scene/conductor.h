@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "scene/co_contraction.h"
@@ -39,6 +40,8 @@ class Conductor {
   void ask_shove_test();  // of the co-contraction's joint
   void ask_gravity(const Vec3& gravity_m_s2) { gravity_m_s2_ = gravity_m_s2; }
 
+  /// What a person should know about the last step, or nothing: muscles that cannot hold the posture.
+  std::string notice() const;
   const ShoveTest& shove_test() const { return shove_test_; }
 
   double script_end_s() const;
@@ -58,7 +61,8 @@ class Conductor {
   const Scene* scene_;
   simulation::Simulation* simulation_;
   ScriptedHand hand_;
-  TorqueTable torques_;
+  TorqueTable measured_torques_;  // in the starting posture
+  TorqueTable torques_;           // in the posture that is held
   PostureTrim trim_;
   ShoveTest shove_test_;
   double script_start_s_ = 0.0;  // simulated time at which the script began
@@ -68,6 +72,7 @@ class Conductor {
   std::optional<Ramp> flexor_level_, extensor_level_;  // set by the sliders: no balance
   bool co_contracting_ = false;
   bool hold_posture_ = false;
+  bool balanced_ = true;              // of the last step
   std::vector<ScriptAction> shoves_;  // under way
   Vec3 gravity_m_s2_;
   std::optional<TakePicture> picture_;

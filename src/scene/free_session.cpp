@@ -183,6 +183,7 @@ void FreeSession::publish_frame() {
   frame_.rates.haptic_hz = static_cast<double>(haptic_thread_.tick_count()) / wall_s;
   frame_.rates.missed_ticks = haptic_thread_.missed_count();
   frame_.rates.time_factor = static_cast<double>(step_count_) * scene_->settings.dt_s / wall_s;
+  frame_.notice = conductor_.notice();
   ++frame_.sequence;
 }
 

@@ -16,10 +16,17 @@ namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr float kPlotHeight = 74.0f;
+const ImVec4 kWarning(1.0f, 0.62f, 0.2f, 1.0f);
 
 ImVec4 colour_of(double activation) {
   const glm::vec3 c = cividis(activation);
   return {c.r, c.g, c.b, 1.0f};
+}
+
+void draw_wrapped(const std::string& text, const ImVec4& colour) {
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::TextWrapped("%s", text.c_str());
+  ImGui::PopStyleColor();
 }
 
 bool slider(const char* label, double& value, float lowest, float highest) {
@@ -148,6 +155,7 @@ void draw_panels(const anatomy::Specimen& specimen, const messages::SceneFrame& 
   draw_play(controls);
   ImGui::Separator();
   draw_sliders(controls);
+  if (!frame.notice.empty()) draw_wrapped(frame.notice, kWarning);
   ImGui::Separator();
   draw_muscles(specimen, frame);
   draw_legend();
@@ -165,10 +173,8 @@ void draw_panels(const anatomy::Specimen& specimen, const messages::SceneFrame& 
   }
   ImGui::Separator();
   draw_rates(frame);
-  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  ImGui::TextWrapped("%s", state.note.c_str());
-  ImGui::TextUnformatted("Not a medical device.");
-  ImGui::PopStyleColor();
+  draw_wrapped(state.note, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::TextDisabled("Not a medical device.");
   ImGui::End();
   if (state.help) draw_help();
 }
