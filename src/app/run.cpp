@@ -16,6 +16,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "device/simulated_device.h"
+#include "measure/shove_report.h"
 #include "measure/stiffness_sweep.h"
 #include "scene/extremes.h"
 #include "scene/free_session.h"
@@ -123,6 +124,18 @@ nlohmann::json summary_json(const scene::Scene& scene, const RunSummary& summary
           {"fault_bits", summary.extremes.faults}};
 }
 
+nlohmann::json shove_json(const scene::ShoveRecord& record) {
+  const measure::ShoveReport report = measure::report_shove(record);
+  return {{"K_pushed_Nm_rad", report.pushed_stiffness_Nm_rad},
+          {"K_read_Nm_rad", report.read_stiffness_Nm_rad},
+          {"frequency_sqrt_K_I_hz", report.undamped_frequency_hz},
+          {"frequency_linear_hz", report.mode.frequency_hz},
+          {"damping_ratio_linear", report.mode.damping_ratio},
+          {"frequency_measured_hz", report.measured_frequency_hz},
+          {"swing_error", report.swing_error},
+          {"why", report.why}};
+}
+
 /// Sweep and chart at the scene's own angle, on fresh simulations: the run's end does not matter to it. Null when
 /// interrupted.
 nlohmann::json measure_stiffness(const Options& options, const scene::Scene& scene, std::vector<double> levels) {
@@ -156,6 +169,7 @@ int run(const Options& options) {
   }
   nlohmann::json report = summary_json(scene, summary);
   if (options.realtime) report["realtime"] = timing;
+  if (summary.shove.joint >= 0) report["shove"] = shove_json(summary.shove);
   if (scene.co_contraction && interruption() == 0) report["stiffness"] = measure_stiffness(options, scene, levels);
   write_file(options.out / "summary.json", report.dump(2) + "\n");
   if (options.json) {

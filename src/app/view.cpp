@@ -6,6 +6,7 @@
 #include <spdlog/spdlog.h>
 
 #include "app/interruption.h"
+#include "app/joint_watch.h"
 #include "app/options.h"
 #include "core/file.h"
 #include "device/mouse_device.h"
@@ -60,6 +61,7 @@ scene::Requests requests_of(const view::ViewControls& controls) {
   requests.stop_forces = controls.forces_off;
   requests.steps = controls.steps;
   requests.resets = controls.resets;
+  requests.shoves = controls.shoves;
   return requests;
 }
 
@@ -83,13 +85,17 @@ int view(const Options& options) {
   watch_for_interruption();
   session.start();
   messages::SceneFrame frame;
+  JointWatch watch(scene);
+  double common = scene.co_contraction ? scene.co_contraction->common : 0.0;
   const double end_s = options.seconds.value_or(kForever_s);
   while (!window.should_close() && session.running() && interruption() == 0) {
     session.fetch_frame(frame);
     const bool last = frame.time_s >= end_s;
     if (last) window.save_next_picture(options.out / "window.png");
     const auto drawing_since = std::chrono::steady_clock::now();
+    window.set_readings(watch.read(frame, common, session));
     const view::ViewControls& controls = window.draw(frame);
+    common = controls.common;
     leave_time_to_the_simulation(std::chrono::steady_clock::now() - drawing_since);
     session.request(requests_of(controls));
     mouse.set_pointer(to_vec3(controls.hand_world_m), controls.hand_buttons);

@@ -22,12 +22,23 @@ struct ToolFrame {
 /// What stands beside a joint's stiffness that mass-spring muscles have a part in.
 inline constexpr const char* kPreviewMark = "preview (mass-spring)";
 
+/// What one muscle adds to a joint.
+struct MuscleJointFrame {
+  double torque_Nm = 0.0;
+  double stiffness_Nm_rad = 0.0;      // of its tissue
+  double line_muscle_Nm_rad = 0.0;    // r^2 k of its line
+  double line_geometry_Nm_rad = 0.0;  // -(dr/dq) F of its line
+};
+
 /// Numbers of a joint for plots and panels.
 struct JointFrame {
   double angle_rad = 0.0;
   double torque_Nm = 0.0;
   double stiffness_Nm_rad = 0.0;
-  bool preview = false;  // mass-spring muscles are in it
+  bool preview = false;                   // mass-spring muscles are in it
+  double passive_Nm_rad = 0.0;            // of the stiffness: the joint's own
+  double contact_Nm_rad = 0.0;            // and what contact adds, as of the last settle
+  std::vector<MuscleJointFrame> muscles;  // as in the specimen
 };
 
 struct RateFrame {

@@ -96,6 +96,11 @@ bool FreeSession::fetch_frame(messages::SceneFrame& frame) {
   return true;
 }
 
+ShoveRecord FreeSession::fetch_shove() {
+  const std::scoped_lock lock(frame_mutex_);
+  return shove_;
+}
+
 void FreeSession::obey(const Requests& requests) {
   if (requests.levels_changed) conductor_.ask_levels(requests.flexors, requests.extensors);
   if (requests.balance_changed) conductor_.ask_co_contraction(requests.common, requests.difference);
@@ -105,6 +110,7 @@ void FreeSession::obey(const Requests& requests) {
     conductor_.ask_gravity(requests.gravity ? Vec3(0.0, 0.0, -kGravity_m_s2) : Vec3::Zero());
   }
   if (requests.resets != obeyed_.resets) conductor_.restart();
+  if (requests.shoves != obeyed_.shoves) conductor_.ask_shove_test();
   loop_.stop_forces(requests.stop_forces);
 }
 
@@ -184,6 +190,7 @@ void FreeSession::publish_frame() {
   frame_.rates.missed_ticks = haptic_thread_.missed_count();
   frame_.rates.time_factor = static_cast<double>(step_count_) * scene_->settings.dt_s / wall_s;
   frame_.notice = conductor_.notice();
+  shove_ = conductor_.shove_test().record();
   ++frame_.sequence;
 }
 

@@ -34,6 +34,7 @@ struct Requests {
   bool stop_forces = false;
   std::uint32_t steps = 0;   // single steps asked for so far
   std::uint32_t resets = 0;  // resets asked for so far
+  std::uint32_t shoves = 0;  // shove tests asked for so far
 };
 
 /// What a free run reports when it ends.
@@ -67,6 +68,8 @@ class FreeSession {
   void request(const Requests& requests);
   /// Copies the newest frame; false when there is none newer.
   bool fetch_frame(messages::SceneFrame& frame);
+  /// The newest shove test that came to its end; joint -1: none has.
+  ShoveRecord fetch_shove();
 
  private:
   void simulate();
@@ -91,6 +94,7 @@ class FreeSession {
   Requests obeyed_;
   std::mutex frame_mutex_;  // between simulation and drawing only; neither has a deadline
   messages::SceneFrame frame_;
+  ShoveRecord shove_;
   std::uint64_t drawn_sequence_ = 0;
   std::uint64_t model_sequence_ = 0;
   realtime::PeriodHistogram steps_;

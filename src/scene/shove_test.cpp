@@ -30,6 +30,9 @@ void ShoveTest::start(int joint, const simulation::Simulation& simulation) {
   record_.joint = joint;
   record_.dt_s = dt_s_;
   record_.before = simulation.joint(joint);
+  for (int m = 0; m < simulation.muscle_count(); ++m) {
+    record_.muscles_before.push_back(simulation.muscle_at_joint(m, joint));
+  }
   record_.push_Nm = kWantedTurn_rad * std::max(record_.before.stiffness_Nm_rad, kLeastStiffness_Nm_rad);
   record_.pulse_Nm = kStrokeOverPush * record_.push_Nm;
   record_.pulse_s = kStrokeEnd_s - kStrokeFrom_s;

@@ -14,7 +14,8 @@ struct ShoveRecord {
   int joint = -1;
   double dt_s = 0.0;
   simulation::JointReadout before;  // at rest
-  double push_Nm = 0.0;             // slow push, and how far it took the joint from its rest
+  std::vector<simulation::MuscleAtJoint> muscles_before;
+  double push_Nm = 0.0;  // slow push, and how far it took the joint from its rest
   double pushed_rad = 0.0;
   double pulse_Nm = 0.0;  // stroke and its duration
   double pulse_s = 0.0;

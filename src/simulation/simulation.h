@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,7 +37,8 @@ struct JointReadout {
   double contact_Nm_rad = 0.0;  // of the stiffness: lost if contact forces stayed as they are while the joint turns
   double passive_Nm_rad = 0.0;  // the joint's own
   double inertia_kg_m2 = 0.0;
-  double damping_Nms_rad = 0.0;  // of the joint itself and the muscle lines' fibres, sum r^2 b
+  double joint_damping_Nms_rad = 0.0;  // the joint's own
+  double damping_Nms_rad = 0.0;        // of the joint itself and the muscle lines' fibres, sum r^2 b
   bool preview = false;  // a mass-spring muscle spans the joint: torque and stiffness are no more than a preview
 };
 
@@ -46,6 +48,10 @@ struct MuscleAtJoint {
   double stiffness_Nm_rad = 0.0;      // of the quasi-static tissue, as of the last refresh
   double line_muscle_Nm_rad = 0.0;    // r^2 k of its line
   double line_geometry_Nm_rad = 0.0;  // -(dr/dq) F of its line
+  double line_damping_Nms_rad = 0.0;  // r^2 b of its line's fibres
+  double lever_m = 0.0;               // r of its line, positive flexes
+  double lever_slope_m_rad = 0.0;     // dr/dq
+  std::optional<HillForce> unit;      // of a Line muscle: fibres and tendon at rest at the present length
 };
 
 /// Soft muscles on a skeleton, advanced by a fixed implicit step. Single caller; makes its own workers.
@@ -77,6 +83,7 @@ class Simulation {
   double time_s() const;
   double activation(int muscle) const;
   double excitation(int muscle) const;
+  int muscle_count() const;
   double muscle_force_N(int muscle) const;  // tension that the muscle hands to its tendon
   /// Torque of one muscle about a joint, positive flexes [N m]; of the last step or settle.
   double muscle_torque_Nm(int muscle, int joint) const;

@@ -8,6 +8,7 @@
 #include <imgui.h>
 
 #include "view/colour_map.h"
+#include "view/joint_panel.h"
 #include "view/key_bindings.h"
 
 namespace myotact::view {
@@ -163,6 +164,7 @@ void draw_panels(const anatomy::Specimen& specimen, const messages::SceneFrame& 
   state.angle.draw(kPlotHeight);
   state.stiffness.draw(kPlotHeight);
   const auto joint = static_cast<std::size_t>(state.joint);
+  if (joint < frame.joints.size()) draw_joint(frame.joints[joint], state.readings, controls);
   if (joint < frame.joints.size() && frame.joints[joint].preview) {
     ImGui::Text("joint stiffness: %s", messages::kPreviewMark);
   }

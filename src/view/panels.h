@@ -4,6 +4,7 @@
 
 #include "anatomy/specimen.h"
 #include "messages/scene_frame.h"
+#include "view/joint_readings.h"
 #include "view/plot.h"
 #include "view/view_controls.h"
 
@@ -17,6 +18,7 @@ struct PanelState {
   Plot stiffness{"joint stiffness [N m/rad]", 1.0};
   Plot force{"tool force [N]", 1.0};
   std::string note;
+  JointReadings readings;
   double device_peak_N = 3.3;
   int joint = 0;  // shown in the plots
   bool help = false;

@@ -18,6 +18,7 @@ struct ViewControls {
   bool forces_off = false;
   std::uint32_t steps = 0;   // single steps asked for so far
   std::uint32_t resets = 0;  // resets asked for so far
+  std::uint32_t shoves = 0;  // shove tests asked for so far
   bool hand_moves = false;   // the mouse is the hand now
   std::array<double, 3> hand_world_m{};
   std::uint32_t hand_buttons = 0;

@@ -220,6 +220,10 @@ Window::Window(const anatomy::Specimen& specimen, const WindowSettings& settings
 
 Window::~Window() = default;
 
+void Window::set_readings(const JointReadings& readings) {
+  impl_->panels.readings = readings;
+}
+
 bool Window::should_close() const {
   return glfwWindowShouldClose(impl_->window.get()) == GLFW_TRUE;
 }

@@ -7,6 +7,7 @@
 
 #include "anatomy/specimen.h"
 #include "messages/scene_frame.h"
+#include "view/joint_readings.h"
 #include "view/view_controls.h"
 
 namespace myotact::view {
@@ -30,6 +31,8 @@ class Window {
 
   /// Handles input, draws one picture, waits for the display. Returns what the person asks for.
   const ViewControls& draw(const messages::SceneFrame& frame);
+  /// What the panel says about the joint from the next picture on.
+  void set_readings(const JointReadings& readings);
   bool should_close() const;
   /// The next picture is also written to this PNG.
   void save_next_picture(const std::filesystem::path& path);

@@ -118,7 +118,7 @@ TEST(LineStiffness, SideThatCannotBeHeldSaysSo) {
   }
 }
 
-TEST(LineMode, RigidTendonsGiveTheTextbookOscillator) {
+TEST(JointMode, RigidTendonsGiveTheTextbookOscillator) {
   const LineModel model = with_tendon(load_line_model(shipped("line_elbow")), simulation::Tendon::Rigid);
   const LineRow row = line_stiffness(model).front();
   const double K = row.state.all().stiffness_Nm_rad(), B = row.state.all().damping_Nms_rad;
@@ -129,12 +129,12 @@ TEST(LineMode, RigidTendonsGiveTheTextbookOscillator) {
 }
 
 // One fibre on its tendon and an inertia: I s^2 + geo + r^2 kt (km + bm s)/(km + kt + bm s) = 0 at the oscillation.
-TEST(LineMode, ElasticTendonSolvesTheCharacteristicEquation) {
+TEST(JointMode, ElasticTendonSolvesTheCharacteristicEquation) {
   LineModel model = load_line_model(shipped("line_stifle"));
   LineJoint joint = model.joint;
   joint.muscles = {model.joint.muscles[0]};
   const LineJointState state = line_joint_state(joint, 0.3, {0.6, 0.0});
-  const LineMode mode = line_joint_mode(joint, state);
+  const JointMode mode = mode_of(response_of(joint, state));
   ASSERT_GT(mode.frequency_hz, 0.0);
   const double modulus = 2.0 * std::numbers::pi * mode.frequency_hz / std::sqrt(1.0 - std::pow(mode.damping_ratio, 2));
   const std::complex<double> s(-mode.damping_ratio * modulus, 2.0 * std::numbers::pi * mode.frequency_hz);
@@ -146,11 +146,11 @@ TEST(LineMode, ElasticTendonSolvesTheCharacteristicEquation) {
   EXPECT_LT(std::abs(residual), 1e-9 * std::abs(joint.inertia_kg_m2 * s * s));
 }
 
-TEST(LineMode, UnstableJointRunsAway) {
+TEST(JointMode, UnstableJointRunsAway) {
   LineModel model = with_tendon(load_line_model(shipped("line_elbow")), simulation::Tendon::Rigid);
   LineJointState state = line_joint_state(model.joint, 0.0, {0.5, 0.3});
   for (LineMuscleState& muscle : state.muscles) muscle.path.arm_slope_m_rad = 1.0;
-  EXPECT_LT(line_joint_mode(model.joint, state).damping_ratio, 0.0);
+  EXPECT_LT(mode_of(response_of(model.joint, state)).damping_ratio, 0.0);
 }
 
 TEST(LineMotion, JointInBalanceStaysWhereItIs) {

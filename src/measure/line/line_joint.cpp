@@ -33,4 +33,13 @@ LineJointState line_joint_state(const LineJoint& joint, double q_rad, const Side
   return state;
 }
 
+JointResponse response_of(const LineJoint& joint, const LineJointState& state) {
+  JointResponse response;
+  response.inertia_kg_m2 = joint.inertia_kg_m2;
+  for (const LineMuscleState& muscle : state.muscles) {
+    add_muscle(muscle.path.arm_m, muscle.path.arm_slope_m_rad, muscle.force, response);
+  }
+  return response;
+}
+
 }  // namespace myotact::measure

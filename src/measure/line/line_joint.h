@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
+#include "measure/joint_response.h"
 #include "measure/line/wrapped_path.h"
 #include "simulation/hill_muscle.h"
 #include "simulation/line_model.h"
@@ -65,17 +64,7 @@ struct LineBalance {
 /// what balances it. Each side needs a driven muscle.
 LineBalance balance_sides(const LineJoint& joint, double q_rad, double level);
 
-/// The joint made linear about a state, activations held: rates of (angle, angular velocity, reach of each fibre that
-/// an elastic tendon leaves to itself), size 2 + fibres. The fibres' damping is that of force-velocity at rest.
-Eigen::MatrixXd line_joint_rates(const LineJoint& joint, const LineJointState& state);
-
-/// How the joint swings back after a nudge.
-struct LineMode {
-  double frequency_hz = 0.0;   // 0 when it does not oscillate
-  double damping_ratio = 1.0;  // 1 when it creeps back, negative when it runs away
-};
-
-/// From the eigenvalues of line_joint_rates: of several oscillations the one of least damping ratio.
-LineMode line_joint_mode(const LineJoint& joint, const LineJointState& state);
+/// The joint made linear about a state, activations held; the fibres' damping is that of force-velocity at rest.
+JointResponse response_of(const LineJoint& joint, const LineJointState& state);
 
 }  // namespace myotact::measure

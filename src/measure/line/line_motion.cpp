@@ -90,9 +90,9 @@ std::vector<double> move_line_joint(const LineJoint& joint, const LineMotion& mo
 }
 
 std::vector<double> move_linear_joint(const LineJoint& joint, const LineJointState& state, const LineMotion& motion) {
-  const Eigen::MatrixXd rates_1_s = line_joint_rates(joint, state);
-  const Eigen::MatrixXd over_a_step = (rates_1_s * motion.dt_s).exp();
-  Eigen::VectorXd now = Eigen::VectorXd::Zero(rates_1_s.rows());
+  const Eigen::MatrixXd rates = rates_1_s(response_of(joint, state));
+  const Eigen::MatrixXd over_a_step = (rates * motion.dt_s).exp();
+  Eigen::VectorXd now = Eigen::VectorXd::Zero(rates.rows());
   now[1] = motion.velocity_rad_s;
   std::vector<double> angles_rad;
   for (int i = 0; i < motion.steps; ++i) {

@@ -26,7 +26,7 @@ LineRow row_at(const LineModel& model, double q_rad, double level) {
   row.state = line_joint_state(joint, q_rad, levels);
   const double K_Nm_rad = row.state.all().stiffness_Nm_rad();
   row.frequency_hz = std::sqrt(K_Nm_rad / joint.inertia_kg_m2) / (2.0 * std::numbers::pi);
-  row.mode = line_joint_mode(joint, row.state);
+  row.mode = mode_of(response_of(joint, row.state));
   row.K_perturbed_Nm_rad =
       (torque_at_Nm(joint, q_rad - kNudge_rad, levels) - torque_at_Nm(joint, q_rad + kNudge_rad, levels)) /
       (2.0 * kNudge_rad);

@@ -17,7 +17,7 @@ struct LineRow {
   LineBalance balance;
   LineJointState state;
   double frequency_hz = 0.0;  // sqrt(K/I)/2pi; NaN when K < 0
-  LineMode mode;
+  JointMode mode;
   double K_perturbed_Nm_rad = 0.0;    // central difference of the torque
   double K_short_range_Nm_rad = 0.0;  // with short-range stiffness
   double push_flexing_N = 0.0;        // force at the paw that holds the joint kPush_rad further flexed

@@ -1,0 +1,140 @@
+#include "simulation/simulation_impl.h"
+
+// What can be asked of the simulation between steps.
+
+namespace myotact::simulation {
+namespace {
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+LineGeometry Simulation::Impl::line_geometry_of(int muscle) const {
+  LineGeometry geometry;
+  measure_line(*lines[at(muscle)].line, limb.skeleton, geometry);
+  return geometry;
+}
+
+/// What the muscle's line does now; of a Line muscle at rest at its present length, which is what its stiffness means.
+LineForce Simulation::Impl::line_force_of(int muscle, const LineGeometry& geometry) const {
+  const LimbMuscle& m = limb.muscles[at(muscle)];
+  if (m.line) return resting_force(*m.line, m.state.activation);
+  const double speed_m_s = geometry.slope_m_rad.dot(limb.now.velocity_rad_s);
+  return line_force(specimen.muscles[at(muscle)], geometry.length_m - lines[at(muscle)].length_m, speed_m_s,
+                    m.state.activation);
+}
+
+std::vector<LineReading> Simulation::Impl::read_lines() const {
+  std::vector<LineReading> readings;
+  for (int m = 0; m < static_cast<int>(lines.size()); ++m) {
+    const LineGeometry geometry = line_geometry_of(m);
+    readings.push_back({geometry, line_force_of(m, geometry)});
+  }
+  return readings;
+}
+
+/// That the muscle hands to its tendon; of one that is only a shape, what its line would.
+double Simulation::Impl::tension_N(int muscle) const {
+  const LimbMuscle& m = limb.muscles[at(muscle)];
+  return m.rigid && !m.line ? line_force_of(muscle, line_geometry_of(muscle)).force_N : m.readout.tension_N;
+}
+
+double Simulation::muscle_force_N(int muscle) const {
+  return impl_->tension_N(muscle);
+}
+
+double Simulation::muscle_torque_Nm(int muscle, int joint) const {
+  return impl_->limb.muscles[at(muscle)].readout.torque_Nm[joint];
+}
+
+/// A muscle that is only a shape has no part in any joint.
+MuscleAtJoint Simulation::Impl::at_joint(int muscle, int joint, const LineReading& line) const {
+  const LimbMuscle& m = limb.muscles[at(muscle)];
+  if (m.rigid && !m.line) return {};
+  const LineJointTerms terms = line_joint_terms(line.geometry, line.force, joint);
+  MuscleAtJoint part;
+  part.torque_Nm = m.readout.torque_Nm[joint];
+  part.stiffness_Nm_rad = m.stiffness_Nm_rad[joint];
+  part.line_muscle_Nm_rad = terms.muscle_Nm_rad;
+  part.line_geometry_Nm_rad = terms.geometry_Nm_rad;
+  part.line_damping_Nms_rad = terms.damping_Nms_rad;
+  part.lever_m = -line.geometry.slope_m_rad[joint];
+  part.lever_slope_m_rad = -line.geometry.curvature_m_rad2(joint, joint);
+  if (m.line) part.unit = hill_equilibrium(m.line->hill, m.line->length_m, m.state.activation);
+  return part;
+}
+
+MuscleAtJoint Simulation::muscle_at_joint(int muscle, int joint) const {
+  const LineGeometry geometry = impl_->line_geometry_of(muscle);
+  return impl_->at_joint(muscle, joint, {geometry, impl_->line_force_of(muscle, geometry)});
+}
+
+JointReadout Simulation::Impl::joint(int joint, const std::vector<LineReading>& lines_now) const {
+  JointReadout readout;
+  readout.angle_rad = limb.now.angle_rad[joint];
+  readout.velocity_rad_s = limb.now.velocity_rad_s[joint];
+  readout.passive_Nm_rad = limb.loads.passive_Nm_rad[joint];
+  readout.stiffness_Nm_rad = readout.passive_Nm_rad;
+  readout.inertia_kg_m2 = limb.loads.mass_kg_m2(joint, joint);
+  readout.joint_damping_Nms_rad = readout.damping_Nms_rad = limb.loads.damping_Nms_rad[joint];
+  for (std::size_t m = 0; m < limb.muscles.size(); ++m) {
+    const MuscleAtJoint part = at_joint(static_cast<int>(m), joint, lines_now[m]);
+    readout.net_torque_Nm += part.torque_Nm;
+    readout.stiffness_Nm_rad += part.stiffness_Nm_rad;
+    readout.contact_Nm_rad += limb.muscles[m].contact_stiffness_Nm_rad[joint];
+    readout.line_muscle_Nm_rad += part.line_muscle_Nm_rad;
+    readout.line_geometry_Nm_rad += part.line_geometry_Nm_rad;
+    readout.damping_Nms_rad += part.line_damping_Nms_rad;
+    readout.preview |=
+        limb.muscles[m].tissue.model == TissueModel::MassSpring && spans_joint(*lines[m].line, limb.skeleton, joint);
+  }
+  return readout;
+}
+
+JointReadout Simulation::joint(int joint) const {
+  return impl_->joint(joint, impl_->read_lines());
+}
+
+int Simulation::muscle_count() const {
+  return static_cast<int>(impl_->limb.muscles.size());
+}
+
+Pose Simulation::body_pose(int body) const {
+  return impl_->limb.skeleton.body_pose(body);
+}
+
+std::span<const Vec3> Simulation::skin_world_m(int muscle) const {
+  return impl_->surfaces.current_m(muscle);
+}
+
+std::vector<Vec3> Simulation::line_world_m(int muscle) const {
+  return line_points_W(*impl_->lines[at(muscle)].line, impl_->limb.skeleton);
+}
+
+double Simulation::volume_ratio(int muscle) const {
+  return impl_->limb.muscles[at(muscle)].readout.volume_ratio;
+}
+
+double Simulation::contact_force_N(int muscle) const {
+  return impl_->limb.muscles[at(muscle)].readout.contact_N;
+}
+
+double Simulation::contact_depth_m(int muscle) const {
+  return impl_->limb.muscles[at(muscle)].readout.contact_depth_m;
+}
+
+double Simulation::residual_share() const {
+  return impl_->residual_share;
+}
+
+double Simulation::smallest_volume_ratio(int muscle) const {
+  return impl_->limb.muscles[at(muscle)].readout.smallest_J;
+}
+
+std::uint64_t Simulation::state_hash() const {
+  return hash_of_state(impl_->limb);
+}
+
+}  // namespace myotact::simulation
