@@ -54,7 +54,7 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
   run->add_option("--every", options.every, "keep every n-th tick in samples.csv")->check(CLI::Range(1, 1000000));
   bind(run, myotact::app::run);
   CLI::App* stiffness = add_scene_command(program, options, "stiffness", "joint stiffness against co-contraction");
-  stiffness->add_option("--angles", options.angles, "joint angles q [degrees]: 0,10 or first:step:last")
+  stiffness->add_option("--angles", options.angles, "joint angles q [degrees]: 0,10 or first:step:last; default: the scene's own")
       ->capture_default_str();
   stiffness->add_option("--joint", options.joint,
                         "joint of the specimen; without: the one that the scene co-contracts");

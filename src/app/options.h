@@ -26,7 +26,7 @@ struct Options {
   bool realtime = false;
   int every = 1;
   int workers = 2;
-  std::string angles = "0";  // stiffness: a number list, degrees
+  std::string angles;  // stiffness: a number list, degrees; empty: the scene's own
   std::string levels = "0:0.25:1";
   std::optional<std::string> joint;  // stiffness
   std::string shard;

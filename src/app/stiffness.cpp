@@ -98,27 +98,33 @@ scene::Scene scene_to_sweep(const Options& options) {
   return scene;
 }
 
-measure::SweepGrid grid_of(const Options& options, const anatomy::Joint& joint) {
+/// The angles asked for, else the one at which the scene has the joint. Those that the joint cannot take are named and
+/// left out, so that one range serves several joints.
+std::vector<double> angles_of(const Options& options, const anatomy::Joint& joint, double scene_angle_rad) {
   constexpr double kRounding_rad = 1e-9;  // the range's ends are typed in degrees with a few digits
-  measure::SweepGrid grid{{}, levels_of(options)};
+  if (options.angles.empty()) return {scene_angle_rad};
   const auto [lowest, highest] = joint.range_rad[0];
+  std::vector<double> angles_rad;
+  std::vector<std::string> outside;
   for (const double angle_deg : parse_number_list("--angles", options.angles)) {
     const double q_rad = angle_deg * kRadians;
-    if (!(q_rad >= lowest - kRounding_rad && q_rad <= highest + kRounding_rad)) {
-      throw Error(ExitStatus::Usage,
-                  fmt::format("--angles: {} is outside the range of the joint {}, {:.2f} .. {:.2f} degrees",
-                              to_text(angle_deg), joint.key, lowest / kRadians, highest / kRadians));
-    }
-    grid.angles_rad.push_back(q_rad);
+    const bool possible = q_rad >= lowest - kRounding_rad && q_rad <= highest + kRounding_rad;
+    if (possible) angles_rad.push_back(q_rad);
+    if (!possible) outside.push_back(to_text(angle_deg));
   }
-  return grid;
+  const std::string problem = fmt::format("--angles: {} is outside the range of the joint {}, {:.2f} .. {:.2f} degrees",
+                                          join(outside), joint.key, lowest / kRadians, highest / kRadians);
+  if (angles_rad.empty()) throw Error(ExitStatus::Usage, problem);
+  if (!outside.empty()) spdlog::warn("{}; left out", problem);
+  return angles_rad;
 }
 
 int sweep(const Options& options) {
   const scene::Scene scene = scene_to_sweep(options);
   const anatomy::Joint& joint = scene.specimen.joints[static_cast<std::size_t>(scene.co_contraction->joint)];
   const Shard shard = shard_of(options.shard);
-  const measure::SweepGrid grid = grid_of(options, joint);
+  const double scene_angle_rad = scene.joints[static_cast<std::size_t>(scene.co_contraction->joint)].angle_rad;
+  const measure::SweepGrid grid{angles_of(options, joint, scene_angle_rad), levels_of(options)};
   measure::SweepPart result{measure::sweep_origin(scene, grid, MYOTACT_VERSION), shard.part, shard.parts, {}};
   const std::string missing = measure::missing_uncertainty(joint);
   if (!missing.empty()) spdlog::warn("{}", missing);

@@ -98,14 +98,22 @@ TEST_F(Stiffness, AnotherJointIsDrivenByItsGroups) {
   EXPECT_EQ(run_program(sweep + "--joint knee").status, 2);
 }
 
+TEST_F(Stiffness, LeavesOutAnglesThatTheJointCannotTake) {
+  const Outcome some = run_program("stiffness elbow --angles -30:30:30 --levels 0 --set tissue.default=line" + out());
+  EXPECT_EQ(some.status, 0);
+  EXPECT_THAT(some.output,
+              HasSubstr("-30 is outside the range of the joint elbow, -12.03 .. 100.27 degrees; left out"));
+  EXPECT_THAT(content(folder_.path() / "out" / "stiffness.csv"), HasSubstr("elbow,0.5235987755982988,"));
+}
+
 TEST_F(Stiffness, RefusesWhatCannotBeMeasuredByName) {
   const auto refused = [&](const std::string& more) {
     const Outcome outcome = run_program(fmt::format("stiffness elbow {}{}", more, out()));
     EXPECT_EQ(outcome.status, 2) << outcome.output;
     return outcome.output;
   };
-  EXPECT_THAT(refused("--angles -30:10:60"),
-              HasSubstr("--angles: -30 is outside the range of the joint elbow, -12.03 .. 100.27 degrees"));
+  EXPECT_THAT(refused("--angles -30:10:-20"),
+              HasSubstr("--angles: -30, -20 is outside the range of the joint elbow, -12.03 .. 100.27 degrees"));
   EXPECT_THAT(refused("--angles 200"), HasSubstr("--angles: 200 is outside"));
   EXPECT_THAT(refused("--angles 10:5:0"), HasSubstr("descends"));
   EXPECT_THAT(refused("--angles ten"), HasSubstr("\"ten\" is not a number"));
