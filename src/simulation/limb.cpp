@@ -59,6 +59,10 @@ Limb::Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> model
         Eigen::VectorXd::Zero(skeleton.joint_count());
     muscles.push_back(std::move(muscle));
   }
+  if (!contact) return;
+  std::vector<MuscleTissue*> soft;
+  for (LimbMuscle& muscle : muscles) soft.push_back(muscle.rigid ? nullptr : &muscle.tissue);
+  touch_surfaces = make_touch_surfaces(soft);
 }
 
 Vec3 spring_point(const Limb& limb, const ToolSpring& spring) {

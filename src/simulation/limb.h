@@ -10,6 +10,7 @@
 #include "simulation/skeleton_loads.h"
 #include "simulation/skin_embedding.h"
 #include "simulation/tissue_system.h"
+#include "simulation/touch_surface.h"
 #include "simulation/worker_pool.h"
 
 namespace myotact::simulation {
@@ -49,6 +50,8 @@ struct LimbMuscle {
   Eigen::MatrixXd reduced;            // borders^T matrix^-1 borders
   Eigen::VectorXd reduced_residual;   // borders^T matrix^-1 residual
   Eigen::VectorXd start_m, change_m;  // of the Newton step: nodes where it starts, change of the free ones
+  Eigen::VectorXd coupled_m;          // what contact with neighbours adds to that change; empty: none
+  Eigen::MatrixXd follow_m_rad;       // matrix^-1 coupling, in the last stiffness: how the free nodes follow the joints
   double energy_slope = 0.0;          // along that change
   double residual_share = 0.0;        // out-of-balance force over the size of the forces, springs included
   bool balanced = false;              // within this step: needs no new tangent
@@ -67,7 +70,8 @@ struct JointFrameState {
 
 /// Everything that moves, and what a step needs. See step.h and settle.h.
 struct Limb {
-  /// `models`: one a muscle; empty: all Fem. `tendon`: of the Line ones. `contact`: the others touch the bones.
+  /// `models`: one a muscle; empty: all Fem. `tendon`: of the Line ones. `contact`: the others touch bones and each
+  /// other.
   explicit Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> models = {},
                 Tendon tendon = Tendon::Elastic, bool contact = true);
 
@@ -77,9 +81,10 @@ struct Limb {
   Eigen::VectorXd external_torque_Nm;
   Vec3 gravity_m_s2 = Vec3::Zero();
   std::vector<LimbMuscle> muscles;
-  std::vector<ToolSpring> springs;          // of the present step
-  std::vector<Vec3> spring_force_N;         // on the tissue or bone
-  std::vector<Mat3> spring_compliance_m_N;  // of the tissue under each spring in the present step
+  std::vector<TouchSurface> touch_surfaces;  // one a muscle; none without contact
+  std::vector<ToolSpring> springs;           // of the present step
+  std::vector<Vec3> spring_force_N;          // on the tissue or bone
+  std::vector<Mat3> spring_compliance_m_N;   // of the tissue under each spring in the present step
 
   std::span<const double> angles() const {
     return {now.angle_rad.data(), static_cast<std::size_t>(now.angle_rad.size())};

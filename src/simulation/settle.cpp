@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+
+#include "simulation/coupled_solve.h"
+#include "simulation/step.h"
 
 namespace myotact::simulation {
 namespace {
@@ -25,6 +27,12 @@ constexpr int kMostCuts = 12;
 /// that unbuckles creeps for hundreds of steps): the step is doubled as long as that holds.
 constexpr double kStillSteep = 0.8;
 constexpr double kLongestStep = 1024.0;
+/// Newton steps of all muscles together at most; each finds the faces under the nodes anew, which costs it its second
+/// order: the share falls by about ten in each.
+constexpr int kMostRounds = 40;
+/// Out-of-balance share that touching muscles must at least reach: a node between two faces may not know which to lie
+/// on.
+constexpr double kTouchingShare = 1e-6;
 /// A guess that folds elements over farther than this is not looked at.
 constexpr double kSmallestJ = -0.5;
 
@@ -123,7 +131,8 @@ void turn_to(Limb& limb, const Eigen::VectorXd& angles_rad) {
   }
 }
 
-bool settle_all(Limb& limb, double wanted_share, WorkerPool& workers) {
+/// Each muscle for itself, its neighbours where they were seen last.
+bool settle_each(Limb& limb, double wanted_share, WorkerPool& workers) {
   std::vector<char> settled(limb.muscles.size(), 1);
   workers.run(static_cast<int>(limb.muscles.size()), [&](int m) {
     const auto i = static_cast<std::size_t>(m);
@@ -131,6 +140,41 @@ bool settle_all(Limb& limb, double wanted_share, WorkerPool& workers) {
       settled[i] = settle_muscle(limb.skeleton, limb.gravity_m_s2, wanted_share, limb.muscles[i]);
   });
   return std::all_of(settled.begin(), settled.end(), [](char s) { return s != 0; });
+}
+
+bool touching(const Limb& limb) {
+  return std::any_of(limb.muscles.begin(), limb.muscles.end(),
+                     [](const LimbMuscle& muscle) { return !muscle.state.touches.empty(); });
+}
+
+/// Largest out-of-balance share of a muscle as they lie now.
+double largest_share(Limb& limb, WorkerPool& workers) {
+  const TissueLoad load = static_load(limb.gravity_m_s2);
+  workers.run(static_cast<int>(limb.muscles.size()), [&](int m) {
+    LimbMuscle& muscle = limb.muscles[static_cast<std::size_t>(m)];
+    if (!muscle.rigid) compute_forces(muscle.tissue, limb.skeleton, load, muscle.state, muscle.system);
+  });
+  double share = 0.0;
+  for (const LimbMuscle& muscle : limb.muscles) {
+    if (!muscle.rigid) share = std::max(share, rest_share(muscle));
+  }
+  return share;
+}
+
+/// One by one first, which stands anything; where muscles touch, then all together, with the faces under their nodes
+/// found anew before each step.
+bool settle_all(Limb& limb, double wanted_share, WorkerPool& workers) {
+  find_touches(limb, workers);
+  const bool settled = settle_each(limb, touching(limb) ? kRoughShare : wanted_share, workers);
+  find_touches(limb, workers);
+  if (!touching(limb)) return settled;
+  double share = largest_share(limb, workers);
+  for (int round = 0; round < kMostRounds && !(share < wanted_share); ++round) {
+    if (!std::isfinite(relax(limb, workers))) return false;
+    find_touches(limb, workers);
+    share = largest_share(limb, workers);
+  }
+  return share < std::max(wanted_share, kTouchingShare);
 }
 
 /// All rates zero and all instants the same.
@@ -152,16 +196,31 @@ void bring_to_rest(Limb& limb) {
   limb.spring_compliance_m_N.clear();
 }
 
-/// -d(torque)/d(angle) about every joint, the tissue following in equilibrium; none when the tangent is singular.
-std::optional<Eigen::VectorXd> eliminated_stiffness(const Limb& limb, const TissueLoad& load, LimbMuscle& muscle) {
-  compute_system(limb.skeleton, load, muscle, Accuracy::Refined);
-  Eigen::MatrixXd solution;
-  const Pivots pivots = factor_system(muscle, muscle.system.coupling_N_rad, solution, Accuracy::Refined);
-  if (pivots == Pivots::Unusable) return std::nullopt;
-  const Eigen::MatrixXd whole =
-      muscle.system.joint_stiffness_Nm_rad - muscle.system.coupling_N_rad.transpose() * solution;
-  if (!whole.allFinite()) return std::nullopt;
-  return Eigen::VectorXd(whole.diagonal());
+/// -d(torque)/d(angle) about every joint, the nodes following as they do.
+Eigen::VectorXd followed_stiffness(const LimbMuscle& muscle) {
+  return (muscle.system.joint_stiffness_Nm_rad - muscle.system.coupling_N_rad.transpose() * muscle.follow_m_rad)
+      .diagonal();
+}
+
+/// How the nodes of all muscles follow the joints in equilibrium, and -d(torque)/d(angle) from it, one column a muscle.
+/// NaN where a tangent is singular.
+Eigen::MatrixXd eliminated_stiffness(Limb& limb, const TissueLoad& load, WorkerPool& workers) {
+  const int count = static_cast<int>(limb.muscles.size());
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Constant(limb.skeleton.joint_count(), count, std::nan(""));
+  std::vector<char> usable(limb.muscles.size(), 1);
+  workers.run(count, [&](int m) {
+    LimbMuscle& muscle = limb.muscles[static_cast<std::size_t>(m)];
+    if (muscle.rigid) return;
+    compute_system(limb.skeleton, load, muscle, Accuracy::Refined);
+    const Pivots pivots = factor_system(muscle, muscle.system.coupling_N_rad, muscle.follow_m_rad, Accuracy::Refined);
+    usable[static_cast<std::size_t>(m)] = pivots != Pivots::Unusable;
+  });
+  if (std::find(usable.begin(), usable.end(), 0) == usable.end()) couple_follow(limb, workers);
+  for (int m = 0; m < count; ++m) {
+    const LimbMuscle& muscle = limb.muscles[static_cast<std::size_t>(m)];
+    if (!muscle.rigid && usable[static_cast<std::size_t>(m)]) stiffness.col(m) = followed_stiffness(muscle);
+  }
+  return stiffness;
 }
 
 }  // namespace
@@ -205,19 +264,30 @@ void refresh_muscle_stiffness(const Limb& limb, LimbMuscle& muscle) {
     muscle.stiffness_Nm_rad = load.stiffness_Nm_rad.diagonal();
   }
   if (muscle.rigid) return;
-  if (const auto stiffness = eliminated_stiffness(limb, static_load(limb.gravity_m_s2), muscle))
-    muscle.stiffness_Nm_rad = *stiffness;
+  compute_system(limb.skeleton, static_load(limb.gravity_m_s2), muscle, Accuracy::Refined);
+  Eigen::MatrixXd right = muscle.system.coupling_N_rad, follow;
+  subtract_followed_coupling(limb, muscle, right);
+  if (factor_system(muscle, right, follow, Accuracy::Refined) == Pivots::Unusable || !follow.allFinite()) return;
+  muscle.follow_m_rad = follow;
+  const Eigen::VectorXd stiffness = followed_stiffness(muscle);
+  if (stiffness.allFinite()) muscle.stiffness_Nm_rad = stiffness;
 }
 
-void refresh_contact_stiffness(const Limb& limb, LimbMuscle& muscle) {
-  refresh_muscle_stiffness(limb, muscle);
-  if (muscle.rigid) return;
-  muscle.contact_stiffness_Nm_rad.setZero();
-  if (muscle.system.contact_N == 0.0) return;
+void refresh_stiffness(Limb& limb, WorkerPool& workers) {
   TissueLoad held = static_load(limb.gravity_m_s2);
   held.contact_held = true;
-  if (const auto without = eliminated_stiffness(limb, held, muscle))
-    muscle.contact_stiffness_Nm_rad = muscle.stiffness_Nm_rad - *without;
+  const Eigen::MatrixXd without = eliminated_stiffness(limb, held, workers);
+  const Eigen::MatrixXd whole = eliminated_stiffness(limb, static_load(limb.gravity_m_s2), workers);
+  for (std::size_t m = 0; m < limb.muscles.size(); ++m) {
+    LimbMuscle& muscle = limb.muscles[m];
+    if (muscle.line) refresh_muscle_stiffness(limb, muscle);
+    const Eigen::VectorXd stiffness = whole.col(static_cast<Eigen::Index>(m));
+    if (muscle.rigid || !stiffness.allFinite()) continue;
+    muscle.stiffness_Nm_rad = stiffness;
+    const Eigen::VectorXd contact = stiffness - without.col(static_cast<Eigen::Index>(m));
+    muscle.contact_stiffness_Nm_rad.setZero();
+    if (contact.allFinite()) muscle.contact_stiffness_Nm_rad = contact;
+  }
 }
 
 }  // namespace myotact::simulation

@@ -23,7 +23,7 @@ struct SimulationSettings {
   int workers = 2;                  // threads of a step, the caller's included; the result does not depend on it
   std::vector<TissueModel> tissue;  // one a muscle; empty: all Fem
   Tendon tendon = Tendon::Elastic;  // of the Line muscles
-  bool contact = true;              // muscles touch the bones; false is for speed where touch is all that counts
+  bool contact = true;  // muscles touch bones and each other; false is for speed where touch is all that counts
 };
 
 /// Joint stiffness K = -d(net torque)/dq at held activations, and what it is made of. All about the joint's axis.

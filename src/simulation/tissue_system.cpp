@@ -321,6 +321,7 @@ void run(const Pass& pass) {
   }
   add_elements(pass);
   add_bone_contact(pass);
+  add_neighbour_contact(pass);
   system.force_scale_N = std::sqrt(system.force_scale_N);
   for (const TendonStrand& strand : pass.tissue.strands) add_strand(pass, strand);
   system.joint_residual_Nm = -system.muscle_torque_Nm;  // so far: of strands and contact
@@ -358,7 +359,7 @@ TissueState make_state(const MuscleTissue& tissue) {
   }
   frame.velocity_m_s = Eigen::VectorXd::Zero(dofs);
   frame.stretch.assign(tissue.elements.size() * tissue.elements.front().points(), 1.0);
-  return {frame, frame, frame, std::vector<double>(frame.stretch.size(), 0.0), 0.0};
+  return {frame, frame, frame, std::vector<double>(frame.stretch.size(), 0.0), 0.0, {}};
 }
 
 void place_clamped(const MuscleTissue& tissue, const Skeleton& skeleton, TissueState& state) {

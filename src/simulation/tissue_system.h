@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "simulation/muscle_tissue.h"
+#include "simulation/neighbour_contact.h"
 #include "simulation/skeleton.h"
 #include "simulation/time_rule.h"
 
@@ -22,6 +23,7 @@ struct TissueState {
   TissueFrame now, last, before;
   std::vector<double> stretch_rate_1_s;  // of the last step, where the force-velocity curve is linearised
   double activation = 0.0;
+  std::vector<NeighbourTouch> touches;  // of this step
 };
 
 /// At rest in the rest position.

@@ -181,10 +181,12 @@ TEST(BoneContact, NothingPushesAtTheFilePose) {
     const anatomy::Specimen specimen = anatomy::load_specimen(std::string(MYOTACT_SOURCE_DIR "/meshes/") + name);
     const std::vector<TissueModel> springs(specimen.muscles.size(), TissueModel::MassSpring);
     Limb limb(specimen, springs);
+    WorkerPool workers(1);
+    find_touches(limb, workers);
     int inside = 0;
     for (LimbMuscle& muscle : limb.muscles) {
       compute_forces(muscle.tissue, limb.skeleton, {}, muscle.state, muscle.system);
-      EXPECT_EQ(muscle.system.contact_N, 0.0) << name;
+      EXPECT_LT(muscle.system.contact_N, 1e-9) << name;
       for (const BonePatch& patch : muscle.tissue.bone_contact.patches) {
         for (const BonePatch::Node& node : patch.nodes) inside += node.rest_depth_m > 0.0;
       }
