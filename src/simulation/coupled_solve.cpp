@@ -6,10 +6,8 @@
 namespace myotact::simulation {
 namespace {
 
-/// A Newton step is solved for so far that what is left in each muscle is below this share of the size of its forces: a
-/// step counts as balanced at four times that.
-constexpr double kStepShare = 0.005;
-constexpr int kMostStepIterations = 12;
+/// Of a Newton step.
+constexpr int kMostStepIterations = 30;
 /// The stiffness is read out of this solution itself.
 constexpr double kFollowShare = 1e-7;
 constexpr int kMostFollowIterations = 300;
@@ -110,9 +108,9 @@ void add_all_coupling(const Limb& limb, const Columns& columns, Columns& out) {
 }
 
 /// What the equations leave is small beside each muscle's forces.
-bool small_enough(const Limb& limb, const Columns& residual) {
+bool small_enough(const Limb& limb, const Columns& residual, double share) {
   for (std::size_t m = 0; m < residual.size(); ++m) {
-    if (residual[m].norm() > kStepShare * limb.muscles[m].system.force_scale_N) return false;
+    if (residual[m].norm() > share * limb.muscles[m].system.force_scale_N) return false;
   }
   return true;
 }
@@ -186,7 +184,7 @@ void subtract_followed_coupling(const Limb& limb, const LimbMuscle& muscle, Eige
   right -= product;
 }
 
-void couple_step(Limb& limb, const Eigen::PartialPivLU<Eigen::MatrixXd>& small, Eigen::VectorXd& solution,
+void couple_step(Limb& limb, const Eigen::PartialPivLU<Eigen::MatrixXd>& small, double share, Eigen::VectorXd& solution,
                  WorkerPool& workers) {
   const bool coupled = touches_neighbours(limb);
   for (LimbMuscle& muscle : limb.muscles) muscle.coupled_m.resize(0);
@@ -198,13 +196,13 @@ void couple_step(Limb& limb, const Eigen::PartialPivLU<Eigen::MatrixXd>& small, 
   }
   add_all_coupling(limb, start, residual);
   for (Eigen::MatrixXd& r : residual) r = -r;
-  if (small_enough(limb, residual)) return;
+  if (small_enough(limb, residual, share)) return;
   const WholeStep whole{limb, small, workers};
   Eigen::VectorXd rest = whole.solve_uncoupled(residual, nodes), along_rest = rest;
   along = nodes;
   Columns pushed = residual;  // uncoupled system times `along`
   double weight = dot(residual, nodes);
-  for (int i = 0; i < kMostStepIterations && !small_enough(limb, residual); ++i) {
+  for (int i = 0; i < kMostStepIterations && !small_enough(limb, residual, share); ++i) {
     Columns product = pushed;
     add_all_coupling(limb, along, product);
     const double curvature = dot(along, product);
@@ -214,11 +212,11 @@ void couple_step(Limb& limb, const Eigen::PartialPivLU<Eigen::MatrixXd>& small, 
     solution += part * along_rest;
     add(-part, product, residual);
     rest = whole.solve_uncoupled(residual, nodes);
-    const double next = dot(residual, nodes), share = next / weight;
+    const double next = dot(residual, nodes), kept = next / weight;
     weight = next;
-    update_direction(nodes, share, along);
-    update_direction(residual, share, pushed);
-    along_rest = rest + share * along_rest;
+    update_direction(nodes, kept, along);
+    update_direction(residual, kept, pushed);
+    along_rest = rest + kept * along_rest;
   }
   for (std::size_t m = 0; m < change.size(); ++m) limb.muscles[m].coupled_m = change[m].col(0);
 }

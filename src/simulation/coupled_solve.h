@@ -17,7 +17,8 @@ bool touches_neighbours(const Limb& limb);
 /// Puts the coupling between muscles into a Newton step whose muscles are eliminated (free_solution, borders,
 /// border_solution) and whose small system is factored. `solution` is the small system's without coupling and becomes
 /// the one with it; what changes in the muscles' own solutions goes to `coupled_m`, empty where there is no coupling.
-void couple_step(Limb& limb, const Eigen::PartialPivLU<Eigen::MatrixXd>& small, Eigen::VectorXd& solution,
+/// Goes on until the equations leave less in each muscle than `share` of the size of its forces.
+void couple_step(Limb& limb, const Eigen::PartialPivLU<Eigen::MatrixXd>& small, double share, Eigen::VectorXd& solution,
                  WorkerPool& workers);
 
 /// What the nodes of all muscles do when joints turn by one radian each, tissue following in equilibrium with its

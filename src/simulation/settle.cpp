@@ -27,12 +27,10 @@ constexpr int kMostCuts = 12;
 /// that unbuckles creeps for hundreds of steps): the step is doubled as long as that holds.
 constexpr double kStillSteep = 0.8;
 constexpr double kLongestStep = 1024.0;
-/// Newton steps of all muscles together at most; each finds the faces under the nodes anew, which costs it its second
-/// order: the share falls by about ten in each.
-constexpr int kMostRounds = 40;
-/// Out-of-balance share that touching muscles must at least reach: a node between two faces may not know which to lie
-/// on.
-constexpr double kTouchingShare = 1e-6;
+/// Newton steps of all muscles together at most. The first ones find the faces under the nodes anew each time, which
+/// costs them their second order: the share falls by some ten times in each. A node that has two faces to choose from
+/// may never make up its mind, so that in the later ones the faces stay.
+constexpr int kMostRounds = 40, kSearchingRounds = 20;
 /// A guess that folds elements over farther than this is not looked at.
 constexpr double kSmallestJ = -0.5;
 
@@ -162,7 +160,7 @@ double largest_share(Limb& limb, WorkerPool& workers) {
 }
 
 /// One by one first, which stands anything; where muscles touch, then all together, with the faces under their nodes
-/// found anew before each step.
+/// found anew before most steps.
 bool settle_all(Limb& limb, double wanted_share, WorkerPool& workers) {
   find_touches(limb, workers);
   const bool settled = settle_each(limb, touching(limb) ? kRoughShare : wanted_share, workers);
@@ -170,11 +168,11 @@ bool settle_all(Limb& limb, double wanted_share, WorkerPool& workers) {
   if (!touching(limb)) return settled;
   double share = largest_share(limb, workers);
   for (int round = 0; round < kMostRounds && !(share < wanted_share); ++round) {
-    if (!std::isfinite(relax(limb, workers))) return false;
-    find_touches(limb, workers);
+    if (!std::isfinite(relax(limb, share, workers))) return false;
+    if (round < kSearchingRounds) find_touches(limb, workers);
     share = largest_share(limb, workers);
   }
-  return share < std::max(wanted_share, kTouchingShare);
+  return share < wanted_share;
 }
 
 /// All rates zero and all instants the same.

@@ -17,6 +17,10 @@ constexpr int kMostIterations = 3;
 /// Out-of-balance force, over the size of the elements' forces, at which a step counts as solved. Below the 3 % that
 /// one linearised step costs in force anyway (measured on twitches against steps of 1 ms).
 constexpr double kSolvedShare = 0.02;
+/// Share to which the coupling of touching muscles is solved: a quarter of what counts as solved.
+constexpr double kCoupledShare = 0.005;
+/// The same in a static step, over the share that it starts from: each step then gains two digits at most.
+constexpr double kRelaxedPart = 0.01;
 /// Out-of-balance torque of the joints, over the sum of the lines' torques, at which Line muscles count as solved: they
 /// cost next to nothing, so that one more step of Newton's is worth a figure's fourth digit.
 constexpr double kLinesSolvedShare = 1e-4;
@@ -165,8 +169,16 @@ double lines_share(Limb& limb, const TimeRule& rule) {
   return worst_Nm / scale_Nm;
 }
 
-Iteration newton_step(Limb& limb, const TissueLoad& load, Joints joints, WorkerPool& workers, int& definite_solves) {
-  SmallSystem small = make_small_system(limb, joints);
+/// What a Newton step solves.
+struct Task {
+  const TissueLoad& load;
+  Joints joints = Joints::Free;
+  double coupled_share = kCoupledShare;
+};
+
+Iteration newton_step(Limb& limb, const Task& task, WorkerPool& workers, int& definite_solves) {
+  const TissueLoad& load = task.load;
+  SmallSystem small = make_small_system(limb, task.joints);
   workers.run(static_cast<int>(limb.muscles.size()), [&](int m) {
     if (!limb.muscles[at(m)].rigid) eliminate(limb, small, load, m, limb.muscles[at(m)]);
   });
@@ -180,7 +192,7 @@ Iteration newton_step(Limb& limb, const TissueLoad& load, Joints joints, WorkerP
   const Eigen::VectorXd uncoupled = small.size() > 0 ? Eigen::VectorXd(factor.solve(small.right)) : small.right;
   if (!uncoupled.allFinite()) return {false};
   Eigen::VectorXd solution = uncoupled;
-  couple_step(limb, factor, solution, workers);
+  couple_step(limb, factor, task.coupled_share, solution, workers);
 
   const Way way = make_way(limb, small, {uncoupled, solution}, workers);
   Iteration result;
@@ -227,7 +239,7 @@ StepReport advance(Limb& limb, const StepInput& input, WorkerPool& workers) {
   for (LimbMuscle& muscle : limb.muscles) muscle.balanced = false;
   StepReport report;
   for (report.iterations = 1; report.iterations <= kMostIterations; ++report.iterations) {
-    const Iteration iteration = newton_step(limb, load, Joints::Free, workers, report.definite_solves);
+    const Iteration iteration = newton_step(limb, {load}, workers, report.definite_solves);
     report.residual_share = iteration.residual_share;
     report.sound = iteration.sound;
     if (!iteration.sound) return report;
@@ -239,12 +251,12 @@ StepReport advance(Limb& limb, const StepInput& input, WorkerPool& workers) {
   return report;
 }
 
-double relax(Limb& limb, WorkerPool& workers) {
+double relax(Limb& limb, double share, WorkerPool& workers) {
   TissueLoad load;
   load.gravity_m_s2 = limb.gravity_m_s2;
   for (LimbMuscle& muscle : limb.muscles) muscle.balanced = false;
   int definite_solves = 0;
-  const Iteration iteration = newton_step(limb, load, Joints::Held, workers, definite_solves);
+  const Iteration iteration = newton_step(limb, {load, Joints::Held, kRelaxedPart * share}, workers, definite_solves);
   return iteration.sound ? iteration.residual_share : std::numeric_limits<double>::infinity();
 }
 

@@ -27,9 +27,10 @@ struct StepReport {
 /// as set in the limb.
 StepReport advance(Limb& limb, const StepInput& input, WorkerPool& workers);
 
-/// One static Newton step of all muscles together, joints held, everything at rest. Returns the largest out-of-balance
+/// One static Newton step of all muscles together, joints held, everything at rest. `share`: largest
+/// out-of-balance share of a muscle now. Returns the largest out-of-balance
 /// share of a muscle after it; infinite when the place cannot be used.
-double relax(Limb& limb, WorkerPool& workers);
+double relax(Limb& limb, double share, WorkerPool& workers);
 
 /// The present instant becomes the last one. Call before advance().
 void push_history(Limb& limb);
