@@ -113,7 +113,7 @@ bool Simulation::settle(std::span<const double> joint_angles_rad, std::span<cons
     in.excitations[m] = in.limb.muscles[m].state.activation = m < activations.size() ? unit_range(activations[m]) : 0.0;
   }
   const bool settled = settle_limb(in.limb, joint_angles_rad, in.workers);
-  simulation::refresh_stiffness(in.limb, in.workers);
+  refresh_stiffness(in.limb, in.workers);
   in.workers.run(in.surfaces.count(), [&](int surface) { in.surfaces.follow(in.limb, surface, true); });
   in.whole_steps = 0;
   return settled;

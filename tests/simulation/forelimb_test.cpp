@@ -16,8 +16,9 @@ constexpr double kDegree_rad = 3.14159265358979323846 / 180.0;
 constexpr double kAgreement = 0.05;
 
 struct Forelimb {
-  explicit Forelimb(TissueModel model = TissueModel::Fem)
-      : simulation(specimen, {.tissue = std::vector<TissueModel>(specimen.muscles.size(), model)}) {}
+  explicit Forelimb(TissueModel model = TissueModel::Fem, bool contact = true)
+      : simulation(specimen, {.tissue = std::vector<TissueModel>(specimen.muscles.size(), model), .contact = contact}) {
+  }
 
   anatomy::Specimen specimen = anatomy::load_specimen(MYOTACT_SOURCE_DIR "/meshes/canine_elbow");
   int elbow = anatomy::find_joint(specimen, "elbow");
@@ -50,8 +51,9 @@ LineGeometry geometry_of(const anatomy::Specimen& specimen, int muscle) {
 class ForelimbOf : public ::testing::TestWithParam<TissueModel> {};
 INSTANTIATE_TEST_SUITE_P(Models, ForelimbOf, ::testing::Values(TissueModel::Fem, TissueModel::MassSpring));
 
+// Without contact, which no line has: bones and neighbours change levers, that of the brachialis by a tenth.
 TEST_P(ForelimbOf, IsometricForceAndItsSlopeAreTheLinesAtHalfActivation) {
-  Forelimb limb(GetParam());
+  Forelimb limb(GetParam(), false);
   const double turn = 0.5 * kDegree_rad;
   ASSERT_TRUE(limb.settle(turn, 0.5));
   const std::vector<double> flexed = limb.tensions();
