@@ -46,6 +46,7 @@ struct JointReadout {
 struct MuscleAtJoint {
   double torque_Nm = 0.0;             // positive flexes
   double stiffness_Nm_rad = 0.0;      // of the quasi-static tissue, as of the last refresh
+  double contact_Nm_rad = 0.0;        // of that stiffness, as of the last settle
   double line_muscle_Nm_rad = 0.0;    // r^2 k of its line
   double line_geometry_Nm_rad = 0.0;  // -(dr/dq) F of its line
   double line_damping_Nms_rad = 0.0;  // r^2 b of its line's fibres

@@ -57,6 +57,7 @@ MuscleAtJoint Simulation::Impl::at_joint(int muscle, int joint, const LineReadin
   MuscleAtJoint part;
   part.torque_Nm = m.readout.torque_Nm[joint];
   part.stiffness_Nm_rad = m.stiffness_Nm_rad[joint];
+  part.contact_Nm_rad = m.contact_stiffness_Nm_rad[joint];
   part.line_muscle_Nm_rad = terms.muscle_Nm_rad;
   part.line_geometry_Nm_rad = terms.geometry_Nm_rad;
   part.line_damping_Nms_rad = terms.damping_Nms_rad;
