@@ -58,11 +58,12 @@ FibreStress fibre_stress(const FibreInputs& in, std::size_t t, std::size_t p) {
   const double a = in.state.activation, peak = map.scale * element.peak_Pa;
   const std::size_t point = t * element.points() + p;
   const double stretch = in.state.now.stretch[point];
-  const double n = map.length(stretch);
+  const double n = map.length(stretch), passive_n = map.passive_length(stretch);
   const SpeedFactor speed = speed_factor(in, point, stretch);
   const double active = in.shared_force + kEvenness * (n - in.mean_length) + in.damped_force * (speed.value - 1.0);
-  return {peak * (a * active + passive_force_length(n)),
-          peak * ((a * kEvenness + passive_force_length_slope(n)) * map.gain + a * in.damped_force * speed.slope)};
+  return {
+      peak * (a * active + passive_force_length(passive_n)),
+      peak * ((a * kEvenness + passive_force_length_slope(passive_n)) * map.gain + a * in.damped_force * speed.slope)};
 }
 
 FibreInputs fibre_inputs(const MuscleTissue& tissue, const TissueState& state, const TissueLoad& load) {

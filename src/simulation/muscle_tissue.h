@@ -61,7 +61,9 @@ struct FibreMap {
   double offset = 0.0;
   double scale = 1.0;
 
-  double length(double stretch) const { return rest_stretch + offset + gain * (stretch - 1.0); }
+  double length(double stretch) const { return passive_length(stretch) + offset; }
+  /// The offset makes up for what active fibres shorten by against their soft ends; at rest they are as long as given.
+  double passive_length(double stretch) const { return rest_stretch + gain * (stretch - 1.0); }
 };
 
 /// A muscle as the solver sees it: everything that does not change while it moves. n nodes, of which some are clamped
