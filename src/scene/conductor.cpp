@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "core/error.h"
 #include "scene/turned_torques.h"
 
 namespace myotact::scene {
@@ -45,13 +42,6 @@ Conductor::Conductor(const Scene& scene, simulation::Simulation& simulation)
       gravity_m_s2_(scene.settings.gravity_m_s2) {
   if (scene.co_contraction) {
     measured_torques_ = torques_ = measure_torques(scene, simulation, start_angles(scene));
-    if (torques_.unsettled_level) {
-      throw Error(
-          ExitStatus::CheckFailed,
-          fmt::format("no static equilibrium with the co-contracting muscles at activation {}; try a posture nearer "
-                      "to the specimen's own, or finer tetrahedra",
-                      *torques_.unsettled_level));
-    }
   }
   settle();
 }
@@ -80,11 +70,7 @@ void Conductor::settle() {
     trim_.restart(scene_->joints[static_cast<std::size_t>(set.joint)].angle_rad);
     if (co_contracting_) drive_co_contraction(0.0, excitations);
   }
-  if (!simulation_->settle(start_angles(*scene_), excitations)) {
-    throw Error(ExitStatus::CheckFailed, scene_->name +
-                                             ": the tissue finds no equilibrium in the starting posture; set "
-                                             "joints nearer to 0 and activations lower");
-  }
+  starts_at_rest_ = simulation_->settle(start_angles(*scene_), excitations);
   for (std::size_t j = 0; j < scene_->joints.size(); ++j) {
     simulation_->set_joint_locked(static_cast<int>(j), scene_->joints[j].locked);
   }
@@ -185,6 +171,10 @@ void Conductor::ask_co_contraction(double common, double difference) {
 }
 
 std::string Conductor::notice() const {
+  if (!starts_at_rest_ || measured_torques_.unsettled_level) {
+    return "the tissue came to no complete rest in the starting posture, so that the balance is rough; start nearer to "
+           "the specimen's own posture, or without contact";
+  }
   if (balanced_ || !co_contracting_) return "";
   const std::string& joint = scene_->specimen.joints[static_cast<std::size_t>(scene_->co_contraction->joint)].key;
   return "the muscles cannot balance the " + joint +

@@ -18,7 +18,7 @@ namespace myotact::scene {
 class Conductor {
  public:
   /// Puts the simulation at rest in the scene's posture; measures the torque table when the scene co-contracts.
-  /// Throws Error CheckFailed when there is no equilibrium.
+  /// Where there is no complete equilibrium the motion starts from what comes nearest, and notice() says so.
   Conductor(const Scene& scene, simulation::Simulation& simulation);
 
   /// Back to the starting posture and the beginning of the script; the torque table is kept. The clock runs on: times
@@ -72,7 +72,8 @@ class Conductor {
   std::optional<Ramp> flexor_level_, extensor_level_;  // set by the sliders: no balance
   bool co_contracting_ = false;
   bool hold_posture_ = false;
-  bool balanced_ = true;              // of the last step
+  bool balanced_ = true;  // of the last step
+  bool starts_at_rest_ = true;
   std::vector<ScriptAction> shoves_;  // under way
   Vec3 gravity_m_s2_;
   std::optional<TakePicture> picture_;
