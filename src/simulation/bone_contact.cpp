@@ -89,7 +89,6 @@ void add_node(const TissuePass& pass, const BoneShape& bone, const BonePatch::No
   add_touch_tangent(pass, touch, turns);
 }
 
-/// A box around the patch's nodes comes near the bone. One box serves all bones of a muscle.
 Eigen::AlignedBox3d box_of(const BonePatch& patch, const Eigen::VectorXd& position_m) {
   Eigen::AlignedBox3d box;
   for (const BonePatch::Node& node : patch.nodes) box.extend(node_vector(position_m, node.node));

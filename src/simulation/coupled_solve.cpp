@@ -202,7 +202,7 @@ void couple_step(Limb& limb, const Eigen::PartialPivLU<Eigen::MatrixXd>& small, 
   along = nodes;
   Columns pushed = residual;  // uncoupled system times `along`
   double weight = dot(residual, nodes);
-  for (int i = 0; i < kMostStepIterations && !small_enough(limb, residual, share); ++i) {
+  for (int i = 0; i < kMostStepIterations; ++i) {
     Columns product = pushed;
     add_all_coupling(limb, along, product);
     const double curvature = dot(along, product);
@@ -211,6 +211,7 @@ void couple_step(Limb& limb, const Eigen::PartialPivLU<Eigen::MatrixXd>& small, 
     add(part, along, change);
     solution += part * along_rest;
     add(-part, product, residual);
+    if (small_enough(limb, residual, share)) break;
     rest = whole.solve_uncoupled(residual, nodes);
     const double next = dot(residual, nodes), kept = next / weight;
     weight = next;

@@ -27,10 +27,15 @@ constexpr int kMostCuts = 12;
 /// that unbuckles creeps for hundreds of steps): the step is doubled as long as that holds.
 constexpr double kStillSteep = 0.8;
 constexpr double kLongestStep = 1024.0;
-/// Newton steps of all muscles together at most. The first ones find the faces under the nodes anew each time, which
-/// costs them their second order: the share falls by some ten times in each. A node that has two faces to choose from
-/// may never make up its mind, so that in the later ones the faces stay.
-constexpr int kMostRounds = 40, kSearchingRounds = 20;
+/// Newton steps of all muscles together at most.
+constexpr int kMostRounds = 200;
+/// They start here: neighbours have seen each other at rest, one by one.
+constexpr double kFirstRound_s = 0.02;
+/// Each of the first ones finds the faces under the nodes anew, which costs it its second order. A node that has two
+/// faces to choose from may never make up its mind: when the share is small and so many steps have not halved it, the
+/// faces stay.
+constexpr int kSearchingRounds = 60, kPatience = 12;
+constexpr double kSmallShare = 1e-2;
 /// A guess that folds elements over farther than this is not looked at.
 constexpr double kSmallestJ = -0.5;
 
@@ -159,20 +164,35 @@ double largest_share(Limb& limb, WorkerPool& workers) {
   return share;
 }
 
-/// One by one first, which stands anything; where muscles touch, then all together, with the faces under their nodes
-/// found anew before most steps.
+double next_time_s(double time_s, double part) {
+  const double change = part >= 1.0 ? kTimeGrowth : part < 0.3 ? kTimeCut : 1.0;
+  return std::clamp(time_s * change, kShortestTime_s, kLongestTime_s);
+}
+
+/// All muscles that touch, together.
+bool settle_together(Limb& limb, double wanted_share, WorkerPool& workers) {
+  double share = largest_share(limb, workers), best = share, time_s = kFirstRound_s;
+  int waited = 0;
+  for (int round = 0; round < kMostRounds && !(share < wanted_share); ++round) {
+    const Relaxation step = relax(limb, {share, time_s}, workers);
+    if (!step.sound) return false;
+    time_s = next_time_s(time_s, step.part);
+    const bool searching = round < kSearchingRounds && waited < kPatience;
+    if (searching) find_touches(limb, workers);
+    share = largest_share(limb, workers);
+    if (!searching || share > kSmallShare) continue;
+    waited = share < 0.5 * best ? 0 : waited + 1;
+    best = std::min(best, share);
+  }
+  return share < wanted_share;
+}
+
+/// One by one first, which stands anything; where muscles touch, then all together.
 bool settle_all(Limb& limb, double wanted_share, WorkerPool& workers) {
   find_touches(limb, workers);
   const bool settled = settle_each(limb, touching(limb) ? kRoughShare : wanted_share, workers);
   find_touches(limb, workers);
-  if (!touching(limb)) return settled;
-  double share = largest_share(limb, workers);
-  for (int round = 0; round < kMostRounds && !(share < wanted_share); ++round) {
-    if (!std::isfinite(relax(limb, share, workers))) return false;
-    if (round < kSearchingRounds) find_touches(limb, workers);
-    share = largest_share(limb, workers);
-  }
-  return share < wanted_share;
+  return touching(limb) ? settle_together(limb, wanted_share, workers) : settled;
 }
 
 /// All rates zero and all instants the same.
@@ -234,8 +254,7 @@ bool settle_muscle(const Skeleton& skeleton, const Vec3& gravity_m_s2, double wa
     if (!find_direction(skeleton, load, time_s, muscle, direction)) return false;
     const double part = search_line(skeleton, load, direction, muscle);
     if (part == 0.0 && time_s <= kShortestTime_s) break;
-    const double change = part >= 1.0 ? kTimeGrowth : part < 0.3 ? kTimeCut : 1.0;
-    time_s = std::clamp(time_s * change, kShortestTime_s, kLongestTime_s);
+    time_s = next_time_s(time_s, part);
   }
   return rest_share(muscle) < wanted_share;
 }

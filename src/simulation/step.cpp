@@ -130,9 +130,10 @@ Way make_way(Limb& limb, const SmallSystem& small, const Solutions& solutions, W
 }
 
 /// Goes the whole way unless the energy has turned to rise steeply by then; then back towards the lowest place on it.
-bool search_way(Limb& limb, const TissueLoad& load, const Way& way, WorkerPool& workers) {
+/// `part`: how much of it.
+bool search_way(Limb& limb, const TissueLoad& load, const Way& way, WorkerPool& workers, double& part) {
   const double start_slope = energy_slope(limb, load.rule, way);
-  double part = 1.0;
+  part = 1.0;
   for (int cut = 0; cut < kMostCuts; ++cut) {
     const bool sound = go(limb, load, way, part, workers);
     const double slope = sound ? energy_slope(limb, load.rule, way) : 0.0;
@@ -147,6 +148,7 @@ struct Iteration {
   double residual_share = 0.0;
   double lines_share = 0.0;  // of the joints' balance, where only lines and bones have a part in it
   double turn_rad = 0.0;
+  double part = 1.0;  // of the way that was gone
 };
 
 /// Out-of-balance torque of the joints that may turn over the sizes of the lines' torques; 0 where finite elements or
@@ -196,7 +198,7 @@ Iteration newton_step(Limb& limb, const Task& task, WorkerPool& workers, int& de
 
   const Way way = make_way(limb, small, {uncoupled, solution}, workers);
   Iteration result;
-  result.sound = search_way(limb, load, way, workers);
+  result.sound = search_way(limb, load, way, workers, result.part);
   result.lines_share = lines_share(limb, load.rule);
   if (way.change_rad.size() > 0) result.turn_rad = way.change_rad.cwiseAbs().maxCoeff();
   for (LimbMuscle& muscle : limb.muscles) {
@@ -235,7 +237,7 @@ StepReport advance(Limb& limb, const StepInput& input, WorkerPool& workers) {
   limb.spring_compliance_m_N.assign(limb.springs.size(), Mat3::Zero());
   follow_angles(limb);
   evaluate_lines(limb, load.rule);
-  find_touches(limb, workers);
+  follow_touches(limb, workers);
   for (LimbMuscle& muscle : limb.muscles) muscle.balanced = false;
   StepReport report;
   for (report.iterations = 1; report.iterations <= kMostIterations; ++report.iterations) {
@@ -251,13 +253,20 @@ StepReport advance(Limb& limb, const StepInput& input, WorkerPool& workers) {
   return report;
 }
 
-double relax(Limb& limb, double share, WorkerPool& workers) {
+Relaxation relax(Limb& limb, const RelaxInput& input, WorkerPool& workers) {
   TissueLoad load;
+  load.rule = backward_euler(input.time_s);
+  load.force_velocity = false;
   load.gravity_m_s2 = limb.gravity_m_s2;
-  for (LimbMuscle& muscle : limb.muscles) muscle.balanced = false;
+  for (LimbMuscle& muscle : limb.muscles) {
+    muscle.balanced = false;
+    muscle.state.last.position_m = muscle.state.now.position_m;
+    muscle.state.last.velocity_m_s.setZero();
+  }
   int definite_solves = 0;
-  const Iteration iteration = newton_step(limb, {load, Joints::Held, kRelaxedPart * share}, workers, definite_solves);
-  return iteration.sound ? iteration.residual_share : std::numeric_limits<double>::infinity();
+  const Task task{load, Joints::Held, kRelaxedPart * input.share};
+  const Iteration iteration = newton_step(limb, task, workers, definite_solves);
+  return {iteration.sound, iteration.part};
 }
 
 void push_history(Limb& limb) {

@@ -27,10 +27,16 @@ struct StepReport {
 /// as set in the limb.
 StepReport advance(Limb& limb, const StepInput& input, WorkerPool& workers);
 
-/// One static Newton step of all muscles together, joints held, everything at rest. `share`: largest
-/// out-of-balance share of a muscle now. Returns the largest out-of-balance
-/// share of a muscle after it; infinite when the place cannot be used.
-double relax(Limb& limb, double share, WorkerPool& workers);
+struct RelaxInput {
+  double share = 1.0;   // largest out-of-balance share of a muscle now
+  double time_s = 1e3;  // mass over its square is added to the tangent: short, and the step is
+};
+struct Relaxation {
+  bool sound = true;  // false: the place cannot be used
+  double part = 1.0;  // of the step that was gone
+};
+/// One Newton step of all muscles together towards static equilibrium, joints held, rates forgotten.
+Relaxation relax(Limb& limb, const RelaxInput& input, WorkerPool& workers);
 
 /// The present instant becomes the last one. Call before advance().
 void push_history(Limb& limb);

@@ -16,6 +16,8 @@ namespace {
 constexpr double kWatched_m = 2e-3;
 /// Where nothing is found within this way beyond, a node is not looked at again until both muscles have travelled it.
 constexpr double kLookAhead_m = 4e-3;
+/// Faces under nodes stay until a node has moved this far [m]: a fiftieth of a face.
+constexpr double kStill_m = 0.1e-3;
 /// A node that lies deeper than this in a neighbour at the file pose touches it nowhere.
 constexpr double kDeepestRest_m = 4e-3;
 
@@ -43,15 +45,20 @@ geometry::TriangleMesh flat_surface(const geometry::TetMesh& mesh) {
   return surface;
 }
 
-/// Tree, box and normals at these positions.
-void follow(const Eigen::VectorXd& position_m, TouchSurface& surface) {
-  const std::span<const Vec3> positions_m = as_points(position_m);
+/// The largest way of a node since the last search.
+double farthest_way_m(const Eigen::VectorXd& position_m, const TouchSurface& surface) {
   double farthest_m2 = 0.0;
   for (Eigen::Index i = 0; i < position_m.size(); i += 3) {
     const double way_m2 = (position_m.segment<3>(i) - surface.searched_at_m.segment<3>(i)).squaredNorm();
     farthest_m2 = std::max(farthest_m2, way_m2);
   }
-  surface.travelled_m += std::sqrt(farthest_m2);
+  return std::sqrt(farthest_m2);
+}
+
+/// Tree, box and normals at these positions.
+void follow(const Eigen::VectorXd& position_m, TouchSurface& surface) {
+  const std::span<const Vec3> positions_m = as_points(position_m);
+  surface.travelled_m += farthest_way_m(position_m, surface);
   surface.searched_at_m = position_m;
   surface.tree.refit(positions_m);
   surface.box.setEmpty();
@@ -142,7 +149,7 @@ void search(const Limb& limb, int other, const Eigen::VectorXd& position_m, Touc
     double& clear_until_m = surface.clear_until_m[at(other)][i];
     const double travelled_m = surface.travelled_m + theirs.travelled_m;
     if (rest_depth_m < 0.0 || travelled_m < clear_until_m) continue;
-    const double reach_m = rest_depth_m + 2.0 * kWatched_m;
+    const double reach_m = rest_depth_m + 1.5 * kWatched_m;
     int& last_triangle = surface.last_triangles[at(other)][i];
     const double no_farther_m = distance_m(p, theirs.tree, last_triangle, positions_m);
     const double radius_m = std::min(reach_m + kLookAhead_m, no_farther_m * (1.0 + 1e-12));
@@ -233,6 +240,18 @@ void find_touches(Limb& limb, WorkerPool& workers) {
     for (const TouchSurface::Found& found : limb.touch_surfaces[at(m)].found) add_touch(limb, m, found);
   }
   see_neighbours(limb);
+}
+
+void follow_touches(Limb& limb, WorkerPool& workers) {
+  bool still = true;
+  for (std::size_t m = 0; m < limb.touch_surfaces.size() && still; ++m) {
+    still = limb.muscles[m].rigid ||
+            farthest_way_m(limb.muscles[m].state.now.position_m, limb.touch_surfaces[m]) < kStill_m;
+  }
+  if (still)
+    see_neighbours(limb);
+  else
+    find_touches(limb, workers);
 }
 
 void see_neighbours(Limb& limb) {

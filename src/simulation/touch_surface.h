@@ -46,6 +46,9 @@ std::vector<TouchSurface> make_touch_surfaces(const std::vector<MuscleTissue*>& 
 /// sees the neighbours. The result does not depend on the workers.
 void find_touches(Limb& limb, WorkerPool& workers);
 
+/// The same where something has moved since; else the faces stay, and the neighbours are seen.
+void follow_touches(Limb& limb, WorkerPool& workers);
+
 /// Takes over where the neighbours' nodes are now.
 void see_neighbours(Limb& limb);
 

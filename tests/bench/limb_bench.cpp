@@ -155,6 +155,18 @@ void add_parts(const anatomy::Specimen& specimen) {
            each_muscle([](Limb& limb, LimbMuscle& m) { refresh_muscle_stiffness(limb, m); }));
 }
 
+/// What contact adds to a step: faces under nodes found anew, as where everything moves; bones under nodes in one pass.
+void add_contact_parts(const anatomy::Specimen& specimen) {
+  add_part("faces of neighbours under all nodes", specimen, [](Limb& limb) {
+    WorkerPool workers(1);
+    find_touches(limb, workers);
+  });
+  add_part("bones under all nodes", specimen, each_muscle([](Limb& limb, LimbMuscle& muscle) {
+             muscle.system.internal_N.setZero();
+             add_bone_contact({muscle.tissue, limb.skeleton, step_load(), muscle.state, muscle.system, false});
+           }));
+}
+
 double resident_MB() {
   std::ifstream file("/proc/self/statm");
   double total = 0.0, resident = 0.0;
@@ -162,11 +174,13 @@ double resident_MB() {
   return resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
-void step(benchmark::State& state, const anatomy::Specimen& specimen, int workers, VectorUnit widest) {
+void step(benchmark::State& state, const anatomy::Specimen& specimen, int workers, VectorUnit widest,
+          bool contact = true) {
   allow_vector_unit(widest);
   const double before_MB = resident_MB();
   SimulationSettings settings;
   settings.workers = workers;
+  settings.contact = contact;
   Simulation simulation(specimen, settings);
   const std::vector<double> angles_rad(specimen.joints.size(), 0.0), activations(specimen.muscles.size(), kActivation);
   if (!simulation.settle(angles_rad, activations)) state.SkipWithError("the limb does not settle");
@@ -187,6 +201,8 @@ void add_steps(const std::string& name, const anatomy::Specimen& specimen) {
     add_step(workers, "AVX-512", VectorUnit::Avx512);
     add_step(workers, "AVX2", VectorUnit::Avx2);
     add_step(workers, "SSE2", VectorUnit::Sse2);
+    add(fmt::format("step/{}/workers:{}/AVX-512/no contact", name, workers),
+        [&specimen, workers](benchmark::State& state) { step(state, specimen, workers, VectorUnit::Avx512, false); });
   }
 }
 
@@ -241,6 +257,7 @@ int main(int argc, char** argv) {
   std::vector<anatomy::Specimen> specimens;
   for (const auto& folder : folders) specimens.push_back(anatomy::load_specimen(folder));
   simulation::add_parts(specimens[0]);
+  simulation::add_contact_parts(specimens[0]);
   for (std::size_t k = 0; k < folders.size(); ++k) {
     simulation::add_steps(folders[k].filename(), specimens[k]);
     simulation::add_sizes(folders[k].filename(), specimens[k]);

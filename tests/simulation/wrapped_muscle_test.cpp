@@ -72,4 +72,38 @@ TEST(WrappedMuscle, StiffnessOfAnEqualPairIsTheClosedForm) {
   }
 }
 
+// A hand that presses the muscle on the bone with 10 N while the joint is thrown at more than 360 deg/s from full
+// relaxation to full co-contraction and back.
+TEST(WrappedMuscle, StandsAPressOnTheBoneAFastTurnAndCoContraction) {
+  const testing::WrappedBar bar;
+  const anatomy::Specimen specimen = testing::wrapped_hinge(bar, true);
+  Simulation simulation(specimen, {});
+  const double q = 0.0;
+  ASSERT_TRUE(simulation.settle({&q, 1}, {}));
+  messages::ToolState tool;
+  tool.contact = {0, 0, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}, {}, {}, 1000.0};
+  const std::vector<Vec3>& skin = specimen.muscles[0].skin.positions_m;
+  for (std::size_t t = 0; t < specimen.muscles[0].skin.triangles.size(); ++t) {
+    if ((skin[static_cast<std::size_t>(specimen.muscles[0].skin.triangles[t][0])] - Vec3(0.0, 0.0, 0.034)).norm() <
+        1e-3)
+      tool.contact.triangle = static_cast<int>(t);
+  }
+  double fastest = 0.0, deepest_m = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    for (int m = 0; m < 2; ++m) simulation.set_excitation(m, i / 40 % 2 == 1 ? 1.0 : 0.0);
+    simulation.set_joint_torque(0, i / 20 % 2 == 0 ? 0.6 : -0.6);
+    tool.contact.target_world_m = {0.0, 0.0, 0.034 - 0.01};
+    simulation.step(i % 50 < 25 ? std::span<const messages::ToolState>(&tool, 1)
+                                : std::span<const messages::ToolState>());
+    fastest = std::max(fastest, std::abs(simulation.joint(0).velocity_rad_s));
+    deepest_m = std::max(deepest_m, simulation.contact_depth_m(0));
+    ASSERT_TRUE(std::isfinite(simulation.joint(0).angle_rad)) << "step " << i;
+    for (const Vec3& p : simulation.skin_world_m(0)) ASSERT_LT(p.norm(), 0.2) << "step " << i;
+  }
+  fmt::print("fastest {:.0f} deg/s, deepest {:.2f} mm, {} of 200 steps in parts\n", fastest / kDegree_rad,
+             1e3 * deepest_m, simulation.failed_steps());
+  EXPECT_GT(fastest, 360.0 * kDegree_rad);
+  EXPECT_LE(simulation.failed_steps(), 10);
+}
+
 }  // namespace myotact::simulation
