@@ -28,7 +28,7 @@ constexpr int kMostCuts = 12;
 constexpr double kStillSteep = 0.8;
 constexpr double kLongestStep = 1024.0;
 /// Newton steps of all muscles together at most.
-constexpr int kMostRounds = 200;
+constexpr int kMostRounds = 400;
 /// They start here: neighbours have seen each other at rest, one by one.
 constexpr double kFirstRound_s = 0.02;
 /// Each of the first ones finds the faces under the nodes anew, which costs it its second order. A node that has two
@@ -175,8 +175,12 @@ bool settle_together(Limb& limb, double wanted_share, WorkerPool& workers) {
   int waited = 0;
   for (int round = 0; round < kMostRounds && !(share < wanted_share); ++round) {
     const Relaxation step = relax(limb, {share, time_s}, workers);
-    if (!step.sound) return false;
-    time_s = next_time_s(time_s, step.part);
+    if (!step.sound) {  // back, and more carefully
+      if (time_s <= kShortestTime_s) return false;
+      for (LimbMuscle& muscle : limb.muscles) muscle.state.now.position_m = muscle.state.last.position_m;
+      see_neighbours(limb);
+    }
+    time_s = next_time_s(time_s, step.sound ? step.part : 0.0);
     const bool searching = round < kSearchingRounds && waited < kPatience;
     if (searching) find_touches(limb, workers);
     share = largest_share(limb, workers);
