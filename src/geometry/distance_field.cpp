@@ -93,29 +93,32 @@ DistanceField::DistanceField(const TriangleMesh& surface, double spacing_m) : sp
   fill(surface);
 }
 
+/// A neighbour is one cell away, so it bounds the distance here from below; a field's reach below zero without one.
+double DistanceField::bound_m(int i, int j, int k) const {
+  double bound_m = -kFarCells * spacing_m_;
+  if (i > 0) bound_m = std::max(bound_m, at(i - 1, j, k) - spacing_m_);
+  if (j > 0) bound_m = std::max(bound_m, at(i, j - 1, k) - spacing_m_);
+  if (k > 0) bound_m = std::max(bound_m, at(i, j, k - 1) - spacing_m_);
+  return bound_m;
+}
+
 void DistanceField::fill(const TriangleMesh& surface) {
   const TriangleTree tree(surface);
   const PseudoNormals normals(surface);
-  const double far_m = kFarCells * spacing_m_;
+  const auto distance_m = [&](int i, int j, int k) {
+    const Vec3 p = origin_m_ + spacing_m_ * Vec3(i, j, k);
+    const double reach_m = i > 0 ? std::abs(at(i - 1, j, k)) + 1.001 * spacing_m_ : 2.0 * radius_m_;
+    SurfacePlace place = tree.nearest(p, surface.positions_m, reach_m);
+    if (place.triangle < 0) place = tree.nearest(p, surface.positions_m);  // the neighbour's was a bound
+    const bool inside = (p - place.point.position_m).dot(normals.at(place)) < 0.0;
+    return inside ? -place.distance_m : place.distance_m;
+  };
   values_m_.reserve(index(size_[0]) * index(size_[1]) * index(size_[2]));
   for (int k = 0; k < size_[2]; ++k) {
     for (int j = 0; j < size_[1]; ++j) {
       for (int i = 0; i < size_[0]; ++i) {
-        // A neighbour is one cell away, so it bounds the distance here from both sides.
-        double nearest_m = -far_m;
-        if (i > 0) nearest_m = std::max(nearest_m, at(i - 1, j, k) - spacing_m_);
-        if (j > 0) nearest_m = std::max(nearest_m, at(i, j - 1, k) - spacing_m_);
-        if (k > 0) nearest_m = std::max(nearest_m, at(i, j, k - 1) - spacing_m_);
-        if (nearest_m > far_m) {
-          values_m_.push_back(static_cast<float>(nearest_m));
-          continue;
-        }
-        const Vec3 p = origin_m_ + spacing_m_ * Vec3(i, j, k);
-        const double reach_m = i > 0 ? std::abs(at(i - 1, j, k)) + 1.001 * spacing_m_ : 2.0 * radius_m_;
-        SurfacePlace place = tree.nearest(p, surface.positions_m, reach_m);
-        if (place.triangle < 0) place = tree.nearest(p, surface.positions_m);  // the neighbour's was a bound
-        const bool inside = (p - place.point.position_m).dot(normals.at(place)) < 0.0;
-        values_m_.push_back(static_cast<float>(inside ? -place.distance_m : place.distance_m));
+        const double bound = bound_m(i, j, k);
+        values_m_.push_back(static_cast<float>(bound > kFarCells * spacing_m_ ? bound : distance_m(i, j, k)));
       }
     }
   }
@@ -127,7 +130,7 @@ bool DistanceField::may_be_inside(const Vec3& p) const {
   for (std::size_t a = 0; a < 3; ++a) {
     const double c = cell[static_cast<int>(a)];
     if (!(c >= 1.0 && c < size_[a] - 2)) return false;
-    nearest[a] = static_cast<int>(c + 0.5);
+    nearest[a] = static_cast<int>(std::lround(c));
   }
   return at(nearest[0], nearest[1], nearest[2]) < spacing_m_;  // half a cell's diagonal and what smoothing takes
 }

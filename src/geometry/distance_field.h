@@ -39,6 +39,7 @@ class DistanceField {
 
  private:
   void fill(const TriangleMesh& surface);
+  double bound_m(int i, int j, int k) const;
   double at(int i, int j, int k) const {
     return values_m_[static_cast<std::size_t>(i + size_[0] * (j + size_[1] * k))];
   }
