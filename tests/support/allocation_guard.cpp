@@ -7,21 +7,33 @@ namespace {
 
 thread_local std::uint64_t allocations_of_this_thread = 0;
 
-void* allocate(std::size_t size, std::size_t alignment) {
+/// Null where there is no memory.
+void* allocate(std::size_t size, std::size_t alignment) noexcept {
   ++allocations_of_this_thread;
   const std::size_t whole = (size + alignment - 1) / alignment * alignment;  // aligned_alloc asks for a multiple
-  void* memory = std::aligned_alloc(alignment, whole == 0 ? alignment : whole);
+  return std::aligned_alloc(alignment, whole == 0 ? alignment : whole);
+}
+
+void* allocate_or_throw(std::size_t size, std::size_t alignment) {
+  void* memory = allocate(size, alignment);
   if (memory == nullptr) throw std::bad_alloc();
   return memory;
 }
 
 }  // namespace
 
-// The other forms of new and delete end in these.
+// The forms for arrays end in these. The nothrow forms would too, were it not for the address sanitizer, which brings
+// its own, and then finds that memory given back by std::free.
 void* operator new(std::size_t size) {
-  return allocate(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__);
+  return allocate_or_throw(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__);
 }
 void* operator new(std::size_t size, std::align_val_t alignment) {
+  return allocate_or_throw(size, static_cast<std::size_t>(alignment));
+}
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  return allocate(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__);
+}
+void* operator new(std::size_t size, std::align_val_t alignment, const std::nothrow_t&) noexcept {
   return allocate(size, static_cast<std::size_t>(alignment));
 }
 void operator delete(void* memory) noexcept {
