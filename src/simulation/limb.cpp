@@ -40,7 +40,7 @@ Limb::Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> model
   now.angle_rad = now.velocity_rad_s = Eigen::VectorXd::Zero(skeleton.joint_count());
   last = before = now;
   external_torque_Nm = now.angle_rad;
-  const auto bones = contact ? make_bone_shapes(specimen) : nullptr;
+  std::shared_ptr<const BoneShapes> bones;  // made for the first muscle that can touch them: they take a while
   for (int m = 0; m < static_cast<int>(specimen.muscles.size()); ++m) {
     LimbMuscle muscle;
     const TissueModel model = models.empty() ? TissueModel::Fem : models[static_cast<std::size_t>(m)];
@@ -50,7 +50,8 @@ Limb::Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> model
       muscle.line =
           make_line_tissue(specimen.muscles[static_cast<std::size_t>(m)], line_of(specimen, m), skeleton, tendon);
     }
-    if (bones && !muscle.rigid) {
+    if (contact && !muscle.rigid) {
+      if (!bones) bones = make_bone_shapes(specimen);
       muscle.tissue.bone_contact = make_bone_contact(bones, muscle.tissue.mesh, muscle.tissue.body);
     }
     muscle.state = make_state(muscle.tissue);

@@ -101,7 +101,7 @@ TEST_F(LoadSpecimen, WrapsNameTheirPlaceWhenTheyAreWrong) {
                      {"side", {0.0, 0.0, 1.0}}};
   const auto told = [&](const char* key, const json& value) {
     return problem([&](json& s) {
-      s["lines"][0]["wraps"] = {wrap};
+      s["lines"][0]["wraps"] = json::array({wrap});
       s["lines"][0]["wraps"][0][key] = value;
     });
   };
