@@ -49,17 +49,21 @@ Balance balance(const TorqueTable& table, const CoContraction& set, std::span<co
 std::vector<double> driven_activations(const CoContraction& set, const Balance& levels,
                                        std::vector<double> activations);
 
-/// Trims a balance so slowly that it does not count as stiffness: the wanted torque is minus the integral of the drift.
+/// Trims a balance until nothing is left over at the held angle. That is told from the present torques and the joint's
+/// stiffness, so that who pushes the joint aside feels its stiffness and no more: what a push balances is not trimmed.
 class PostureTrim {
  public:
-  void restart(double angle_rad);
-  /// Call once a step with the joint's angle and stiffness; returns the torque that the muscles should have [N m].
-  double update(double angle_rad, double stiffness_Nm_rad, double dt_s);
+  void restart(const simulation::JointReadout& joint);
+  /// After a settle at the held angle with the torque asked for last.
+  void correct(const simulation::JointReadout& settled);
+  /// Call once a step; returns the torque that the muscles should have [N m].
+  double update(const simulation::JointReadout& joint, double dt_s);
   double torque_Nm() const { return torque_Nm_; }  // of the last update
 
  private:
   double held_angle_rad_ = 0.0;
   double torque_Nm_ = 0.0;
+  double left_over_Nm_ = 0.0;  // at the held angle, as of the last update
 };
 
 }  // namespace myotact::scene

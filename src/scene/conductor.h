@@ -55,14 +55,16 @@ class Conductor {
 
   void settle();
   void begin(const ScriptAction& action);
-  double trimmed_torque_Nm(int joint);
+  bool posture_is_held(double time_s) const;
+  void trim_posture(double time_s);
   void drive_co_contraction(double time_s, std::vector<double>& excitations);
 
   const Scene* scene_;
   simulation::Simulation* simulation_;
   ScriptedHand hand_;
-  TorqueTable measured_torques_;  // in the starting posture
-  TorqueTable torques_;           // in the posture that is held
+  TorqueTable measured_torques_;          // in the starting posture
+  TorqueTable torques_;                   // in the posture that is held
+  simulation::JointReadout start_joint_;  // the co-contraction's, at rest in the starting posture
   PostureTrim trim_;
   ShoveTest shove_test_;
   double script_start_s_ = 0.0;  // simulated time at which the script began

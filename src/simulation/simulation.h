@@ -31,6 +31,7 @@ struct JointReadout {
   double angle_rad = 0.0;
   double velocity_rad_s = 0.0;
   double net_torque_Nm = 0.0;         // of all muscles on the joint, positive flexes
+  double own_torque_Nm = 0.0;         // of the joint's spring and stop and the weight of the bones, positive flexes
   double stiffness_Nm_rad = 0.0;      // Schur complement of the quasi-static system, passive joint included
   double line_muscle_Nm_rad = 0.0;    // sum r^2 k of the muscle lines
   double line_geometry_Nm_rad = 0.0;  // -sum (dr/dq) F of the muscle lines

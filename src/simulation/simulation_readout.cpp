@@ -79,6 +79,8 @@ JointReadout Simulation::Impl::joint(int joint, const std::vector<LineReading>& 
   readout.passive_Nm_rad = limb.loads.passive_Nm_rad[joint];
   readout.stiffness_Nm_rad = readout.passive_Nm_rad;
   readout.inertia_kg_m2 = limb.loads.mass_kg_m2(joint, joint);
+  readout.own_torque_Nm = limb.loads.force_Nm[joint] - limb.external_torque_Nm[joint] +
+                          limb.loads.damping_Nms_rad[joint] * readout.velocity_rad_s;
   readout.joint_damping_Nms_rad = readout.damping_Nms_rad = limb.loads.damping_Nms_rad[joint];
   for (std::size_t m = 0; m < limb.muscles.size(); ++m) {
     const MuscleAtJoint part = at_joint(static_cast<int>(m), joint, lines_now[m]);

@@ -103,14 +103,45 @@ TEST(DrivenActivations, ReplaceThoseOfTheTwoSidesAlone) {
   EXPECT_EQ(driven_activations(set, {0.7, 0.4, true}, {0.1, 0.2, 0.3}), (std::vector<double>{0.1, 0.4, 0.7}));
 }
 
+simulation::JointReadout joint_at(double angle_rad, double net_torque_Nm) {
+  simulation::JointReadout joint;
+  joint.angle_rad = angle_rad;
+  joint.net_torque_Nm = net_torque_Nm;
+  joint.stiffness_Nm_rad = 2.0;
+  return joint;
+}
+
 TEST(PostureTrim, AsksForTorqueAgainstALastingDrift) {
   PostureTrim trim;
-  trim.restart(0.1);
+  trim.restart(joint_at(0.1, 0.0));
   double torque = 0.0;
-  for (int i = 0; i < 100; ++i) torque = trim.update(0.11, 2.0, 0.01);
+  for (int i = 0; i < 100; ++i) torque = trim.update(joint_at(0.11, 0.0), 0.01);
   EXPECT_LT(torque, 0.0);
-  EXPECT_NEAR(trim.update(0.1, 2.0, 0.01), torque, 1e-12);
   EXPECT_EQ(trim.torque_Nm(), torque);
+}
+
+TEST(PostureTrim, WhatAPushBalancesIsLeftAlone) {
+  PostureTrim trim;
+  trim.restart(joint_at(0.1, 0.0));
+  for (int i = 0; i < 100; ++i) trim.update(joint_at(0.12, -2.0 * 0.02), 0.01);
+  EXPECT_NEAR(trim.torque_Nm(), 0.0, 1e-12);
+}
+
+TEST(PostureTrim, FarFromTheHeldAngleTheAngleAloneCounts) {
+  PostureTrim trim;
+  trim.restart(joint_at(0.1, 0.0));
+  EXPECT_LT(trim.update(joint_at(0.3, -2.0 * 0.2), 0.01), 0.0);
+}
+
+TEST(PostureTrim, BearsTheJointsOwnTorqueFromTheStart) {
+  PostureTrim trim;
+  simulation::JointReadout joint = joint_at(0.1, 0.0);
+  joint.own_torque_Nm = -0.03;
+  trim.restart(joint);
+  EXPECT_DOUBLE_EQ(trim.torque_Nm(), 0.03);
+  joint.net_torque_Nm = 0.02;  // the table gave too little
+  trim.correct(joint);
+  EXPECT_DOUBLE_EQ(trim.torque_Nm(), 0.04);
 }
 
 }  // namespace

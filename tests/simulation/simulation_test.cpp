@@ -388,6 +388,7 @@ TEST(Simulation, AJointsReadoutIsTheSumOverItsMuscles) {
   EXPECT_NEAR(sum.stiffness_Nm_rad + whole.passive_Nm_rad, whole.stiffness_Nm_rad, 1e-12);
   EXPECT_NEAR(sum.line_muscle_Nm_rad, whole.line_muscle_Nm_rad, 1e-12);
   EXPECT_NEAR(sum.line_geometry_Nm_rad, whole.line_geometry_Nm_rad, 1e-12);
+  EXPECT_NEAR(whole.own_torque_Nm, -whole.passive_Nm_rad * q, 1e-12);
 }
 
 }  // namespace myotact::simulation
