@@ -55,6 +55,15 @@ TEST(Loft, GivesTheSameBitsTwice) {
   }
 }
 
+TEST(Loft, KnowsTheMiddleOfTheSectionsFromTipToTip) {
+  for (const NamedSurface& muscle : loft_muscles(kHindlimb)) {
+    ASSERT_GE(muscle.middle_m.size(), 4u) << muscle.key;
+    if (muscle.key != "biceps_femoris") continue;
+    EXPECT_EQ(muscle.middle_m.front(), Vec3(-0.3416, 0.0324, 0.4914));
+    EXPECT_EQ(muscle.middle_m.back(), Vec3(-0.3928, 0.0980, 0.2587));
+  }
+}
+
 TEST(AnatomyAssets, ElbowFlexesByARightHandRotationOfTheForearm) {
   const AnatomyData data = read_recipe(kForelimb);
   EXPECT_EQ(data.muscles.size(), 33u);

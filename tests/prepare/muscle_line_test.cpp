@@ -1,5 +1,7 @@
 #include "prepare/architecture/muscle_line.h"
 
+#include <algorithm>
+
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -93,6 +95,38 @@ TEST(TraceLine, CrossesToTheInsertionOrToAGivenPoint) {
   const CrossedLine to_point({0, 0.025, 0.0, tuberosity});
   EXPECT_EQ(to_point.line.points.back().position_m, tuberosity);
   EXPECT_EQ(to_point.line.points.back().body, 1);
+}
+
+TEST(TraceLine, PassesAJointAndGoesOnToAGivenPoint) {
+  const Vec3 fascia(0.13, 0.01, 0.0);
+  const CrossedLine l({0, 0.025, 0.03, fascia});
+  const auto& points = l.line.points;
+  EXPECT_EQ(points.back().position_m, fascia);
+  const auto first = std::find_if(points.begin(), points.end(), [](const auto& point) { return point.body == 1; });
+  ASSERT_NE(first, points.end());
+  EXPECT_NEAR(from_axis_m(l.limb.anatomy.joints[0], first->position_m), 0.03, 2e-5);
+}
+
+/// The rod's middle as it was measured, 5 mm aside of the profile's; it reaches 20 mm past both ends of the line.
+LineGuide measured_guide() {
+  LineGuide guide{Vec3::Zero(), {0.1, 0.0, 0.0}, {}};
+  for (int s = -2; s <= 12; ++s) guide.middle_m.emplace_back(0.01 * s, 0.005, 0.0);
+  return guide;
+}
+
+TEST(TraceLine, FollowsTheMeasuredMiddleWhereThereIsOne) {
+  const Line l;
+  const auto points = trace_line("rod", straight_profile(), {0.02, 0.1}, measured_guide(), l.bones).points;
+  ASSERT_GE(points.size(), 4u);
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) EXPECT_NEAR(points[i].position_m.y(), 0.005, 1e-9);
+}
+
+TEST(TraceLine, LeavesOutWhatOfTheMiddleLiesPastItsEnds) {
+  const Line l;
+  const auto points = trace_line("rod", straight_profile(), {0.02, 0.1}, measured_guide(), l.bones).points;
+  for (std::size_t i = 1; i < points.size(); ++i) EXPECT_GT(points[i].position_m.x(), points[i - 1].position_m.x());
+  EXPECT_EQ(points.front().position_m, Vec3::Zero());
+  EXPECT_EQ(points.back().position_m, Vec3(0.1, 0.0, 0.0));
 }
 
 TEST(TraceLine, RefusesACrossingOfAJointThatIsNotOnTheWay) {

@@ -32,6 +32,7 @@ struct BoneWork {
 struct MuscleWork {
   MuscleData data;
   geometry::TriangleMesh surface;  // raw, then repaired, parted, fine
+  std::vector<Vec3> middle_m;      // of its measured sections, from the origin; empty: not known
   geometry::TriangleMesh skin;
   Cage cage;
   AttachmentPatches origins, insertions;  // in the order of the data's sites

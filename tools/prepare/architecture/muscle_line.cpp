@@ -39,6 +39,7 @@ class Way {
 
   double length_m() const { return arc_m_.back(); }
   double arc_of_point_m(std::size_t i) const { return arc_m_[i]; }
+  const Vec3& end_m() const { return points_m_.back(); }
 
   Vec3 at(double arc_m) const {
     const auto above = std::upper_bound(arc_m_.begin() + 1, arc_m_.end() - 1, arc_m);
@@ -51,6 +52,33 @@ class Way {
   std::vector<Vec3> points_m_;
   std::vector<double> arc_m_;
 };
+
+/// Length of the way up to its place nearest to `p`.
+double nearest_arc_m(const Way& way, const Vec3& p) {
+  double best_arc_m = 0.0, best_m = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= kSamples; ++i) {
+    const double arc_m = way.length_m() * i / kSamples;
+    const double distance_m = (way.at(arc_m) - p).norm();
+    if (distance_m < best_m) best_m = distance_m, best_arc_m = arc_m;
+  }
+  return best_arc_m;
+}
+
+/// From the origin to where the line ends, through the muscle's middle. The middle counts from where it is nearest to
+/// the one end to where it is nearest to the other: an end may lie beside it (biceps femoris' two origins).
+Way way_of(const MuscleProfile& profile, const LineGuide& guide) {
+  const std::vector<Vec3>& middle_m = guide.middle_m.empty() ? profile.centre_m : guide.middle_m;
+  Vec3 end_m = guide.insertion_m;
+  for (const CrossingData& crossing : guide.crossings) end_m = crossing.distal_point_m.value_or(end_m);
+  std::vector<Vec3> points_m{guide.origin_m};
+  const Way whole(middle_m);
+  const double begin_arc_m = nearest_arc_m(whole, guide.origin_m), end_arc_m = nearest_arc_m(whole, end_m);
+  for (std::size_t i = 0; i < middle_m.size(); ++i) {
+    if (whole.arc_of_point_m(i) > begin_arc_m && whole.arc_of_point_m(i) < end_arc_m) points_m.push_back(middle_m[i]);
+  }
+  points_m.push_back(end_m);
+  return Way(std::move(points_m));
+}
 
 double distance_to_joint_m(const Joint& joint, const Vec3& p) {
   const Vec3 away = p - joint.centre_m;
@@ -213,10 +241,7 @@ std::vector<int> joints_between(const std::string& name, const LineBones& bones)
 
 anatomy::MuscleLine trace_line(const std::string& name, const MuscleProfile& profile, const BellySpan& belly,
                                const LineGuide& guide, const LineBones& bones) {
-  std::vector<Vec3> points_m{guide.origin_m};
-  points_m.insert(points_m.end(), profile.centre_m.begin(), profile.centre_m.end());
-  points_m.push_back(guide.insertion_m);
-  const Way way(std::move(points_m));
+  const Way way = way_of(profile, guide);
   const std::vector<int> path = joints_between(name, bones);
   const std::vector<double> crossed_m = crossings_m(way, bones, path);
   const std::vector<Gap> gaps = gaps_of(name, guide, {bones, path}, way, crossed_m);
@@ -239,10 +264,7 @@ anatomy::MuscleLine trace_line(const std::string& name, const MuscleProfile& pro
     line.points.push_back({body_at(arc_m, bones, path, crossed_m), way.at(arc_m), LinePointKind::Via});
   }
   line.points.front() = {bones.origin_body, guide.origin_m, LinePointKind::Origin};
-  line.points.back() = {bones.insertion_body, guide.insertion_m, LinePointKind::Insertion};
-  for (const CrossingData& crossing : guide.crossings) {
-    if (crossing.distal_point_m) line.points.back().position_m = *crossing.distal_point_m;
-  }
+  line.points.back() = {bones.insertion_body, way.end_m(), LinePointKind::Insertion};
   return line;
 }
 

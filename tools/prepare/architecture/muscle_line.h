@@ -22,11 +22,13 @@ struct LineBones {
 /// Joints between two bodies, from the first to the second. Throws Error BadData when there is no way.
 std::vector<int> joints_between(const std::string& name, const LineBones& bones);
 
-/// What is known of a line: its ends, on bone, and how it passes joints.
+/// What is known of a line: its ends, on bone, how it passes joints, and the middle of the muscle where it was
+/// measured.
 struct LineGuide {
   Vec3 origin_m = Vec3::Zero();
   Vec3 insertion_m = Vec3::Zero();
   std::vector<CrossingData> crossings = {};
+  std::vector<Vec3> middle_m = {};  // from the origin; empty: the profile's, which a coarse cage moves by millimetres
 };
 
 /// A line through the middle of the muscle: origin, borders of the belly, points between, insertion; 4 to 8 points.

@@ -33,7 +33,11 @@ NamedSurface read_muscle(const JsonValue& value) {
   const Vec3 insertion = fields.at("tip_insertion_m").vec3();
   const auto sections = read_sections(fields.at("sections"));
   fields.finish();
-  return {key, loft_ellipses(sections, origin, insertion, kMuscleSpacing_m, kMuscleAround)};
+  NamedSurface muscle{key, loft_ellipses(sections, origin, insertion, kMuscleSpacing_m, kMuscleAround)};
+  muscle.middle_m.push_back(origin);
+  for (const Ellipse& section : sections) muscle.middle_m.push_back(section.centre_m);
+  muscle.middle_m.push_back(insertion);
+  return muscle;
 }
 
 std::vector<double> numbers(const JsonValue& list) {

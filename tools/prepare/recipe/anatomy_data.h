@@ -32,7 +32,7 @@ struct CrossingData {
   int joint = -1;  // index into AnatomyData::joints
   double proximal_m = 0.0;
   double distal_m = 0.0;               // 0: the insertion
-  std::optional<Vec3> distal_point_m;  // the line ends here, past the joint, in place of the insertion
+  std::optional<Vec3> distal_point_m;  // where the line ends, past the joint, in place of the insertion
 };
 
 /// A surface that the line goes round where it crosses a joint.

@@ -9,10 +9,10 @@ namespace myotact::prepare {
 
 namespace {
 
-const geometry::TriangleMesh* find_surface(const std::vector<NamedSurface>& surfaces, const std::string& key) {
+const NamedSurface* find_surface(const std::vector<NamedSurface>& surfaces, const std::string& key) {
   const auto found =
       std::find_if(surfaces.begin(), surfaces.end(), [&](const NamedSurface& surface) { return surface.key == key; });
-  return found == surfaces.end() ? nullptr : &found->surface;
+  return found == surfaces.end() ? nullptr : &*found;
 }
 
 }  // namespace
@@ -23,7 +23,7 @@ LimbWork make_limb(const AnatomyData& recipe, const std::vector<NamedSurface>& b
   limb.anatomy = recipe;
   limb.settings = settings;
   for (const BoneData& data : recipe.bones) {
-    if (const auto* surface = find_surface(bones, data.key)) limb.bones.push_back({data, *surface, {}, {}});
+    if (const auto* surface = find_surface(bones, data.key)) limb.bones.push_back({data, surface->surface, {}, {}});
   }
   if (limb.bones.empty()) {
     throw Error(ExitStatus::BadData, "bones: none of the input's is named in the recipe; rename the surfaces");
@@ -33,7 +33,8 @@ LimbWork make_limb(const AnatomyData& recipe, const std::vector<NamedSurface>& b
     if (!surface) continue;
     MuscleWork& muscle = limb.muscles.emplace_back();
     muscle.data = data;
-    muscle.surface = *surface;
+    muscle.surface = surface->surface;
+    muscle.middle_m = surface->middle_m;
   }
   if (limb.muscles.empty()) {
     throw Error(ExitStatus::BadData, "muscles: none of the input's is named in the recipe; rename the surfaces");

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "core/vector.h"
 #include "geometry/triangle_mesh.h"
 
 namespace myotact::prepare {
@@ -10,6 +12,7 @@ namespace myotact::prepare {
 struct NamedSurface {
   std::string key;
   geometry::TriangleMesh surface;
+  std::vector<Vec3> middle_m = {};  // of a muscle's measured sections with both tips, from the origin; empty: not known
 };
 
 }  // namespace myotact::prepare

@@ -40,9 +40,6 @@ CrossingData read_crossing(const JsonValue& value, const AnatomyData& data) {
     crossing.distal_m = distal->number_between(0.0, kFarthestCrossing_m);
   }
   if (const auto point = fields.find("distal_point_m")) crossing.distal_point_m = point->vec3();
-  if (crossing.distal_m > 0.0 && crossing.distal_point_m) {
-    throw value.error("distal_m and distal_point_m both say where the line goes on; give one of them");
-  }
   fields.finish();
   return crossing;
 }

@@ -167,7 +167,8 @@ void trace_lines(LimbWork& limb, const PartDone& done) {
     if (muscle.line.points.empty()) {
       // The line ends where the attachment was measured, not at the patch: the cage may have lost a thin tip.
       const LineGuide guide{line_end_m(limb, name, muscle.data.origins.front()),
-                            line_end_m(limb, name, muscle.data.insertions.front()), muscle.data.crossings};
+                            line_end_m(limb, name, muscle.data.insertions.front()), muscle.data.crossings,
+                            muscle.middle_m};
       muscle.line = trace_line(name, muscle.profile, muscle.belly, guide, bones);
     }
     add_wraps(name, muscle.data.wraps, bones, muscle.line);

@@ -1,0 +1,68 @@
+#include <algorithm>
+#include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/data_folder.h"
+#include "measure/line/line_model_file.h"
+#include "simulation/line_model.h"
+
+// Levers of the embedded limbs' muscle lines beside those of the worked one-dimensional joints (assets/cases), whose
+// paths were measured on the same dog independently of these lines.
+
+namespace myotact::measure {
+namespace {
+
+/// Measured points are rounded to 0.1 mm and insertions lie on the bone, where the model has the middle of a contact.
+constexpr double kLever_m = 1e-3;
+/// How fast a lever may change otherwise: by what 1 mm more or less of it at 20 degrees makes.
+constexpr double kLeverSlope_m_rad = 3e-3;
+
+struct Worked {
+  const char* model;
+  const char* specimen;
+  const char* joint;
+};
+
+class WorkedLevers : public ::testing::TestWithParam<Worked> {};
+INSTANTIATE_TEST_SUITE_P(Canine, WorkedLevers,
+                         ::testing::Values(Worked{"line_elbow", "canine_elbow", "elbow"},
+                                           Worked{"line_stifle", "canine_hindlimb", "stifle"},
+                                           Worked{"line_hock", "canine_hindlimb", "tarsus"}));
+
+/// Where a muscle has no name of its own in one limb, the specimen's begins with the limb's.
+const anatomy::MuscleLine* line_of(const anatomy::Specimen& specimen, const std::string& key) {
+  const auto found = std::find_if(specimen.lines.begin(), specimen.lines.end(), [&](const auto& line) {
+    const std::string& known = specimen.muscles[static_cast<std::size_t>(line.muscle)].key;
+    return known == key || known == "hind." + key;
+  });
+  return found == specimen.lines.end() ? nullptr : &*found;
+}
+
+TEST_P(WorkedLevers, AreThoseOfTheEmbeddedLines) {
+  const LineModel model = load_line_model(data_folder() / "assets/cases" / (std::string(GetParam().model) + ".json"));
+  const auto specimen = anatomy::load_specimen(data_folder() / "meshes" / GetParam().specimen);
+  simulation::Skeleton skeleton(specimen);
+  const int joint = anatomy::find_joint(specimen, GetParam().joint);
+  const double q_rad = model.q_rad.front();
+  std::vector<double> angles(static_cast<std::size_t>(skeleton.joint_count()), 0.0);
+  angles[static_cast<std::size_t>(joint)] = q_rad;
+  skeleton.set_pose(angles);
+  fmt::print("lever [mm] and its slope [mm/rad], of the line / of the worked model, at {:.2f} rad\n", q_rad);
+  for (const LineMuscle& muscle : model.joint.muscles) {
+    const anatomy::MuscleLine* line = line_of(specimen, muscle.key);
+    ASSERT_NE(line, nullptr) << muscle.key;
+    simulation::LineGeometry ours;
+    simulation::measure_line(*line, skeleton, ours);
+    const PathGeometry worked = measure_path(muscle.path, q_rad);
+    const double lever_m = -ours.slope_m_rad[joint], slope_m_rad = -ours.curvature_m_rad2(joint, joint);
+    fmt::print("{:32} {:6.2f} / {:6.2f}  {:6.2f} / {:6.2f}\n", muscle.key, 1e3 * lever_m, 1e3 * worked.arm_m,
+               1e3 * slope_m_rad, 1e3 * worked.arm_slope_m_rad);
+    EXPECT_NEAR(lever_m, worked.arm_m, kLever_m) << muscle.key;
+    EXPECT_NEAR(slope_m_rad, worked.arm_slope_m_rad, kLeverSlope_m_rad) << muscle.key;
+  }
+}
+
+}  // namespace
+}  // namespace myotact::measure
