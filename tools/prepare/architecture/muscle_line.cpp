@@ -64,18 +64,26 @@ double nearest_arc_m(const Way& way, const Vec3& p) {
   return best_arc_m;
 }
 
-/// From the origin to where the line ends, through the muscle's middle. The middle counts from where it is nearest to
-/// the one end to where it is nearest to the other: an end may lie beside it (biceps femoris' two origins).
+/// The measured middle from where it is nearest to the one end to where it is nearest to the other: it is of the whole
+/// muscle, and an end may lie beside it (the ischial origin of biceps femoris).
+std::vector<Vec3> middle_between(const std::vector<Vec3>& middle_m, const Vec3& origin_m, const Vec3& end_m) {
+  const Way whole(middle_m);
+  const double begin_arc_m = nearest_arc_m(whole, origin_m), end_arc_m = nearest_arc_m(whole, end_m);
+  std::vector<Vec3> between_m;
+  for (std::size_t i = 0; i < middle_m.size(); ++i) {
+    if (whole.arc_of_point_m(i) > begin_arc_m && whole.arc_of_point_m(i) < end_arc_m) between_m.push_back(middle_m[i]);
+  }
+  return between_m;
+}
+
+/// From the origin to where the line ends, through the muscle's middle.
 Way way_of(const MuscleProfile& profile, const LineGuide& guide) {
-  const std::vector<Vec3>& middle_m = guide.middle_m.empty() ? profile.centre_m : guide.middle_m;
   Vec3 end_m = guide.insertion_m;
   for (const CrossingData& crossing : guide.crossings) end_m = crossing.distal_point_m.value_or(end_m);
+  const std::vector<Vec3> middle_m =
+      guide.middle_m.empty() ? profile.centre_m : middle_between(guide.middle_m, guide.origin_m, end_m);
   std::vector<Vec3> points_m{guide.origin_m};
-  const Way whole(middle_m);
-  const double begin_arc_m = nearest_arc_m(whole, guide.origin_m), end_arc_m = nearest_arc_m(whole, end_m);
-  for (std::size_t i = 0; i < middle_m.size(); ++i) {
-    if (whole.arc_of_point_m(i) > begin_arc_m && whole.arc_of_point_m(i) < end_arc_m) points_m.push_back(middle_m[i]);
-  }
+  points_m.insert(points_m.end(), middle_m.begin(), middle_m.end());
   points_m.push_back(end_m);
   return Way(std::move(points_m));
 }
