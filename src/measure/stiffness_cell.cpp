@@ -114,6 +114,8 @@ void Cell::read() {
   row_.K_line_Nm_rad = row_.K_muscle_Nm_rad + row_.K_geometry_Nm_rad + row_.K_passive_Nm_rad;
   row_.net_torque_Nm = readout.net_torque_Nm;
   row_.preview = readout.preview;
+  if (const int m = simulation_.stuck_line(); m >= 0)
+    row_.stuck_line = place_.scene.specimen.muscles[static_cast<std::size_t>(m)].key;
   for (std::size_t m = 0; m < activations_.size(); ++m) {
     const simulation::MuscleAtJoint part = simulation_.muscle_at_joint(static_cast<int>(m), set_.joint);
     if (part.torque_Nm == 0.0 && part.line_muscle_Nm_rad == 0.0 && part.line_geometry_Nm_rad == 0.0) continue;

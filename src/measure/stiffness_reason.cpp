@@ -90,6 +90,10 @@ std::string explain_stiffness(const StiffnessRow& row) {
         fmt::format(" Whether it is stable at all is open: the anatomy is known to within {:.2f} .. {:.2f} N m/rad.",
                     row.K_low_Nm_rad, row.K_high_Nm_rad);
   }
+  if (!row.stuck_line.empty()) {
+    text += fmt::format(" The line of {} cannot clear its wrap surface at this angle: its lever is not to be trusted.",
+                        row.stuck_line);
+  }
   if (!row.converged) text += " Some static solve did not converge: do not quote these figures.";
   if (!row.held) text += " The muscles do not hold the joint at this angle.";
   return text;

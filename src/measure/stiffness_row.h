@@ -40,6 +40,7 @@ struct StiffnessRow {
   bool held = false;       // net torque balanced to within 1e-3 of the stronger side's, before any difference is added
   bool converged = false;  // every static solve of the row did
   bool preview = false;    // mass-spring muscles have a part in it
+  std::string stuck_line;  // key of a muscle whose line cannot clear its wrap here, or empty; `why` tells it
   std::vector<BandPart> band;
   std::vector<MusclePart> muscles;  // that pull on the joint
   std::string why;                  // see stiffness_reason.h

@@ -190,6 +190,11 @@ std::string Conductor::notice() const {
     return "the tissue came to no complete rest in the starting posture, so that the balance is rough; start nearer to "
            "the specimen's own posture, or without contact";
   }
+  if (const int muscle = simulation_->stuck_line(); muscle >= 0) {
+    return "the line of " + scene_->specimen.muscles[static_cast<std::size_t>(muscle)].key +
+           " cannot clear its wrap surface in this posture: its end lies inside it, so that its lever is not to be "
+           "trusted; turn the joint back, or move the wrap or the end in the specimen";
+  }
   if (balanced_ || !co_contracting_) return "";
   const std::string& joint = scene_->specimen.joints[static_cast<std::size_t>(scene_->co_contraction->joint)].key;
   return "the muscles cannot balance the " + joint +

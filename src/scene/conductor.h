@@ -40,7 +40,8 @@ class Conductor {
   void ask_shove_test();  // of the co-contraction's joint
   void ask_gravity(const Vec3& gravity_m_s2) { gravity_m_s2_ = gravity_m_s2; }
 
-  /// What a person should know about the last step, or nothing: muscles that cannot hold the posture.
+  /// What a person should know about the last step, or nothing: muscles that cannot hold the posture, a
+  /// line caught in its wrap.
   std::string notice() const;
   const ShoveTest& shove_test() const { return shove_test_; }
 

@@ -98,7 +98,10 @@ class Simulation {
   double contact_force_N(int muscle) const;        // sum of the contact forces on the muscle's surface
   double contact_depth_m(int muscle) const;        // how far it overlaps most, over what overlaps at the file pose
   double smallest_volume_ratio(int muscle) const;  // smallest J over the integration points
-  double volume_ratio(int muscle) const;           // volume of the whole muscle over that at rest
+  /// The first muscle whose line cannot clear one of its wraps in this pose, -1 where all can. Such a line is led round
+  /// on the surface as if its end lay there: its lever has no step, but is not a muscle's.
+  int stuck_line() const;
+  double volume_ratio(int muscle) const;  // volume of the whole muscle over that at rest
   /// Largest out-of-balance share of a muscle after the last step: forces that nothing balances over the size of all.
   double residual_share() const;
   std::uint64_t state_hash() const;

@@ -116,6 +116,15 @@ std::vector<Vec3> Simulation::line_world_m(int muscle) const {
   return line_points_W(*impl_->lines[at(muscle)].line, impl_->limb.skeleton);
 }
 
+int Simulation::stuck_line() const {
+  for (int m = 0; m < static_cast<int>(impl_->lines.size()); ++m) {
+    const LimbMuscle& muscle = impl_->limb.muscles[at(m)];
+    if (muscle.rigid && !muscle.line) continue;  // only a shape
+    if (impl_->line_geometry_of(m).stuck_wrap >= 0) return m;
+  }
+  return -1;
+}
+
 double Simulation::volume_ratio(int muscle) const {
   return impl_->limb.muscles[at(muscle)].readout.volume_ratio;
 }

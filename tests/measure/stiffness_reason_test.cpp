@@ -80,5 +80,12 @@ TEST(StiffnessReason, AJointWithoutMusclesHasItsSpring) {
   EXPECT_THAT(explain_stiffness(row), HasSubstr("its largest part is the joint's own spring, +0.10."));
 }
 
+TEST(StiffnessReason, NamesALineThatIsCaughtInItsWrap) {
+  StiffnessRow row = row_of(4.0, -1.0);
+  EXPECT_THAT(explain_stiffness(row), Not(HasSubstr("wrap")));
+  row.stuck_line = "biceps_brachii";
+  EXPECT_THAT(explain_stiffness(row), HasSubstr("The line of biceps_brachii cannot clear its wrap surface"));
+}
+
 }  // namespace
 }  // namespace myotact::measure
