@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "anatomy/farthest.h"
 #include "core/text.h"
 
 namespace myotact::anatomy {
@@ -13,7 +14,6 @@ using geometry::WrapShape;
 
 /// Smaller than a tendon's own radius, larger than any bone of a limb [m].
 constexpr double kSmallest_m = 1e-4, kLargest_m = 0.2;
-constexpr double kFarthest_m = 10.0;
 constexpr double kUnitTolerance = 1e-6;  // files give at least seven digits
 /// A cylinder's side must point this much across its axis (sine), or it names no side.
 constexpr double kLeastAcross = 0.1;
@@ -31,7 +31,7 @@ std::string defect_of_shape(const LineWrap& wrap) {
     return fmt::format("its largest radius is {} times its smallest; must be at most {}", to_text(elongation),
                        to_text(geometry::kMostElongated));
   }
-  if (!(wrap.centre_m.allFinite() && wrap.centre_m.norm() <= kFarthest_m)) {
+  if (!is_near(wrap.centre_m)) {
     return "centre_m must lie within 10 m; are the units metres?";
   }
   if (!((wrap.axes * wrap.axes.transpose() - Mat3::Identity()).norm() <= 10.0 * kUnitTolerance)) {

@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include "anatomy/read_body.h"
-#include "anatomy/read_wrap.h"
+#include "anatomy/read_line.h"
+#include "anatomy/read_reference.h"
 #include "anatomy/specimen.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -55,17 +56,6 @@ struct Loader {
     return folder / relative;
   }
 };
-
-template <class Part>
-int reference(const JsonValue& name, const std::vector<Part>& parts, const char* kind) {
-  const std::string key = name.string();
-  std::vector<std::string> keys;
-  for (const Part& part : parts) keys.push_back(part.key);
-  const auto found = std::find(keys.begin(), keys.end(), key);
-  if (found != keys.end()) return static_cast<int>(found - keys.begin());
-  throw name.error(
-      fmt::format("names the {} \"{}\" that is not there; the nearest is \"{}\"", kind, key, nearest_word(key, keys)));
-}
 
 template <class Part>
 void refuse_twin(const JsonValue& value, const std::vector<Part>& parts) {
@@ -155,38 +145,6 @@ Muscle read_muscle(const JsonValue& value, const Loader& loader) {
   return muscle;
 }
 
-LinePoint read_line_point(const JsonValue& value, const Loader& loader) {
-  JsonObject fields(value);
-  LinePoint point;
-  point.body = reference(fields.at("body"), loader.specimen.bodies, "body");
-  point.position_m = fields.at("position_m").vec3();
-  const std::string kind = fields.at("kind").one_of({"origin", "via", "insertion"});
-  point.kind = kind == "origin" ? LinePointKind::Origin : kind == "via" ? LinePointKind::Via : LinePointKind::Insertion;
-  fields.finish();
-  return point;
-}
-
-LineWrap read_wrap(const JsonValue& value, const Loader& loader) {
-  JsonObject fields(value);
-  LineWrap wrap = read_wrap_shape(fields);
-  wrap.body = reference(fields.at("body"), loader.specimen.bodies, "body");
-  wrap.after = fields.at("after").integer_between(0, 1'000'000);  // how many points there are is checked later
-  fields.finish();
-  return wrap;
-}
-
-MuscleLine read_line(const JsonValue& value, const Loader& loader) {
-  JsonObject fields(value);
-  MuscleLine line;
-  line.muscle = reference(fields.at("muscle"), loader.specimen.muscles, "muscle");
-  for (const JsonValue& point : fields.at("points").elements()) line.points.push_back(read_line_point(point, loader));
-  if (const auto wraps = fields.find("wraps")) {
-    for (const JsonValue& wrap : wraps->elements()) line.wraps.push_back(read_wrap(wrap, loader));
-  }
-  fields.finish();
-  return line;
-}
-
 MuscleGroup read_group(const JsonValue& value, const Loader& loader) {
   JsonObject fields(value);
   MuscleGroup group;
@@ -259,7 +217,7 @@ void read_lists(JsonObject& root, Loader& loader) {
   each_keyed("bones", s.bones, [&](const JsonValue& v) { return read_bone(v, loader); });
   each_keyed("joints", s.joints, [&](const JsonValue& v) { return read_joint(v, loader); });
   each_keyed("muscles", s.muscles, [&](const JsonValue& v) { return read_muscle(v, loader); });
-  each("lines", s.lines, [&](const JsonValue& v) { return read_line(v, loader); });
+  each("lines", s.lines, [&](const JsonValue& v) { return read_line(v, s); });
   each("groups", s.groups, [&](const JsonValue& v) { return read_group(v, loader); });
   if (root.find("overlaps")) each("overlaps", s.overlaps, read_overlap);
 }

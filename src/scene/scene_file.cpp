@@ -5,7 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "anatomy/find_line_defects.h"
 #include "anatomy/hinge_chains.h"
+#include "anatomy/read_line.h"
 #include "core/data_folder.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -114,6 +116,25 @@ void read_tissue(const JsonValue& value, Scene& scene) {
   tissue.finish();
 }
 
+/// Lines by hand, each in place of the specimen's own line of its muscle.
+void read_lines(const JsonValue& value, Scene& scene) {
+  // Unlike the middle of a scanned muscle, a point that a person places has no reason to lie in a bone: what is left is
+  // the roughness of the bones' surfaces.
+  constexpr anatomy::LineRules kByHand{.deepest_via_m = 1e-3, .crosses_joint = true};
+  std::vector<int> given;
+  for (const JsonValue& entry : value.elements()) {
+    anatomy::MuscleLine line = anatomy::read_line(entry, scene.specimen);
+    if (std::find(given.begin(), given.end(), line.muscle) != given.end()) {
+      throw entry.error("this muscle has a line already; leave one out");
+    }
+    given.push_back(line.muscle);
+    const auto defects = anatomy::find_line_defects(line, scene.specimen, kByHand);
+    if (!defects.empty()) throw entry.error(defects.front());
+    *std::find_if(scene.specimen.lines.begin(), scene.specimen.lines.end(),
+                  [&](const anatomy::MuscleLine& own) { return own.muscle == line.muscle; }) = std::move(line);
+  }
+}
+
 /// A scene's own choice of where on their force-length curve the fibres work, in place of the specimen's estimate.
 void read_rest_stretch(const JsonValue& value, Scene& scene) {
   for (const auto& [key, entry] : JsonObject(value).entries()) {
@@ -205,6 +226,7 @@ ToolSettings read_tool(const JsonValue& value) {
 void read_parts(JsonObject& root, Scene& scene) {
   if (const auto dt = root.find("dt_s")) scene.settings.dt_s = dt->number_between(1e-3, 0.05);
   if (const auto gravity = root.find("gravity_m_s2")) scene.settings.gravity_m_s2 = gravity->vec3();
+  if (const auto lines = root.find("lines")) read_lines(*lines, scene);
   if (const auto joints = root.find("joints")) read_joints(*joints, scene);
   if (const auto contact = root.find("contact")) scene.settings.contact = contact->boolean();
   if (const auto tissue = root.find("tissue")) read_tissue(*tissue, scene);

@@ -114,6 +114,21 @@ TEST_F(LoadSpecimen, WrapsNameTheirPlaceWhenTheyAreWrong) {
   EXPECT_THAT(told("shape", "ellipsoid"), HasSubstr("the key \"radii_m\" is missing"));
 }
 
+TEST_F(LoadSpecimen, LinesStayOutOfBones) {
+  // The upper bone is 16 mm thick about its middle line.
+  EXPECT_THAT(
+      problem([](json& s) {
+        json via = s["lines"][0]["points"][0];
+        via["kind"] = "via";
+        via["position_m"] = {-0.1, 0.0, 0.001};
+        json& points = s["lines"][0]["points"];
+        points.insert(points.begin() + 1, via);
+      }),
+      HasSubstr("line of flexor: via point 1 lies 7.0 mm inside the bone upper, at most 6.0 are allowed; move"));
+  EXPECT_THAT(problem([](json& s) { s["lines"][0]["points"][0]["body"] = "uper"; }),
+              HasSubstr("/lines/0/points/0/body: names the body \"uper\" that is not there"));
+}
+
 TEST_F(LoadSpecimen, PartsStayInsideTheFolder) {
   for (const char* path : {"../s/bones/upper.ply", "/etc/passwd"}) {
     EXPECT_THAT(problem([&](json& s) { s["bones"][0]["file"] = path; }),

@@ -110,6 +110,34 @@ TEST_F(SceneFile, ChoosesWhereFibresWork) {
   EXPECT_THAT(complaint(R"(, "rest_stretch": {"flexor": 7})"), HasSubstr("must be between 0.3 and 1.8"));
 }
 
+/// A line of the flexor by hand that ends on `body`, through a point at height `z_m` over the middle of the upper bone.
+std::string line_by_hand(const std::string& body, const std::string& z_m) {
+  return R"({"muscle": "flexor", "points": [
+    {"body": "upper", "position_m": [-0.15, 0, 0.03], "kind": "origin"},
+    {"body": "upper", "position_m": [-0.1, 0, )" +
+         z_m + R"(], "kind": "via"},
+    {"body": ")" +
+         body + R"(", "position_m": [0.05, 0, 0.03], "kind": "insertion"}]})";
+}
+
+TEST_F(SceneFile, LinesByHandReplaceTheSpecimens) {
+  const Scene scene = parse(R"(, "lines": [)" + line_by_hand("lower", "0.02") + "]");
+  ASSERT_EQ(scene.specimen.lines.size(), scene.specimen.muscles.size());
+  const int flexor = anatomy::find_muscle(scene.specimen, "flexor");
+  for (const anatomy::MuscleLine& line : scene.specimen.lines) {
+    if (line.muscle != flexor) continue;
+    ASSERT_EQ(line.points.size(), 3u);
+    EXPECT_EQ(line.points[1].position_m, Vec3(-0.1, 0.0, 0.02));
+  }
+  const auto told = [&](const std::string& lines) { return complaint(R"(, "lines": [)" + lines + "]"); };
+  EXPECT_THAT(told(line_by_hand("lower", "0.002")),
+              HasSubstr("/lines/0: line of flexor: via point 1 lies 6.0 mm inside"));
+  EXPECT_THAT(told(line_by_hand("upper", "0.02")), HasSubstr("crosses no joint"));
+  EXPECT_THAT(told(line_by_hand("louer", "0.02")), HasSubstr("the nearest is \"lower\""));
+  const std::string line = line_by_hand("lower", "0.02");
+  EXPECT_THAT(told(line + "," + line), HasSubstr("/lines/1: this muscle has a line already"));
+}
+
 TEST_F(SceneFile, OverridesMustBeText) {
   try {
     parse("", {{"title", "\xff"}});

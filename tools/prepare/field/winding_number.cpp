@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "geometry/depth_inside.h"
 #include "geometry/triangle_tree.h"
 #include "prepare/field/level_set.h"
 #include "prepare/repair/surface_pieces.h"
@@ -18,13 +19,6 @@ namespace {
 /// Clusters farther away than this multiple of their radius are taken as one.
 constexpr double kFar = 2.0;
 constexpr int kLeafTriangles = 4;
-
-/// Solid angle of a triangle seen from the origin (Van Oosterom and Strackee 1983).
-double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const double la = a.norm(), lb = b.norm(), lc = c.norm();
-  const double height = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-  return 2.0 * std::atan2(a.dot(b.cross(c)), height);
-}
 
 }  // namespace
 
@@ -88,7 +82,7 @@ double WindingNumber::sum(int cluster, const Vec3& p) const {
     const auto& [a, b, c] =
         surface_.triangles[static_cast<std::size_t>(order_[static_cast<std::size_t>(here.first + i)])];
     const auto at = [&](int v) -> Vec3 { return surface_.positions_m[static_cast<std::size_t>(v)] - p; };
-    angle += solid_angle(at(a), at(b), at(c));
+    angle += geometry::solid_angle(at(a), at(b), at(c));
   }
   return angle / (4.0 * std::numbers::pi);
 }
