@@ -4,22 +4,23 @@
 #include <cmath>
 
 #include "simulation/coupled_solve.h"
-#include "simulation/step.h"
+#include "simulation/settle_together.h"
 
 namespace myotact::simulation {
 namespace {
 
 /// Angles are changed in parts no larger than this, so that the carried-along guess stays near the solution: 5 degrees.
 constexpr double kLargestPart_rad = 0.0873;
+/// Activations of muscles that touch are changed in parts no larger than this: bellies that thicken at once find
+/// themselves within one another.
+constexpr double kLargestActivationPart = 0.1;
 /// Out-of-balance share at which a muscle rests, at the end and between two parts of an angle.
 constexpr double kRestShare = 1e-9;
 constexpr double kRoughShare = 1e-3;
 /// A slack thin muscle that buckles wanders for about 100 (measured); the others rest after 10 to 40.
 constexpr int kMostIterations = 400;
-/// Mass over (time constant)^2 is added to the matrix: at 2 ms an element's inertia equals its stiffness and a step is
-/// short; beyond 1000 s the iteration is Newton's.
-constexpr double kFirstTime_s = 2e-3, kShortestTime_s = 1e-4, kLongestTime_s = 1e3;
-constexpr double kTimeGrowth = 4.0, kTimeCut = 0.25;
+/// Time constant of a muscle's first step.
+constexpr double kFirstTime_s = 2e-3;
 /// A step ends where the forces along it have fallen to this part of what they were, or still point onwards.
 constexpr double kLineSearchDrop = 0.5;
 constexpr int kMostCuts = 12;
@@ -27,27 +28,8 @@ constexpr int kMostCuts = 12;
 /// that unbuckles creeps for hundreds of steps): the step is doubled as long as that holds.
 constexpr double kStillSteep = 0.8;
 constexpr double kLongestStep = 1024.0;
-/// Newton steps of all muscles together at most.
-constexpr int kMostRounds = 400;
-/// They start here: neighbours have seen each other at rest, one by one.
-constexpr double kFirstRound_s = 0.02;
-/// Each of the first ones finds the faces under the nodes anew, which costs it its second order. A node that has two
-/// faces to choose from may never make up its mind: when the share is small and so many steps have not halved it, the
-/// faces stay.
-constexpr int kSearchingRounds = 60, kPatience = 12;
-constexpr double kSmallShare = 1e-2;
 /// A guess that folds elements over farther than this is not looked at.
 constexpr double kSmallestJ = -0.5;
-
-TissueLoad static_load(const Vec3& gravity_m_s2) {
-  TissueLoad load;
-  load.gravity_m_s2 = gravity_m_s2;
-  return load;
-}
-
-double rest_share(const LimbMuscle& muscle) {
-  return muscle.system.residual_N.norm() / (muscle.system.force_scale_N + 1e-6);
-}
 
 /// Newton direction of the tangent with its inertia term; false when not even the safe one can be factored.
 bool find_direction(const Skeleton& skeleton, TissueLoad load, double time_s, LimbMuscle& muscle,
@@ -134,6 +116,24 @@ void turn_to(Limb& limb, const Eigen::VectorXd& angles_rad) {
   }
 }
 
+Eigen::VectorXd activations_of(const Limb& limb) {
+  Eigen::VectorXd activations(static_cast<Eigen::Index>(limb.muscles.size()));
+  for (std::size_t m = 0; m < limb.muscles.size(); ++m) {
+    activations[static_cast<Eigen::Index>(m)] = limb.muscles[m].state.activation;
+  }
+  return activations;
+}
+
+void activate(Limb& limb, const Eigen::VectorXd& activations) {
+  for (std::size_t m = 0; m < limb.muscles.size(); ++m) {
+    limb.muscles[m].state.activation = activations[static_cast<Eigen::Index>(m)];
+  }
+}
+
+int parts_of(const Eigen::VectorXd& change, double largest_part) {
+  return change.size() > 0 ? static_cast<int>(std::ceil(change.cwiseAbs().maxCoeff() / largest_part)) : 1;
+}
+
 /// Each muscle for itself, its neighbours where they were seen last.
 bool settle_each(Limb& limb, double wanted_share, WorkerPool& workers) {
   std::vector<char> settled(limb.muscles.size(), 1);
@@ -148,47 +148,6 @@ bool settle_each(Limb& limb, double wanted_share, WorkerPool& workers) {
 bool touching(const Limb& limb) {
   return std::any_of(limb.muscles.begin(), limb.muscles.end(),
                      [](const LimbMuscle& muscle) { return !muscle.state.touches.empty(); });
-}
-
-/// Largest out-of-balance share of a muscle as they lie now.
-double largest_share(Limb& limb, WorkerPool& workers) {
-  const TissueLoad load = static_load(limb.gravity_m_s2);
-  workers.run(static_cast<int>(limb.muscles.size()), [&](int m) {
-    LimbMuscle& muscle = limb.muscles[static_cast<std::size_t>(m)];
-    if (!muscle.rigid) compute_forces(muscle.tissue, limb.skeleton, load, muscle.state, muscle.system);
-  });
-  double share = 0.0;
-  for (const LimbMuscle& muscle : limb.muscles) {
-    if (!muscle.rigid) share = std::max(share, rest_share(muscle));
-  }
-  return share;
-}
-
-double next_time_s(double time_s, double part) {
-  const double change = part >= 1.0 ? kTimeGrowth : part < 0.3 ? kTimeCut : 1.0;
-  return std::clamp(time_s * change, kShortestTime_s, kLongestTime_s);
-}
-
-/// All muscles that touch, together.
-bool settle_together(Limb& limb, double wanted_share, WorkerPool& workers) {
-  double share = largest_share(limb, workers), best = share, time_s = kFirstRound_s;
-  int waited = 0;
-  for (int round = 0; round < kMostRounds && !(share < wanted_share); ++round) {
-    const Relaxation step = relax(limb, {share, time_s}, workers);
-    if (!step.sound) {  // back, and more carefully
-      if (time_s <= kShortestTime_s) return false;
-      for (LimbMuscle& muscle : limb.muscles) muscle.state.now.position_m = muscle.state.last.position_m;
-      see_neighbours(limb);
-    }
-    time_s = next_time_s(time_s, step.sound ? step.part : 0.0);
-    const bool searching = round < kSearchingRounds && waited < kPatience;
-    if (searching) find_touches(limb, workers);
-    share = largest_share(limb, workers);
-    if (!searching || share > kSmallShare) continue;
-    waited = share < 0.5 * best ? 0 : waited + 1;
-    best = std::min(best, share);
-  }
-  return share < wanted_share;
 }
 
 /// One by one first, which stands anything; where muscles touch, then all together.
@@ -263,19 +222,32 @@ bool settle_muscle(const Skeleton& skeleton, const Vec3& gravity_m_s2, double wa
   return rest_share(muscle) < wanted_share;
 }
 
-bool settle_limb(Limb& limb, std::span<const double> angles_rad, WorkerPool& workers) {
+bool settle_limb(Limb& limb, std::span<const double> angles_rad, std::span<const double> activations,
+                 WorkerPool& workers) {
   const Eigen::VectorXd start = limb.now.angle_rad;
   const Eigen::VectorXd goal = Eigen::Map<const Eigen::VectorXd>(angles_rad.data(), start.size());
-  const double way = start.size() > 0 ? (goal - start).cwiseAbs().maxCoeff() : 0.0;
-  const int parts = std::max(1, static_cast<int>(std::ceil(way / kLargestPart_rad)));
+  const Eigen::VectorXd start_activations = activations_of(limb);
+  const Eigen::VectorXd goal_activations =
+      Eigen::Map<const Eigen::VectorXd>(activations.data(), start_activations.size());
+  const int parts = std::max(
+      {1, parts_of(goal - start, kLargestPart_rad),
+       limb.touch_surfaces.empty() ? 1 : parts_of(goal_activations - start_activations, kLargestActivationPart)});
   limb.skeleton.set_pose(limb.angles());
   bool settled = true;
   for (int part = 1; part <= parts; ++part) {
-    turn_to(limb, start + (goal - start) * (static_cast<double>(part) / parts));
+    const double share = static_cast<double>(part) / parts;
+    activate(limb, part == parts ? goal_activations
+                                 : Eigen::VectorXd(start_activations + share * (goal_activations - start_activations)));
+    turn_to(limb, start + (goal - start) * share);
     settled = settle_all(limb, part == parts ? kRestShare : kRoughShare, workers);
   }
   bring_to_rest(limb);
   return settled;
+}
+
+bool settle_limb(Limb& limb, std::span<const double> angles_rad, WorkerPool& workers) {
+  const Eigen::VectorXd held = activations_of(limb);
+  return settle_limb(limb, angles_rad, {held.data(), limb.muscles.size()}, workers);
 }
 
 void refresh_muscle_stiffness(const Limb& limb, LimbMuscle& muscle) {

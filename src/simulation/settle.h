@@ -9,6 +9,9 @@ namespace myotact::simulation {
 /// rest, fibres at isometric force. Starts from the present state, carried along with the bones. False when a muscle
 /// did not come to rest; the state is then its best one.
 bool settle_limb(Limb& limb, std::span<const double> angles_rad, WorkerPool& workers);
+/// The same at these activations, one a muscle; starts from those set in the states.
+bool settle_limb(Limb& limb, std::span<const double> angles_rad, std::span<const double> activations,
+                 WorkerPool& workers);
 
 /// Static equilibrium of one muscle in the skeleton's pose, from its present state, until the out-of-balance force is
 /// below `wanted_share` of the size of the forces. False when it does not get there.

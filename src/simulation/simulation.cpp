@@ -110,9 +110,9 @@ bool Simulation::settle(std::span<const double> joint_angles_rad, std::span<cons
       std::all_of(joint_angles_rad.begin(), joint_angles_rad.end(), [](double q) { return std::isfinite(q); });
   if (!usable) return false;
   for (std::size_t m = 0; m < in.limb.muscles.size(); ++m) {
-    in.excitations[m] = in.limb.muscles[m].state.activation = m < activations.size() ? unit_range(activations[m]) : 0.0;
+    in.excitations[m] = m < activations.size() ? unit_range(activations[m]) : 0.0;
   }
-  const bool settled = settle_limb(in.limb, joint_angles_rad, in.workers);
+  const bool settled = settle_limb(in.limb, joint_angles_rad, in.excitations, in.workers);
   refresh_stiffness(in.limb, in.workers);
   in.workers.run(in.surfaces.count(), [&](int surface) { in.surfaces.follow(in.limb, surface, true); });
   in.whole_steps = 0;

@@ -130,10 +130,9 @@ Way make_way(Limb& limb, const SmallSystem& small, const Solutions& solutions, W
 }
 
 /// Goes the whole way unless the energy has turned to rise steeply by then; then back towards the lowest place on it.
-/// `part`: how much of it.
+/// `part`: how much of it at most, then how much was gone.
 bool search_way(Limb& limb, const TissueLoad& load, const Way& way, WorkerPool& workers, double& part) {
   const double start_slope = energy_slope(limb, load.rule, way);
-  part = 1.0;
   for (int cut = 0; cut < kMostCuts; ++cut) {
     const bool sound = go(limb, load, way, part, workers);
     const double slope = sound ? energy_slope(limb, load.rule, way) : 0.0;
@@ -176,7 +175,18 @@ struct Task {
   const TissueLoad& load;
   Joints joints = Joints::Free;
   double coupled_share = kCoupledShare;
+  double farthest_m = std::numeric_limits<double>::infinity();  // that a node may go
 };
+
+/// The part of the way on which no node goes farther than it may.
+double allowed_part(const Limb& limb, double farthest_m) {
+  double longest_m = 0.0;
+  for (const LimbMuscle& muscle : limb.muscles) {
+    if (muscle.rigid || muscle.change_m.size() == 0) continue;
+    longest_m = std::max(longest_m, muscle.change_m.reshaped(3, muscle.tissue.free_nodes).colwise().norm().maxCoeff());
+  }
+  return longest_m > farthest_m ? farthest_m / longest_m : 1.0;
+}
 
 Iteration newton_step(Limb& limb, const Task& task, WorkerPool& workers, int& definite_solves) {
   const TissueLoad& load = task.load;
@@ -198,6 +208,7 @@ Iteration newton_step(Limb& limb, const Task& task, WorkerPool& workers, int& de
 
   const Way way = make_way(limb, small, {uncoupled, solution}, workers);
   Iteration result;
+  result.part = allowed_part(limb, task.farthest_m);
   result.sound = search_way(limb, load, way, workers, result.part);
   result.lines_share = lines_share(limb, load.rule);
   if (way.change_rad.size() > 0) result.turn_rad = way.change_rad.cwiseAbs().maxCoeff();
@@ -264,7 +275,7 @@ Relaxation relax(Limb& limb, const RelaxInput& input, WorkerPool& workers) {
     muscle.state.last.velocity_m_s.setZero();
   }
   int definite_solves = 0;
-  const Task task{load, Joints::Held, kRelaxedPart * input.share};
+  const Task task{load, Joints::Held, kRelaxedPart * input.share, input.farthest_m};
   const Iteration iteration = newton_step(limb, task, workers, definite_solves);
   return {iteration.sound, iteration.part};
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "simulation/limb.h"
 #include "simulation/worker_pool.h"
 
@@ -30,6 +32,7 @@ StepReport advance(Limb& limb, const StepInput& input, WorkerPool& workers);
 struct RelaxInput {
   double share = 1.0;   // largest out-of-balance share of a muscle now
   double time_s = 1e3;  // mass over its square is added to the tangent: short, and the step is
+  double farthest_m = std::numeric_limits<double>::infinity();  // that a node may go
 };
 struct Relaxation {
   bool sound = true;  // false: the place cannot be used
