@@ -21,11 +21,15 @@ constexpr double kFarthest_m = 1e-3;
 constexpr double kFacesChange = 1e-2;
 /// A share that grows by more than this means that the step was too long for the faces.
 constexpr double kTooLong = 2.0;
-/// Muscles rest when the faces that they rest on leave no more than this once they are found anew: a twentieth of what
-/// a step in motion leaves. A node with two faces to choose from may never make up its mind: after so many steps that
-/// have not halved such a share, the faces stay.
+/// Muscles rest when the faces that they rest on leave no more than this once they are found anew. A share that so many
+/// steps have not halved below it stays where it is: so do the faces, then, for as many as a rest on them takes.
 constexpr double kFacesShare = 1e-3;
 constexpr int kPatience = 12;
+constexpr int kHeldRounds = 40;
+/// A node that flips between two faces has no rest on either. After so many rounds what such flips leave will do: a
+/// quarter of what a step in motion leaves.
+constexpr int kRoundsBeforeFlips = 150;
+constexpr double kFlipShare = 5e-3;
 
 /// Where all nodes are, muscle by muscle.
 Eigen::VectorXd node_places(const Limb& limb) {
@@ -98,9 +102,9 @@ double rest_share(const LimbMuscle& muscle) {
 bool settle_together(Limb& limb, double wanted_share, WorkerPool& workers) {
   Extrapolation extrapolation;
   double share = largest_share(limb, workers), best = share, time_s = kFirstRound_s;
-  int waited = 0;
+  int waited = 0, held = 0;  // rounds: since the best share was halved; for which the faces stay yet
   for (int round = 0; round < kMostRounds && !(share < wanted_share); ++round) {
-    const bool searching = waited < kPatience;
+    const double faces_share = round < kRoundsBeforeFlips ? kFacesShare : kFlipShare;
     const Eigen::VectorXd start_m = node_places(limb);
     const double start_share = share, start_time_s = time_s;
     const Relaxation step = relax(limb, {share, time_s, kFarthest_m}, workers);
@@ -109,23 +113,26 @@ bool settle_together(Limb& limb, double wanted_share, WorkerPool& workers) {
       if (start_time_s <= kShortestTime_s) return false;
       put_nodes(start_m, limb);
     }
-    if (searching) {
-      share = share_on_new_faces(limb, workers);
-      if (step.sound && step.part == 1.0 && share < kFacesChange)
-        share = extrapolate(limb, start_m, share, extrapolation, workers);
-      else
-        extrapolation.forget();
-      if (share > kTooLong * start_share) time_s = std::clamp(time_s, kShortestTime_s, 0.5 * start_time_s);
-    } else {
+    if (held > 0) {
+      --held;
       see_neighbours(limb);
       share = largest_share(limb, workers);
       if (!(share < wanted_share)) continue;
       share = share_on_new_faces(limb, workers);
-      if (share < kFacesShare) return true;
+      if (share < faces_share) return true;
+      held = waited = 0;
       best = share;
+      continue;
     }
-    waited = share > kFacesShare || share < 0.5 * best ? 0 : waited + 1;
+    share = share_on_new_faces(limb, workers);
+    if (step.sound && step.part == 1.0 && share < kFacesChange)
+      share = extrapolate(limb, start_m, share, extrapolation, workers);
+    else
+      extrapolation.forget();
+    if (share > kTooLong * start_share) time_s = std::max(kShortestTime_s, std::min(time_s, 0.5 * start_time_s));
+    waited = share < 0.5 * best || best > faces_share ? 0 : waited + 1;
     best = std::min(best, share);
+    if (waited >= kPatience && share < faces_share) held = kHeldRounds;
   }
   return share < wanted_share;
 }
