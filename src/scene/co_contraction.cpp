@@ -99,7 +99,8 @@ TorqueTable measure_torques(const Scene& scene, simulation::Simulation& simulati
       table.torque_Nm[m].push_back(simulation.muscle_torque_Nm(static_cast<int>(m), set.joint));
     }
   }
-  simulation.restart();  // what starts from here does not depend on the last level
+  simulation.restart();  // full activation to none at once: from the file pose the way is shorter
+  settle(scene.activations, 0.0);
   return table;
 }
 
