@@ -12,8 +12,8 @@
 namespace myotact::simulation {
 namespace {
 
-/// Newton steps at most; the second one is needed only when a hand yanks or an activation jumps, more than three where a
-/// hand presses slack muscles that lie on each other.
+/// Newton steps at most; the second one is needed only when a hand yanks or an activation jumps, more than three where
+/// a hand presses slack muscles that lie on each other.
 constexpr int kMostIterations = 5;
 /// Out-of-balance force, over the size of the elements' forces, at which a step counts as solved. Below the 3 % that
 /// one linearised step costs in force anyway (measured on twitches against steps of 1 ms).
