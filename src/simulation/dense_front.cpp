@@ -23,7 +23,8 @@ struct VectorOf {
   typedef Scalar Type __attribute__((vector_size(kBytes), aligned(sizeof(Scalar)), may_alias));
   typedef Bits Mask __attribute__((vector_size(kBytes), aligned(sizeof(Scalar)), may_alias));
 
-  MYOTACT_INLINE static const Type& load(const Scalar* from) { return *reinterpret_cast<const Type*>(from); }
+  /// A pointer, and no reference: clang takes what a function refers to as aligned like any vector of this size.
+  MYOTACT_INLINE static const Type* at(const Scalar* from) { return reinterpret_cast<const Type*>(from); }
   MYOTACT_INLINE static void store(Scalar* to, const Type& value) { *reinterpret_cast<Type*>(to) = value; }
 };
 
@@ -55,13 +56,13 @@ struct LeadingLanes {
 template <class Vector, class Scalar>
 MYOTACT_INLINE void add_rows(Scalar* to, const Scalar* from, int count) {
   for (; count >= Vector::kLanes; count -= Vector::kLanes, to += Vector::kLanes, from += Vector::kLanes) {
-    Vector::store(to, Vector::load(to) + Vector::load(from));
+    Vector::store(to, *Vector::at(to) + *Vector::at(from));
   }
   if (count == 0) return;
   using Mask = typename Vector::Mask;
   const auto& mask = LeadingLanes<typename Vector::Bits>::kMask;
   const Mask bits = *reinterpret_cast<const Mask*>(from) & *reinterpret_cast<const Mask*>(mask.data() + 16 - count);
-  Vector::store(to, Vector::load(to) + reinterpret_cast<const typename Vector::Type&>(bits));
+  Vector::store(to, *Vector::at(to) + reinterpret_cast<const typename Vector::Type&>(bits));
 }
 
 /// Run by run, and not column by column: what is read back at once from where the last store ended would have to wait.
@@ -104,11 +105,11 @@ MYOTACT_INLINE Pivots eliminate_node(const DenseFront<Scalar>& front, int c, Sca
   const Scalar d2 = (third[c + 2] - l20 * k20) - l21 * k21, inverse2 = Scalar(1) / d2;
   if (!usable(d0) || !usable(d1) || !usable(d2)) return Pivots::Unusable;
   for (int i = c + 3; i < front.size; i += Vector::kLanes) {
-    const auto x = Vector::load(first + i);
+    const auto x = *Vector::at(first + i);
     const auto l0 = x * inverse0;
-    const auto y = Vector::load(second + i) - l0 * k10;
+    const auto y = *Vector::at(second + i) - l0 * k10;
     const auto l1 = y * inverse1;
-    const auto z = (Vector::load(third + i) - l0 * k20) - l1 * k21;
+    const auto z = (*Vector::at(third + i) - l0 * k20) - l1 * k21;
     Vector::store(scaled + i, x);
     Vector::store(scaled + stride + i, y);
     Vector::store(scaled + 2 * stride + i, z);
@@ -156,10 +157,10 @@ MYOTACT_INLINE void forward(const DenseFront<Scalar>& front, Scalar* values) {
       known[r] = {x[0], x[1], x[2]};
     }
     for (int i = c + 3; i < front.size; i += Vector::kLanes) {
-      const auto l0 = Vector::load(first + i), l1 = Vector::load(second + i), l2 = Vector::load(third + i);
+      const auto l0 = *Vector::at(first + i), l1 = *Vector::at(second + i), l2 = *Vector::at(third + i);
       Scalar* x = values + i;
       for (std::size_t r = 0; r < kRightSides; ++r, x += sides) {
-        Vector::store(x, ((Vector::load(x) - l0 * known[r][0]) - l1 * known[r][1]) - l2 * known[r][2]);
+        Vector::store(x, ((*Vector::at(x) - l0 * known[r][0]) - l1 * known[r][1]) - l2 * known[r][2]);
       }
     }
   }
@@ -184,10 +185,10 @@ MYOTACT_INLINE void backward(const DenseFront<Scalar>& front, Scalar* values) {
     const Scalar *first = front.column(c), *second = first + stride, *third = second + stride;
     typename Vector::Type sum[kRightSides][3] = {};
     for (int i = c + 3; i < front.size; i += Vector::kLanes) {
-      const auto l0 = Vector::load(first + i), l1 = Vector::load(second + i), l2 = Vector::load(third + i);
+      const auto l0 = *Vector::at(first + i), l1 = *Vector::at(second + i), l2 = *Vector::at(third + i);
       const Scalar* x = values + i;
       for (int r = 0; r < kRightSides; ++r, x += sides) {
-        const auto below = Vector::load(x);
+        const auto below = *Vector::at(x);
         sum[r][0] += l0 * below;
         sum[r][1] += l1 * below;
         sum[r][2] += l2 * below;
