@@ -82,6 +82,18 @@ double extrapolate(Limb& limb, const Eigen::VectorXd& start_m, double share, Ext
   return share_on_new_faces(limb, workers);
 }
 
+/// For the step after one that was too long for the faces.
+double cautious_time_s(double time_s, double last_time_s) {
+  return std::max(kShortestTime_s, std::min(time_s, 0.5 * last_time_s));
+}
+
+/// Back to where a step that cannot be used began. False when it was as short as can be.
+bool take_back(const Eigen::VectorXd& start_m, double time_s, Limb& limb) {
+  if (time_s <= kShortestTime_s) return false;
+  put_nodes(start_m, limb);
+  return true;
+}
+
 }  // namespace
 
 double next_time_s(double time_s, double part) {
@@ -109,10 +121,7 @@ bool settle_together(Limb& limb, double wanted_share, WorkerPool& workers) {
     const double start_share = share, start_time_s = time_s;
     const Relaxation step = relax(limb, {share, time_s, kFarthest_m}, workers);
     time_s = next_time_s(time_s, step.sound ? step.part : 0.0);
-    if (!step.sound) {  // back, and more carefully
-      if (start_time_s <= kShortestTime_s) return false;
-      put_nodes(start_m, limb);
-    }
+    if (!step.sound && !take_back(start_m, start_time_s, limb)) return false;
     if (held > 0) {
       --held;
       see_neighbours(limb);
@@ -129,7 +138,7 @@ bool settle_together(Limb& limb, double wanted_share, WorkerPool& workers) {
       share = extrapolate(limb, start_m, share, extrapolation, workers);
     else
       extrapolation.forget();
-    if (share > kTooLong * start_share) time_s = std::max(kShortestTime_s, std::min(time_s, 0.5 * start_time_s));
+    if (share > kTooLong * start_share) time_s = cautious_time_s(time_s, start_time_s);
     waited = share < 0.5 * best || best > faces_share ? 0 : waited + 1;
     best = std::min(best, share);
     if (waited >= kPatience && share < faces_share) held = kHeldRounds;
