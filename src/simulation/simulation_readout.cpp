@@ -119,7 +119,8 @@ std::vector<Vec3> Simulation::line_world_m(int muscle) const {
 int Simulation::stuck_line() const {
   for (int m = 0; m < static_cast<int>(impl_->lines.size()); ++m) {
     const LimbMuscle& muscle = impl_->limb.muscles[at(m)];
-    if (muscle.rigid && !muscle.line) continue;  // only a shape
+    const bool only_shape = muscle.rigid && !muscle.line;
+    if (only_shape || impl_->lines[at(m)].line->wraps.empty()) continue;
     if (impl_->line_geometry_of(m).stuck_wrap >= 0) return m;
   }
   return -1;
