@@ -19,7 +19,8 @@ using myotact::app::Options;
 
 void add_common(CLI::App& command, Options& options) {
   command.add_option("--device", options.devices, "device name: simulated or mouse")->delimiter(',');
-  command.add_option("--set", options.set, "override a key of the scene: key=value, e.g. dt_s=0.005 or tissue.default=line");
+  command.add_option("--set", options.set,
+                     "override a key of the scene: key=value, e.g. dt_s=0.005 or tissue.default=line");
   command.add_option("--seconds", options.seconds, "simulated time to run [s]")->check(CLI::Range(0.0, 86400.0));
   command.add_option("--seed", options.seed, "seed of everything random")->capture_default_str();
   command.add_option("-o,--out", options.out, "folder for what the command leaves")->capture_default_str();
@@ -54,7 +55,9 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
   run->add_option("--every", options.every, "keep every n-th tick in samples.csv")->check(CLI::Range(1, 1000000));
   bind(run, myotact::app::run);
   CLI::App* stiffness = add_scene_command(program, options, "stiffness", "joint stiffness against co-contraction");
-  stiffness->add_option("--angles", options.angles, "joint angles q [degrees]: 0,10 or first:step:last; default: the scene's own")
+  stiffness
+      ->add_option("--angles", options.angles,
+                   "joint angles q [degrees]: 0,10 or first:step:last; default: the scene's own")
       ->capture_default_str();
   stiffness->add_option("--joint", options.joint,
                         "joint of the specimen; without: the one that the scene co-contracts");
@@ -81,6 +84,13 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
   validate->add_option("--report", options.report, "write a page with the table and plots to this file");
   add_common(*validate, options);
   bind(validate, myotact::app::validate);
+  CLI::App* fidelity = program.add_subcommand(
+      "fidelity", "how true, stable and safe the rendered forces are: goals beside what is measured");
+  fidelity->add_flag("--suite", options.suite, "every goal; minutes");
+  fidelity->add_option("--goal", options.goals, "only these goals, by number: 6,8")->delimiter(',');
+  fidelity->add_flag("--brief", options.brief, "shorter runs, as the tests make them");
+  add_common(*fidelity, options);
+  bind(fidelity, myotact::app::fidelity);
   CLI::App* devices = program.add_subcommand("devices", "which devices there are");
   add_common(*devices, options);
   bind(devices, myotact::app::devices);

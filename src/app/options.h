@@ -35,6 +35,9 @@ struct Options {
   std::optional<std::filesystem::path> vtk;  // solve
   std::string filter;                        // validate
   std::optional<std::filesystem::path> report;
+  bool suite = false;      // fidelity: every goal
+  std::vector<int> goals;  // fidelity: these goals
+  bool brief = false;      // fidelity: seconds instead of minutes
 };
 
 /// --set and --device as overrides of the scene. Throws Error Usage for a --set without "=".
@@ -56,6 +59,7 @@ int stiffness(const Options& options);
 int replay(const Options& options);
 int solve(const Options& options);
 int validate(const Options& options);
+int fidelity(const Options& options);
 int devices(const Options& options);
 
 }  // namespace myotact::app

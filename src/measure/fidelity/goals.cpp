@@ -1,0 +1,41 @@
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "measure/fidelity/goal.h"
+#include "measure/fidelity/loop_goals.h"
+
+namespace myotact::measure {
+
+namespace {
+
+constexpr std::array kGoals = {
+    Goal{5, "loop period and missed ticks", measure_loop_period},
+};
+
+}  // namespace
+
+std::span<const Goal> fidelity_goals() {
+  return kGoals;
+}
+
+std::vector<Goal> select_goals(std::span<const int> numbers) {
+  std::vector<Goal> selected;
+  for (const int number : numbers) {
+    const bool known =
+        std::any_of(kGoals.begin(), kGoals.end(), [number](const Goal& goal) { return goal.number == number; });
+    if (known) continue;
+    std::string all;
+    for (const Goal& goal : kGoals) all += fmt::format("{}{}", all.empty() ? "" : ", ", goal.number);
+    throw Error(ExitStatus::Usage, fmt::format("there is no goal {}; known: {}", number, all));
+  }
+  for (const Goal& goal : kGoals) {
+    if (numbers.empty() || std::find(numbers.begin(), numbers.end(), goal.number) != numbers.end())
+      selected.push_back(goal);
+  }
+  return selected;
+}
+
+}  // namespace myotact::measure
