@@ -50,6 +50,17 @@ struct LocalGrip {
   std::array<double, 9> damping_1_s{};
 };
 
+/// What a place of a surface is made of, for how it feels.
+enum class Tissue : std::int32_t { Muscle, Tendon, Fascia, Bone, Fat, Skin };
+
+/// Of a triangle of a surface, as long as the surface lasts.
+struct TriangleTissue {
+  Tissue tissue = Tissue::Muscle;
+  /// Direction of the fibres under the triangle, riding on its corners: [0] (x1 - x0) + [1] (x2 - x0), which is of unit
+  /// length at rest; both zero: none.
+  std::array<float, 2> fibre_edges{};
+};
+
 /// All that the haptic side knows of the simulation: a real-time contract of fixed size.
 /// Surfaces are numbered over the whole scene: muscles first (their index in the specimen), then bones.
 struct LocalModel {
@@ -57,6 +68,7 @@ struct LocalModel {
     std::int32_t surface = -1;
     std::int32_t triangle = -1;              // in that surface
     std::array<std::int32_t, 3> vertices{};  // into the vertex arrays below, counter-clockwise from outside
+    TriangleTissue tissue;
   };
 
   std::uint64_t sequence = 0;

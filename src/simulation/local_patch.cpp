@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <tuple>
+#include <utility>
 
 #include "geometry/closest_point.h"
 
@@ -146,7 +147,14 @@ class LocalPatch::NearestTriangles {
 
 LocalPatch::LocalPatch(std::span<const geometry::TriangleMesh* const> surfaces) {
   surfaces_.reserve(surfaces.size());
-  for (const geometry::TriangleMesh* mesh : surfaces) surfaces_.push_back({geometry::TriangleTree(*mesh), {}, {}});
+  for (const geometry::TriangleMesh* mesh : surfaces) {
+    surfaces_.push_back(
+        {geometry::TriangleTree(*mesh), std::vector<messages::TriangleTissue>(mesh->triangles.size()), {}, {}});
+  }
+}
+
+void LocalPatch::set_tissue(int surface, std::vector<messages::TriangleTissue> tissue) {
+  surfaces_[at(surface)].tissue = std::move(tissue);
 }
 
 void LocalPatch::update_surface(int surface, std::span<const Vec3> previous_m,
@@ -189,6 +197,7 @@ void LocalPatch::write(const Vec3& centre_m, messages::LocalModel& model) const 
       model.coverage_radius_m = candidate.reach_m;
       return;
     }
+    model.triangles[at(model.triangle_count - 1)].tissue = surface.tissue[at(candidate.triangle)];
   }
 }
 

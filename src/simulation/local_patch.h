@@ -22,6 +22,9 @@ class LocalPatch {
   /// Surfaces in the scene's numbering: muscle skins, then bones. Triangles and rest positions are copied into trees.
   explicit LocalPatch(std::span<const geometry::TriangleMesh* const> surfaces);
 
+  /// What the triangles of a surface are made of, one each; without: muscle with no known fibres.
+  void set_tissue(int surface, std::vector<messages::TriangleTissue> tissue);
+
   int surface_count() const { return static_cast<int>(surfaces_.size()); }
 
   /// Takes the positions at the last two frames (world). Both arrays must stay in place and unchanged until the next
@@ -43,7 +46,8 @@ class LocalPatch {
  private:
   struct Surface {
     geometry::TriangleTree tree;
-    std::span<const Vec3> previous_m, current_m;  // empty until the first update: left out of patches
+    std::vector<messages::TriangleTissue> tissue;  // one a triangle
+    std::span<const Vec3> previous_m, current_m;   // empty until the first update: left out of patches
   };
   class NearestTriangles;
 

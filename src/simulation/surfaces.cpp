@@ -1,5 +1,7 @@
 #include "simulation/surfaces.h"
 
+#include "simulation/skin_tissue.h"
+
 namespace myotact::simulation {
 namespace {
 
@@ -30,6 +32,14 @@ Surfaces::Surfaces(const anatomy::Specimen& specimen, const Limb& limb) : specim
   for (const geometry::TriangleMesh* surface : surfaces)
     frames_.push_back({surface->positions_m, surface->positions_m});
   patch_ = std::make_unique<LocalPatch>(surfaces);
+  for (int s = 0; s < count(); ++s) patch_->set_tissue(s, tissue_of(s));
+}
+
+std::vector<messages::TriangleTissue> Surfaces::tissue_of(int surface) const {
+  const std::size_t muscles = specimen_.muscles.size();
+  if (at(surface) < muscles) return skin_tissue(specimen_.muscles[at(surface)], skins_[at(surface)]);
+  const std::size_t triangles = specimen_.bones[at(surface) - muscles].surface.triangles.size();
+  return std::vector<messages::TriangleTissue>(triangles, {messages::Tissue::Bone, {}});
 }
 
 void Surfaces::update(const Limb& limb, int surface) {

@@ -30,6 +30,7 @@ class Surfaces {
     std::vector<Vec3> previous_m, current_m;
   };
   void update(const Limb& limb, int surface);
+  std::vector<messages::TriangleTissue> tissue_of(int surface) const;
 
   const anatomy::Specimen& specimen_;
   std::vector<SkinEmbedding> skins_;
