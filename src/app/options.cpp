@@ -46,9 +46,10 @@ std::vector<double> levels_of(const Options& options) {
   return levels;
 }
 
-std::unique_ptr<scene::RecordingWriter> open_recorder(const Options& options, const scene::Scene& scene) {
+std::unique_ptr<scene::RecordingWriter> open_recorder(const Options& options, const scene::Scene& scene,
+                                                      scene::Clock clock) {
   if (!options.record) return nullptr;
-  return std::make_unique<scene::RecordingWriter>(*options.record, scene::recording_header(scene, options.seed));
+  return std::make_unique<scene::RecordingWriter>(*options.record, scene::recording_header(scene, options.seed, clock));
 }
 
 }  // namespace myotact::app

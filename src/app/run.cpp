@@ -47,7 +47,7 @@ class Stopwatch {
 };
 
 RunSummary run_lockstep(const Options& options, const scene::Scene& scene, simulation::Simulation& simulation) {
-  const auto recorder = open_recorder(options, scene);
+  const auto recorder = open_recorder(options, scene, scene::Clock::Virtual);
   scene::SampleTable samples(scene.specimen, options.every);
   scene::LockstepSession session(scene, simulation, samples, recorder.get());
   const double end_s = options.seconds.value_or(session.conductor().script_end_s());
@@ -79,7 +79,7 @@ RunSummary run_lockstep(const Options& options, const scene::Scene& scene, simul
 
 nlohmann::json run_free(const Options& options, const scene::Scene& scene, simulation::Simulation& simulation,
                         RunSummary& summary) {
-  const auto recorder = open_recorder(options, scene);
+  const auto recorder = open_recorder(options, scene, scene::Clock::Wall);
   device::SimulatedDevice device(scene.tools.front().device, scene::start_of_hand(scene.specimen));
   scene::FreeSession session(scene, simulation, device, &device, recorder.get());
   const double end_s = options.seconds.value_or(session.script_end_s());

@@ -80,7 +80,7 @@ int view(const Options& options) {
   // First: without a display nothing is built.
   view::Window window(scene.specimen, window_settings(scene, device, hand_m));
   simulation::Simulation simulation(scene.specimen, scene.settings);
-  const auto recorder = open_recorder(options, scene);
+  const auto recorder = open_recorder(options, scene, scene::Clock::Wall);
   scene::FreeSession session(scene, simulation, device, scripted ? &simulated : nullptr, recorder.get());
   watch_for_interruption();
   session.start();

@@ -18,6 +18,8 @@
 
 namespace myotact::haptics {
 
+inline constexpr std::uint64_t kTickPeriod_ns = 1'000'000;
+
 struct HapticSettings {
   ContactSettings contact;
   LineDragSettings line;

@@ -11,8 +11,6 @@
 
 namespace myotact::haptics {
 
-inline constexpr std::uint64_t kTickPeriod_ns = 1'000'000;
-
 /// Runs a loop free on the steady clock at 1 kHz, with real-time priority where the system permits.
 class HapticThread {
  public:

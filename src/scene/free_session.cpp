@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "realtime/periodic_loop.h"
-#include "scene/lockstep_session.h"
+#include "scene/lockstep_haptics.h"
 #include "scene/tool_frame.h"
 
 namespace myotact::scene {

@@ -113,18 +113,27 @@ bool read_ticks(std::string_view payload, Recording& recording) {
 
 }  // namespace
 
-std::string recording_header(const Scene& scene, std::uint64_t seed) {
+std::string recording_header(const Scene& scene, std::uint64_t seed, Clock clock) {
   const nlohmann::json header = {{"schema", 1},
                                  {"seed", seed},
+                                 {"clock", clock == Clock::Virtual ? "virtual" : "wall"},
                                  {"specimen", std::filesystem::absolute(scene.specimen_folder).string()},
                                  {"scene", scene.source_text}};
   return header.dump();
+}
+
+Clock clock_of_recording(const nlohmann::json& header, const std::filesystem::path& file) {
+  JsonObject fields(JsonValue(header, file.string()));
+  const std::optional<JsonValue> clock = fields.find("clock");
+  if (!clock) return Clock::Wall;
+  return clock->one_of({"virtual", "wall"}) == "virtual" ? Clock::Virtual : Clock::Wall;
 }
 
 Scene scene_of_recording(const nlohmann::json& header, const std::filesystem::path& file, const Overrides& overrides) {
   JsonObject fields(JsonValue(header, file.string()));
   fields.at("schema").integer_between(1, 1);
   fields.at("seed").number();
+  fields.find("clock");  // clock_of_recording
   Overrides all = {{"specimen", fields.at("specimen").string()}};
   for (const auto& [key, value] : overrides) all[key] = value;
   const std::string text = fields.at("scene").string();

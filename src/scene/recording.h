@@ -55,8 +55,14 @@ class RecordingWriter {
   std::ofstream file_;
 };
 
-/// What a recording must hold to be run again: version, seed, the scene's text and where its specimen is.
-std::string recording_header(const Scene& scene, std::uint64_t seed);
+/// Of the ticks of a recording: `Virtual` ones can be felt again bit for bit, `Wall` ones depend on when models came.
+enum class Clock { Virtual, Wall };
+
+/// What a recording must hold to be run again: seed, clock, the scene's text and where its specimen is.
+std::string recording_header(const Scene& scene, std::uint64_t seed, Clock clock);
+
+/// The clock that a recording's header names; Wall for one that names none. Throws Error BadData.
+Clock clock_of_recording(const nlohmann::json& header, const std::filesystem::path& file);
 
 /// The scene that a recording's header describes. Throws Error BadData.
 Scene scene_of_recording(const nlohmann::json& header, const std::filesystem::path& file, const Overrides& overrides);

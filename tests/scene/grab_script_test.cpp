@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "scene/conductor.h"
+#include "scene/force_replay.h"
 #include "scene/lockstep_session.h"
 #include "scene/recording.h"
 #include "support/synthetic_specimen.h"
@@ -72,7 +73,7 @@ TEST(GrabScript, AnyNumberOfWorkersGivesTheSameBits) {
   EXPECT_EQ(one.hash, two.hash);
 }
 
-TEST(GrabScript, ARecordingRunsAgainToTheSameStates) {
+TEST(GrabScript, ARecordingRunsAgainToTheSameStatesAndForces) {
   const auto path = std::filesystem::temp_directory_path() / ("myotact_grab_" + std::to_string(::getpid()) + ".rec");
   RecordingWriter writer(path, "{}");
   play(2, &writer);
@@ -82,12 +83,20 @@ TEST(GrabScript, ARecordingRunsAgainToTheSameStates) {
   const Scene scene = lifted_rod(1);
   simulation::Simulation simulation(scene.specimen, scene.settings);
   const Conductor start(scene, simulation);
+  ForceReplay hand(scene, recording, simulation);
   ASSERT_EQ(recording.steps.size(), 190u);
+  double largest_N = 0.0;
   for (std::size_t i = 0; i < recording.steps.size(); ++i) {
+    hand.run_ticks();
+    ASSERT_EQ(force_difference_N(hand.tool(), recording.steps[i].tool), 0.0) << "step " << i;
+    ASSERT_EQ(hand.tool().body_target_world_m, recording.steps[i].tool.body_target_world_m) << "step " << i;
+    largest_N = std::max(largest_N, to_vec3(hand.tool().force_world_N).norm());
     apply(recording.steps[i], simulation);
     simulation.step({&recording.steps[i].tool, 1});
     ASSERT_EQ(simulation.state_hash(), recording.steps[i].state_hash) << "step " << i;
+    hand.publish_model();
   }
+  EXPECT_GT(largest_N, 0.5);  // something was felt
 }
 
 }  // namespace

@@ -1,0 +1,49 @@
+#include "scene/lockstep_haptics.h"
+
+#include <cmath>
+
+namespace myotact::scene {
+
+haptics::HapticSettings haptic_settings(const ToolSettings& tool) {
+  haptics::HapticSettings settings;
+  settings.contact.radius_m = tool.radius_m;
+  settings.contact.stiffness_N_m = tool.stiffness_N_m;
+  settings.contact.static_friction = tool.static_friction;
+  settings.contact.dynamic_friction = tool.dynamic_friction;
+  settings.force_scale = tool.force_scale;
+  return settings;
+}
+
+LockstepHaptics::LockstepHaptics(device::Device& device, const Scene& scene, const simulation::Simulation& simulation)
+    : step_ns_(static_cast<std::uint64_t>(std::llround(scene.settings.dt_s * 1e9))),
+      loop_(device, haptic_settings(scene.tools.front())) {
+  loop_.prepare(clock_ns_);
+  publish_model(simulation);
+}
+
+int LockstepHaptics::ticks_a_step() const {
+  return static_cast<int>((step_ns_ + haptics::kTickPeriod_ns / 2) / haptics::kTickPeriod_ns);
+}
+
+double LockstepHaptics::time_s() const {
+  return static_cast<double>(clock_ns_ - haptics::kTickPeriod_ns) / 1e9;  // by division: the nearest to whole ms
+}
+
+void LockstepHaptics::tick() {
+  loop_.tick(clock_ns_);
+  clock_ns_ += haptics::kTickPeriod_ns;
+  for (haptics::HapticTick tick; loop_.ticks().pop(tick);) {  // nobody else empties the queue here
+  }
+}
+
+void LockstepHaptics::publish_model(const simulation::Simulation& simulation) {
+  messages::LocalModel& model = loop_.models().back();
+  simulation.write_local_model(loop_.tool_state(), model);
+  model.sequence = ++model_sequence_;
+  model.published_at_ns = clock_ns_;
+  model.dt_ns = step_ns_;
+  model.tool_sequence = loop_.tool_state().sequence;
+  loop_.models().publish();
+}
+
+}  // namespace myotact::scene
