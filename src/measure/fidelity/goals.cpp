@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "measure/fidelity/goal.h"
 #include "measure/fidelity/loop_goals.h"
+#include "measure/fidelity/replay_goals.h"
 
 namespace myotact::measure {
 
@@ -13,6 +14,7 @@ namespace {
 
 constexpr std::array kGoals = {
     Goal{5, "loop period and missed ticks", measure_loop_period},
+    Goal{21, "a recorded session comes out again", measure_replay},
 };
 
 }  // namespace

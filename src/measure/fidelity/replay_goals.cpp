@@ -1,0 +1,91 @@
+#include "measure/fidelity/replay_goals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "core/json_reader.h"
+#include "scene/force_replay.h"
+#include "scene/lockstep_session.h"
+#include "simulation/simulation.h"
+
+namespace myotact::measure {
+
+namespace {
+
+/// A file that goes with its scope.
+class TemporaryFile {
+ public:
+  TemporaryFile() : path_(std::filesystem::temp_directory_path() / fmt::format("myotact_replay_{}.rec", ::getpid())) {}
+  ~TemporaryFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+void record(const scene::Scene& scene, double end_s, const std::filesystem::path& path) {
+  scene::RecordingWriter writer(path, scene::recording_header(scene, 1, scene::Clock::Virtual));
+  simulation::Simulation simulation(scene.specimen, scene.settings);
+  scene::SampleTable samples(scene.specimen, 1'000'000);
+  scene::LockstepSession session(scene, simulation, samples, &writer);
+  const double length_s = std::min(end_s, session.conductor().script_end_s());
+  const auto steps = static_cast<int>(std::llround(length_s / scene.settings.dt_s));
+  for (int step = 0; step < steps; ++step) session.step();
+  writer.close();
+}
+
+struct Comparison {
+  std::size_t steps = 0, unlike_states = 0;
+  double largest_difference_N = 0.0, largest_force_N = 0.0;
+};
+
+Comparison feel_again(const std::filesystem::path& path) {
+  const scene::Recording recording = scene::read_recording(path);
+  const nlohmann::json header = parse_json(recording.header_json, path.string());
+  const scene::Scene scene = scene::scene_of_recording(header, path, {});
+  simulation::Simulation simulation(scene.specimen, scene.settings);
+  const scene::Conductor start(scene, simulation);
+  scene::ForceReplay hand(scene, recording, simulation);
+  Comparison result;
+  result.steps = recording.steps.size();
+  for (const scene::StepRecord& step : recording.steps) {
+    hand.run_ticks();
+    result.largest_difference_N =
+        std::max(result.largest_difference_N, scene::force_difference_N(hand.tool(), step.tool));
+    result.largest_force_N = std::max(result.largest_force_N, to_vec3(step.tool.force_world_N).norm());
+    scene::apply(step, simulation);
+    simulation.step({&step.tool, 1});
+    result.unlike_states += simulation.state_hash() != step.state_hash ? 1 : 0;
+    hand.publish_model();
+  }
+  return result;
+}
+
+}  // namespace
+
+GoalFigures measure_replay(Effort effort) {
+  const TemporaryFile file;
+  scene::Overrides overrides;
+  if (effort == Effort::Short) overrides["tissue.default"] = "line";
+  record(scene::load_scene("elbow", overrides), effort == Effort::Short ? 6.0 : 3600.0, file.path());
+  const Comparison same = feel_again(file.path());
+  GoalFigures result;
+  result.figures = {{"largest difference of a force, same build", 1e6 * same.largest_difference_N, "uN", 0.0},
+                    {"steps whose state differs", static_cast<double>(same.unlike_states), "", 0.0},
+                    {"steps compared", static_cast<double>(same.steps), "", 100.0, true},
+                    {"largest force that was felt", same.largest_force_N, "N", 0.1, true}};
+  result.note = "scene elbow: touch, slide, line drag, co-contraction; forces compared at the end of every step";
+  return result;
+}
+
+}  // namespace myotact::measure
