@@ -41,12 +41,16 @@ bool is_sound(const messages::LocalModel& model) noexcept {
     const auto at = static_cast<std::size_t>(i);
     if (!is_place(model.previous_world_m[at]) || !is_place(model.current_world_m[at])) return false;
   }
+  const auto is_finite = [](double x) { return std::isfinite(x); };
   for (int i = 0; i < model.triangle_count; ++i) {
-    for (const std::int32_t vertex : model.triangles[static_cast<std::size_t>(i)].vertices) {
+    const messages::LocalModel::Triangle& triangle = model.triangles[static_cast<std::size_t>(i)];
+    for (const std::int32_t vertex : triangle.vertices) {
       if (vertex < 0 || vertex >= model.vertex_count) return false;
     }
+    if (triangle.tissue.tissue < messages::Tissue::Muscle || triangle.tissue.tissue > messages::Tissue::Skin)
+      return false;
+    if (!is_finite(triangle.tissue.fibre_edges[0]) || !is_finite(triangle.tissue.fibre_edges[1])) return false;
   }
-  const auto is_finite = [](double x) { return std::isfinite(x); };
   if (!all_finite(model.compliance_m_N) || !is_sound(model.grip)) return false;
   const messages::LocalLine& line = model.line;
   const bool line_is_finite = is_finite(line.tension_N) && is_finite(line.length_m) && is_finite(line.stiffness_N_m) &&
@@ -118,6 +122,13 @@ Vec3 MovingSurface::motion_m(int local, const std::array<double, 3>& barycentric
 Vec3 MovingSurface::point_m(int local, const std::array<double, 3>& barycentric, double fraction) const noexcept {
   return barycentric[0] * corner_m(local, 0, fraction) + barycentric[1] * corner_m(local, 1, fraction) +
          barycentric[2] * corner_m(local, 2, fraction);
+}
+
+Vec3 MovingSurface::fibre_W(int local) const noexcept {
+  const std::array<float, 2>& edges = triangle(local).tissue.fibre_edges;
+  const Vec3 origin_m = corner_m(local, 0, 1.0);
+  return static_cast<double>(edges[0]) * (corner_m(local, 1, 1.0) - origin_m) +
+         static_cast<double>(edges[1]) * (corner_m(local, 2, 1.0) - origin_m);
 }
 
 Mat3 MovingSurface::frame_W(int local, double fraction) const noexcept {

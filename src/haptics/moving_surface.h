@@ -9,7 +9,7 @@
 
 namespace myotact::haptics {
 
-/// Whether a model can be used: counts and indices in range, numbers finite and below 1 km. Real-time safe.
+/// Whether a model can be used: counts, indices and tissues in range, numbers finite and below 1 km. Real-time safe.
 bool is_sound(const messages::LocalModel& model) noexcept;
 
 /// The surface near the tool during one tick, which runs from `fraction` 0 (end of the last tick) to 1 (now).
@@ -39,6 +39,8 @@ class MovingSurface {
   Vec3 point_m(int local, const std::array<double, 3>& barycentric, double fraction) const noexcept;
   /// Columns: along edge 0-1, across it in the plane, normal out of the tissue. Right-handed, orthonormal.
   Mat3 frame_W(int local, double fraction) const noexcept;
+  /// Along the fibres of a triangle's tissue at the end of the tick, of any length; zero: none run along it.
+  Vec3 fibre_W(int local) const noexcept;
   /// The farthest that any vertex moves in the tick.
   double largest_motion_m() const noexcept { return largest_motion_m_; }
   /// Place of a triangle in the model, by its numbers in the scene; -1: not in it.

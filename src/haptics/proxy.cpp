@@ -61,6 +61,7 @@ void Proxy::follow(const Vec3& position_m) noexcept {
   placed_ = false;
   anchor_ = {};
   contact_ = {};
+  friction_.release();
 }
 
 void Proxy::tick(const MovingSurface& surface, const messages::LocalModel& model, const ProxyGoal& goal,
@@ -316,26 +317,34 @@ Vec3 Proxy::free_target_m(const Tick& tick) const noexcept {
   return p_m_ + way_m * (free_m / length_m);
 }
 
-/// Coulomb's law in closed form: `held` is where the sphere would go without friction; what the tissue pushes back with
-/// (reaction depth) sets how far the sphere may lag behind it along the surface, in lengths of the coupling spring.
+/// `held` is where the sphere would go without friction; what the tissue pushes back with (reaction depth) sets how far
+/// the sphere may lag behind it along the surface, in lengths of the coupling spring.
 Vec3 Proxy::slide(const Projection& held, Tick& tick) noexcept {
+  if (!tick.rubbed) tick.rubbed_from_m = p_m_;
+  tick.rubbed = true;
   const Vec3 reaction_m = held.point_m - tick.goal.position_m;
-  const Vec3 normal = reaction_m.normalized();
+  const MovingSurface& surface = *tick.surface;
   const Nearest& bearing = near_[at(touching_[at(held.active[0])])];
-  const Vec3 tissue_m_s = tick.surface->motion_m(bearing.local, bearing.barycentric) / tick.dt_s;
-  const double approach_m_s = std::max(0.0, -normal.dot(tick.goal.velocity_m_s - tissue_m_s));
-  const double depth_m = reaction_m.norm() + settings_.damping_Ns_m * approach_m_s / settings_.stiffness_N_m;
+  const Vec3 tissue_m_s = surface.motion_m(bearing.local, bearing.barycentric) / tick.dt_s;
+  FrictionTrial trial;
+  trial.normal = reaction_m.normalized();
+  const double approach_m_s = std::max(0.0, -trial.normal.dot(tick.goal.velocity_m_s - tissue_m_s));
+  trial.depth_m = reaction_m.norm() + settings_.damping_Ns_m * approach_m_s / settings_.stiffness_N_m;
+  const auto along_surface = [&](const Vec3& v) { return Vec3(v - v.dot(trial.normal) * trial.normal); };
+  trial.lag_m = along_surface(held.point_m - p_m_);
+  trial.slipped_m = along_surface(p_m_ - tick.rubbed_from_m);
+  trial.fibre = surface.fibre_W(bearing.local);
+  trial.dt_s = tick.dt_s;
+  const Vec3 slip_m = friction_.slip_m(trial);
+  tick.slipped = tick.slipped || slip_m.norm() > kConverged_m;
+  return held.point_m - trial.lag_m + slip_m;
+}
 
-  const Vec3 way_m = held.point_m - p_m_;
-  const Vec3 along_m = way_m - way_m.dot(normal) * normal;
-  const double length_m = along_m.norm();
-  const bool slides = contact_.sliding || tick.slipped;
-  double share = 0.0;
-  if (length_m > (slides ? settings_.dynamic_friction : settings_.static_friction) * depth_m) {
-    share = std::max(0.0, 1.0 - settings_.dynamic_friction * depth_m / length_m);
-    tick.slipped = tick.slipped || share * length_m > kConverged_m;
-  }
-  return held.point_m - (1.0 - share) * along_m;
+void Proxy::settle_friction(const Tick& tick) noexcept {
+  if (!tick.rubbed) return;
+  const auto speed_along_surface = [&](const Vec3& v) { return (v - v.dot(contact_.normal) * contact_.normal).norm(); };
+  friction_.settle(speed_along_surface(p_m_ - tick.rubbed_from_m),
+                   speed_along_surface(tick.goal.velocity_m_s - contact_.velocity_m_s), tick.dt_s);
 }
 
 void Proxy::settle_contact(const Projection& held, const Tick& tick) noexcept {
@@ -343,6 +352,7 @@ void Proxy::settle_contact(const Projection& held, const Tick& tick) noexcept {
   if (!touches) {
     contact_ = {};
     anchor_ = {};
+    friction_.release();
     return;
   }
   int strongest = 0;
@@ -364,6 +374,7 @@ void Proxy::settle_contact(const Projection& held, const Tick& tick) noexcept {
   contact_.normal = (held.point_m - tick.goal.position_m).normalized();
   contact_.velocity_m_s = surface.motion_m(local, touched.barycentric) / tick.dt_s;
   contact_.sliding = tick.slipped;
+  settle_friction(tick);
 }
 
 void Proxy::set_anchor(const MovingSurface& surface, int local) noexcept {

@@ -6,6 +6,7 @@
 
 #include "core/vector.h"
 #include "haptics/contact_settings.h"
+#include "haptics/friction.h"
 #include "haptics/half_space_projection.h"
 #include "haptics/moving_surface.h"
 
@@ -52,7 +53,7 @@ struct ProxyCounters {
 /// Real-time safe; one thread.
 class Proxy {
  public:
-  explicit Proxy(const ContactSettings& settings) : settings_(settings) {}
+  explicit Proxy(const ContactSettings& settings) : settings_(settings), friction_(settings) {}
 
   /// Advances to the end of the surface's tick, `dt_s` > 0 long.
   void tick(const MovingSurface& surface, const messages::LocalModel& model, const ProxyGoal& goal,
@@ -89,6 +90,8 @@ class Proxy {
     double travel_left_m = 0.0;  // beyond it triangles were not looked at
     int tests = 0;               // of the sphere against triangles
     bool slipped = false;
+    bool rubbed = false;  // was held by the surface
+    Vec3 rubbed_from_m = Vec3::Zero();
     double linearised_at = -1.0;  // fraction and place of the nearest points at hand
     Vec3 linearised_m = Vec3::Zero();
   };
@@ -111,9 +114,11 @@ class Proxy {
   void find_anchor(const MovingSurface& surface) noexcept;
   Vec3 anchored_m(const MovingSurface& surface, double fraction) const noexcept;
   void settle_contact(const Projection& held, const Tick& tick) noexcept;
+  void settle_friction(const Tick& tick) noexcept;
   void set_anchor(const MovingSurface& surface, int local) noexcept;
 
   ContactSettings settings_;
+  Friction friction_;
   bool placed_ = false;
   Vec3 p_m_ = Vec3::Zero();
   Anchor anchor_;

@@ -10,6 +10,9 @@ haptics::HapticSettings haptic_settings(const ToolSettings& tool) {
   settings.contact.stiffness_N_m = tool.stiffness_N_m;
   settings.contact.static_friction = tool.static_friction;
   settings.contact.dynamic_friction = tool.dynamic_friction;
+  settings.contact.stribeck_m_s = tool.stribeck_m_s;
+  settings.contact.along_over_across = tool.along_over_across;
+  settings.contact.viscous_Ns_m = tool.viscous_Ns_m;
   settings.force_scale = tool.force_scale;
   return settings;
 }

@@ -207,6 +207,9 @@ void read_friction(const JsonValue& value, ToolSettings& tool) {
   JsonObject friction(value);
   tool.static_friction = friction.at("static").number_between(0.0, 2.0);
   tool.dynamic_friction = friction.at("dynamic").number_between(0.0, tool.static_friction);
+  if (const auto speed = friction.find("stribeck_m_s")) tool.stribeck_m_s = speed->number_between(1e-3, 0.2);
+  if (const auto ratio = friction.find("along_over_across")) tool.along_over_across = ratio->number_between(0.2, 5.0);
+  if (const auto viscous = friction.find("viscous_Ns_m")) tool.viscous_Ns_m = viscous->number_between(0.0, 20.0);
   friction.finish();
 }
 

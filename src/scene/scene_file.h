@@ -28,7 +28,10 @@ struct ToolSettings {
   std::string hand = "right";
   double radius_m = 3e-3;
   double force_scale = 1.0;
-  double static_friction = 0.3, dynamic_friction = 0.3;
+  double static_friction = 0.3, dynamic_friction = 0.3;  // across the fibres
+  double stribeck_m_s = 0.01;
+  double along_over_across = 1.0;  // friction along the fibres over across them
+  double viscous_Ns_m = 0.0;
   double stiffness_N_m = 800.0;
 };
 

@@ -68,6 +68,24 @@ TEST_F(SceneFile, TakesOneTissueModelForAllAndOneForAMuscle) {
   EXPECT_THAT(complaint(R"(, "tissue": {"default": "lines"})"), HasSubstr("line"));
 }
 
+TEST_F(SceneFile, ReadsTheFrictionOfATool) {
+  const auto tool = [](const std::string& friction) {
+    return R"(, "tools": [{"device": "simulated", "friction": )" + friction + "}]";
+  };
+  const ToolSettings read = parse(tool(R"({"static": 0.4, "dynamic": 0.2, "stribeck_m_s": 0.02,
+    "along_over_across": 0.5, "viscous_Ns_m": 1.5})"))
+                                .tools.front();
+  EXPECT_EQ(read.static_friction, 0.4);
+  EXPECT_EQ(read.dynamic_friction, 0.2);
+  EXPECT_EQ(read.stribeck_m_s, 0.02);
+  EXPECT_EQ(read.along_over_across, 0.5);
+  EXPECT_EQ(read.viscous_Ns_m, 1.5);
+  EXPECT_THAT(complaint(tool(R"({"static": 0.2, "dynamic": 0.3})")), HasSubstr("/tools/0/friction/dynamic"));
+  EXPECT_THAT(complaint(tool(R"({"static": 0.3, "dynamic": 0.3, "stribeck_m_s": 0})")), HasSubstr("stribeck_m_s"));
+  EXPECT_THAT(complaint(tool(R"({"static": 0.3, "dynamic": 0.3, "along_over_across": 9})")), HasSubstr("between"));
+  EXPECT_THAT(complaint(tool(R"({"static": 0.3, "dynamic": 0.3, "viscous": 1})")), HasSubstr("viscous_Ns_m"));
+}
+
 TEST_F(SceneFile, AWeldCannotBeCoContracted) {
   anatomy::Specimen fused = myotact::testing::antagonist_hinge();
   anatomy::Joint& joint = fused.joints[0];
