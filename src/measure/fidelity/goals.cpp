@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "measure/fidelity/friction_goals.h"
 #include "measure/fidelity/goal.h"
 #include "measure/fidelity/loop_goals.h"
 #include "measure/fidelity/replay_goals.h"
@@ -14,6 +15,8 @@ namespace {
 
 constexpr std::array kGoals = {
     Goal{5, "loop period and missed ticks", measure_loop_period},
+    Goal{6, "friction coefficient and breakaway", measure_friction_coefficient},
+    Goal{7, "creep while sticking to moving tissue", measure_sticking},
     Goal{21, "a recorded session comes out again", measure_replay},
 };
 
