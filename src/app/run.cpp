@@ -16,6 +16,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "device/simulated_device.h"
+#include "haptics/faults.h"
 #include "measure/shove_report.h"
 #include "measure/stiffness_sweep.h"
 #include "scene/extremes.h"
@@ -121,7 +122,8 @@ nlohmann::json summary_json(const scene::Scene& scene, const RunSummary& summary
           {"largest_residual_share", summary.extremes.residual_share},
           {"largest_volume_error", summary.extremes.volume_error},
           {"smallest_J", summary.extremes.smallest_J},
-          {"fault_bits", summary.extremes.faults}};
+          {"fault_bits", summary.extremes.faults},
+          {"faults", haptics::describe_faults(static_cast<std::uint32_t>(summary.extremes.faults))}};
 }
 
 nlohmann::json shove_json(const scene::ShoveRecord& record) {

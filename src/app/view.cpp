@@ -58,7 +58,8 @@ scene::Requests requests_of(const view::ViewControls& controls) {
   requests.hold_posture = controls.hold_posture;
   requests.gravity = controls.gravity;
   requests.paused = controls.paused;
-  requests.stop_forces = controls.forces_off;
+  requests.stops = controls.stops;
+  requests.arms = controls.arms;
   requests.steps = controls.steps;
   requests.resets = controls.resets;
   requests.shoves = controls.shoves;

@@ -11,11 +11,13 @@ namespace myotact::device {
 /// (reference: makers' data sheets, ranges of identified models).
 struct DeviceProfile {
   double peak_force_N = 3.3;
+  double continuous_force_N = 0.88;  // root mean square that the motors bear for ever without overheating
   double max_stiffness_N_m = 1000.0;
   double inertia_kg = 0.07;  // felt at the stylus
   double viscous_Ns_m = 0.05;
   double coulomb_N = 0.1;
   double resolution_m = 20e-6;  // of the encoder, at the stylus
+  int delay_ticks = 0;          // from reading a position to the force that answers it
 };
 
 /// One force-feedback device. open() and close() belong to the thread that owns the device; read() and write() to the

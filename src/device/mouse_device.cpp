@@ -13,7 +13,8 @@ constexpr double kLag_s = 0.03;
 
 MouseDevice::MouseDevice(const Vec3& start_world_m) : position_m_(start_world_m) {
   pointer_.position_world_m = to_array(start_world_m);
-  profile_.resolution_m = 0.0;  // the lag makes positions continuous
+  profile_.resolution_m = 0.0;                          // the lag makes positions continuous
+  profile_.continuous_force_N = profile_.peak_force_N;  // no motor that could grow hot
 }
 
 void MouseDevice::set_pointer(const Vec3& position_world_m, std::uint32_t buttons) noexcept {

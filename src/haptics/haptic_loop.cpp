@@ -61,13 +61,15 @@ void HapticLoop::prepare(std::uint64_t now_ns) {
 }
 
 void HapticLoop::tick(std::uint64_t now_ns) noexcept {
-  if (ticked_) dt_s_ = std::clamp(1e-9 * static_cast<double>(now_ns - last_ns_), kShortestTick_s, kLongestTick_s);
+  const bool forwards = ticked_ && now_ns > last_ns_;
+  dt_s_ = forwards ? std::clamp(1e-9 * static_cast<double>(now_ns - last_ns_), kShortestTick_s, kLongestTick_s) : 1e-3;
   ticked_ = true;
   last_ns_ = now_ns;
   faults_ = missed_ ? bit(Fault::MissedDeadline) : 0;
   missed_ = false;
 
   const messages::DeviceState state = device_.read(now_ns);
+  if ((state.buttons & messages::kStopButton) != 0) gate_.stop();
   const bool is_new = take_model(now_ns);
   Vec3 contact_N = Vec3::Zero();
   Vec3 line_N = Vec3::Zero();
@@ -77,7 +79,7 @@ void HapticLoop::tick(std::uint64_t now_ns) noexcept {
     const ProxyGoal goal{to_vec3(state.stylus_position_world_m), to_vec3(state.stylus_velocity_world_m_s)};
     bone_N = bone_.tick(model_, is_new,
                         {goal.position_m, goal.velocity_m_s, (state.buttons & messages::kGrabBoneButton) != 0,
-                         device_.profile().peak_force_N, last_.tool.sequence + 1},
+                         gate_.limit_N(), last_.tool.sequence + 1},
                         dt_s_);
     // A hand that holds the bone does not also press on it: two springs would be stiffer than the device stands.
     contact_N = (1.0 - bone_.gain()) * contact_force_N(goal, now_ns, is_new);
@@ -115,8 +117,7 @@ Vec3 HapticLoop::contact_force_N(const ProxyGoal& goal, std::uint64_t now_ns, bo
   }
   proxy_.tick(surface_, *model_, goal, dt_s_);
   const Vec3 force_N = coupling_force_N(proxy_, goal, settings_.contact);
-  const double peak_N =
-      device_.profile().peak_force_N / settings_.force_scale;  // the tissue feels no more than the hand
+  const double peak_N = gate_.limit_N() / settings_.force_scale;  // the tissue feels no more than the hand
   return force_N.norm() > peak_N ? Vec3(force_N * (peak_N / force_N.norm())) : force_N;
 }
 

@@ -55,9 +55,10 @@ class HapticLoop {
   /// Opens the device, puts the tool where it is and arms the gate. Allocates; throws Error Unavailable. Before the
   /// first tick, by the same clock.
   void prepare(std::uint64_t now_ns);
-  /// Never allocates, locks, waits, logs or throws. `now_ns` never runs backwards. One thread.
+  /// Never allocates, locks, waits, logs or throws. A clock that stands or runs backwards counts as 1 ms. One thread.
   void tick(std::uint64_t now_ns) noexcept;
-  /// Any thread: true: force zero from the next tick on; false: the gate arms again and ramps up.
+  /// Any thread: true: force zero from the next tick on, as the device's stop button does; it stays zero until false:
+  /// the gate arms again and ramps up.
   void stop_forces(bool stopped) noexcept { stopped ? gate_.stop() : gate_.enable(); }
   /// Haptic thread: tells the next tick that deadlines went by.
   void note_missed(std::uint64_t ticks) noexcept { missed_ = missed_ || ticks > 0; }

@@ -14,6 +14,7 @@ struct ToolFrame {
   std::array<double, 3> force_world_N{};
   double radius_m = 0.0;
   bool in_contact = false;
+  bool forces_stopped = false;           // by key, button or call; stays until forces are enabled again
   int grabbed_line = -1;                 // muscle, or -1
   int grabbed_body = -1;                 // body, or -1
   std::array<double, 3> grip_world_m{};  // its point in hand

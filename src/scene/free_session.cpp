@@ -85,6 +85,10 @@ FreeTiming FreeSession::stop() {
 }
 
 void FreeSession::request(const Requests& requests) {
+  if (requests.arms != arms_) loop_.stop_forces(false);
+  if (requests.stops != stops_) loop_.stop_forces(true);  // last: of both, the stop counts
+  arms_ = requests.arms;
+  stops_ = requests.stops;
   requests_.publish(requests);
 }
 
@@ -111,7 +115,6 @@ void FreeSession::obey(const Requests& requests) {
   }
   if (requests.resets != obeyed_.resets) conductor_.restart();
   if (requests.shoves != obeyed_.shoves) conductor_.ask_shove_test();
-  loop_.stop_forces(requests.stop_forces);
 }
 
 void FreeSession::simulate() {
@@ -158,6 +161,7 @@ void FreeSession::take_ticks(const StepRecord& input) {
   std::vector<TickRecord> ticks;
   for (haptics::HapticTick tick; loop_.ticks().pop(tick);) {
     extremes_.add_tick(tick);
+    fault_notice_.add(tick.tool.faults, realtime::steady_now_ns());
     if (recorder_ != nullptr) ticks.push_back({tick.device, tick.model_sequence});
   }
   if (recorder_ == nullptr) return;
@@ -189,7 +193,8 @@ void FreeSession::publish_frame() {
   frame_.rates.haptic_hz = static_cast<double>(haptic_thread_.tick_count()) / wall_s;
   frame_.rates.missed_ticks = haptic_thread_.missed_count();
   frame_.rates.time_factor = static_cast<double>(step_count_) * scene_->settings.dt_s / wall_s;
-  frame_.notice = conductor_.notice();
+  frame_.notice = fault_notice_.text(realtime::steady_now_ns());
+  if (frame_.notice.empty()) frame_.notice = conductor_.notice();
   shove_ = conductor_.shove_test().record();
   ++frame_.sequence;
 }

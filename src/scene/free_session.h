@@ -16,6 +16,7 @@
 #include "realtime/period_histogram.h"
 #include "scene/conductor.h"
 #include "scene/extremes.h"
+#include "scene/fault_notice.h"
 #include "scene/recording.h"
 #include "scene/scene_file.h"
 #include "simulation/simulation.h"
@@ -31,7 +32,8 @@ struct Requests {
   bool hold_posture = true;
   bool gravity = false;
   bool paused = false;
-  bool stop_forces = false;
+  std::uint32_t stops = 0;   // emergency stops asked for so far
+  std::uint32_t arms = 0;    // times that forces were enabled again
   std::uint32_t steps = 0;   // single steps asked for so far
   std::uint32_t resets = 0;  // resets asked for so far
   std::uint32_t shoves = 0;  // shove tests asked for so far
@@ -65,6 +67,7 @@ class FreeSession {
   double script_end_s() const { return conductor_.script_end_s(); }
 
   // ---- the drawing thread
+  /// A stop goes to the haptic loop at once, whatever the simulation is busy with, and stays until `arms` counts on.
   void request(const Requests& requests);
   /// Copies the newest frame; false when there is none newer.
   bool fetch_frame(messages::SceneFrame& frame);
@@ -92,7 +95,8 @@ class FreeSession {
   std::exception_ptr failure_;
   realtime::LatestValue<Requests> requests_;
   Requests obeyed_;
-  std::mutex frame_mutex_;  // between simulation and drawing only; neither has a deadline
+  std::uint32_t stops_ = 0, arms_ = 0;  // obeyed; the drawing thread's
+  std::mutex frame_mutex_;              // between simulation and drawing only; neither has a deadline
   messages::SceneFrame frame_;
   ShoveRecord shove_;
   std::uint64_t drawn_sequence_ = 0;
@@ -101,6 +105,7 @@ class FreeSession {
   std::uint64_t step_count_ = 0;
   std::uint64_t started_ns_ = 0;
   Extremes extremes_;
+  FaultNotice fault_notice_;
   StepRecord input_;
 };
 

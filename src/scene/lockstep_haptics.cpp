@@ -14,6 +14,7 @@ haptics::HapticSettings haptic_settings(const ToolSettings& tool) {
   settings.contact.along_over_across = tool.along_over_across;
   settings.contact.viscous_Ns_m = tool.viscous_Ns_m;
   settings.force_scale = tool.force_scale;
+  settings.gate.force_limit = tool.force_limit;
   return settings;
 }
 

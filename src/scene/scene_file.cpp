@@ -220,6 +220,7 @@ ToolSettings read_tool(const JsonValue& value) {
   if (const auto hand = fields.find("hand")) tool.hand = hand->one_of({"left", "right"});
   if (const auto radius = fields.find("radius_m")) tool.radius_m = radius->number_between(1e-3, 1e-2);
   if (const auto scale = fields.find("force_scale")) tool.force_scale = scale->number_between(0.0, 1.0);
+  if (const auto limit = fields.find("force_limit")) tool.force_limit = limit->number_between(0.0, 1.0);
   if (const auto friction = fields.find("friction")) read_friction(*friction, tool);
   if (const auto stiffness = fields.find("stiffness_N_m")) tool.stiffness_N_m = stiffness->number_between(10.0, 5000.0);
   fields.finish();

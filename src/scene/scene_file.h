@@ -28,6 +28,7 @@ struct ToolSettings {
   std::string hand = "right";
   double radius_m = 3e-3;
   double force_scale = 1.0;
+  double force_limit = 0.5;  // share of the device's peak force that is ever sent
   double static_friction = 0.3, dynamic_friction = 0.3;  // across the fibres
   double stribeck_m_s = 0.01;
   double along_over_across = 1.0;  // friction along the fibres over across them

@@ -1,11 +1,20 @@
 #include "scene/tool_frame.h"
 
+#include "haptics/faults.h"
+
 namespace myotact::scene {
 
 messages::ToolFrame tool_frame(const messages::ToolState& tool, double radius_m,
                                const simulation::Simulation& simulation) {
-  messages::ToolFrame frame{tool.tool_position_world_m, tool.proxy_position_world_m, tool.force_world_N, radius_m,
-                            tool.contact.surface >= 0,  tool.grabbed_line,           tool.grabbed_body,  {}};
+  messages::ToolFrame frame;
+  frame.tool_world_m = tool.tool_position_world_m;
+  frame.proxy_world_m = tool.proxy_position_world_m;
+  frame.force_world_N = tool.force_world_N;
+  frame.radius_m = radius_m;
+  frame.in_contact = tool.contact.surface >= 0;
+  frame.forces_stopped = (tool.faults & haptics::bit(haptics::Fault::Stopped)) != 0;
+  frame.grabbed_line = tool.grabbed_line;
+  frame.grabbed_body = tool.grabbed_body;
   if (tool.grabbed_body >= 0) {
     frame.grip_world_m = to_array(simulation.body_pose(tool.grabbed_body) * to_vec3(tool.body_point_rest_m));
   }

@@ -5,8 +5,8 @@
 
 namespace myotact::view {
 
-const std::array<KeyBinding, 15>& key_bindings() {
-  static constexpr std::array<KeyBinding, 15> kBindings = {{
+const std::array<KeyBinding, 16>& key_bindings() {
+  static constexpr std::array<KeyBinding, 16> kBindings = {{
       {GLFW_KEY_F1, KeyAction::Help, "F1", "show or hide this help"},
       {GLFW_KEY_SPACE, KeyAction::PauseOrPlay, "Space", "pause or play"},
       {GLFW_KEY_RIGHT, KeyAction::Step, "Right", "one step while paused"},
@@ -20,7 +20,8 @@ const std::array<KeyBinding, 15>& key_bindings() {
       {GLFW_KEY_F, KeyAction::FrameAll, "F", "frame the whole limb"},
       {GLFW_KEY_G, KeyAction::GrabLine, "G (hold)", "take the nearest muscle line"},
       {GLFW_KEY_B, KeyAction::GrabBone, "B (hold)", "take the nearest bone, the paw too"},
-      {GLFW_KEY_ESCAPE, KeyAction::StopForces, "Esc", "forces off; again: on"},
+      {GLFW_KEY_ESCAPE, KeyAction::StopForces, "Esc", "emergency stop: all forces off, until Enter"},
+      {GLFW_KEY_ENTER, KeyAction::EnableForces, "Enter", "forces on again after a stop"},
       {GLFW_KEY_F12, KeyAction::Screenshot, "F12", "screenshot"},
   }};
   return kBindings;

@@ -21,6 +21,7 @@ enum class KeyAction {
   GrabLine,
   GrabBone,
   StopForces,
+  EnableForces,
   Screenshot
 };
 
@@ -32,6 +33,6 @@ struct KeyBinding {
 };
 
 /// All bindings, in the order of the help.
-const std::array<KeyBinding, 15>& key_bindings();
+const std::array<KeyBinding, 16>& key_bindings();
 
 }  // namespace myotact::view

@@ -37,7 +37,7 @@ bool slider(const char* label, double& value, float lowest, float highest) {
   return moved;
 }
 
-void draw_play(ViewControls& controls) {
+void draw_play(bool stopped, ViewControls& controls) {
   if (ImGui::Button(controls.paused ? "Play" : "Pause")) controls.paused = !controls.paused;
   ImGui::SameLine();
   if (ImGui::Button("Step")) {
@@ -47,7 +47,7 @@ void draw_play(ViewControls& controls) {
   ImGui::SameLine();
   if (ImGui::Button("Reset")) ++controls.resets;
   ImGui::SameLine();
-  if (ImGui::Button(controls.forces_off ? "Forces on" : "Forces off")) controls.forces_off = !controls.forces_off;
+  if (ImGui::Button(stopped ? "Forces on" : "Forces off")) ++(stopped ? controls.arms : controls.stops);
   ImGui::SameLine();
   ImGui::TextDisabled("F1: keys");
 }
@@ -153,7 +153,9 @@ void draw_panels(const anatomy::Specimen& specimen, const messages::SceneFrame& 
   ImGui::Begin(
       "Myotact", nullptr,
       ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar);
-  draw_play(controls);
+  const bool stopped = !frame.tools.empty() && frame.tools[0].forces_stopped;
+  draw_play(stopped, controls);
+  if (stopped) draw_wrapped("FORCES STOPPED. Enter, or the button, turns them on again.", kWarning);
   ImGui::Separator();
   draw_sliders(controls);
   if (!frame.notice.empty()) draw_wrapped(frame.notice, kWarning);

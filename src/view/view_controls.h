@@ -15,7 +15,8 @@ struct ViewControls {
   bool hold_posture = false;
   bool gravity = false;
   bool paused = false;
-  bool forces_off = false;
+  std::uint32_t stops = 0;   // emergency stops asked for so far
+  std::uint32_t arms = 0;    // times that forces were enabled again
   std::uint32_t steps = 0;   // single steps asked for so far
   std::uint32_t resets = 0;  // resets asked for so far
   std::uint32_t shoves = 0;  // shove tests asked for so far

@@ -140,7 +140,10 @@ struct Window::Impl {
         look("lateral");
         return;
       case KeyAction::StopForces:
-        controls.forces_off = !controls.forces_off;
+        ++controls.stops;
+        return;
+      case KeyAction::EnableForces:
+        ++controls.arms;
         return;
       case KeyAction::Screenshot:
         screenshot = "myotact.png";
@@ -155,8 +158,9 @@ struct Window::Impl {
   }
 
   void handle_keys() {
-    if (ImGui::GetIO().WantTextInput) return;
+    const bool types = ImGui::GetIO().WantTextInput;
     for (const KeyBinding& binding : key_bindings()) {
+      if (types && binding.action != KeyAction::StopForces) continue;  // a stop goes before anything else
       if (ImGui::IsKeyPressed(binding.key, false)) act(binding.action);
     }
   }

@@ -7,41 +7,10 @@
 #include <gtest/gtest.h>
 
 #include "haptics/faults.h"
+#include "haptics/gate_rig.h"
 
 namespace myotact::haptics {
 namespace {
-
-constexpr std::uint64_t kTick_ns = 1'000'000;
-constexpr double kPeak_N = device::DeviceProfile{}.peak_force_N;
-constexpr double kSlewPerTick_N = GateSettings{}.slew_N_s * 1e-3;
-
-/// A gate with a clock and a simulation that publishes every 10 ms while `publishes`.
-struct Rig {
-  Rig() {
-    gate.enable();
-    input.model_arrived_ns = now_ns;
-  }
-
-  Vec3 tick(const Vec3& wanted_N, const Vec3& position_m = Vec3::Zero()) {
-    now_ns += kTick_ns;
-    if (publishes && now_ns % (10 * kTick_ns) == 0) input.model_arrived_ns = now_ns;
-    input.has_model = true;
-    input.step_ns = 10 * kTick_ns;
-    input.now_ns = now_ns;
-    input.wanted_N = wanted_N;
-    input.device_position_m = position_m;
-    return gate.admit(input);
-  }
-  void open() {
-    for (int i = 0; i < 1200; ++i) tick(Vec3::Zero());
-    ASSERT_EQ(gate.state(), GateState::On);
-  }
-
-  ForceGate gate{device::DeviceProfile{}, GateSettings{}};
-  GateInput input;
-  std::uint64_t now_ns = 1'000'000'000;
-  bool publishes = true;
-};
 
 TEST(ForceGate, ShutUntilEnabled) {
   ForceGate gate{device::DeviceProfile{}, GateSettings{}};

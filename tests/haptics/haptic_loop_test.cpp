@@ -25,6 +25,7 @@ constexpr std::uint64_t kStep_ns = 10 * kTick_ns;
 HapticSettings quick_to_ramp() {
   HapticSettings settings;
   settings.gate.ramp_s = 0.1;
+  settings.gate.force_limit = 1.0;
   return settings;
 }
 
@@ -206,6 +207,46 @@ TEST(HapticLoop, StopGivesZeroAndEnablingRampsUpAgain) {
   scene.loop.stop_forces(false);
   scene.run(200);
   EXPECT_EQ(scene.loop.gate_state(), GateState::On);
+}
+
+TEST(HapticLoop, TheDevicesStopButtonStopsUntilForcesAreEnabledAgain) {
+  Scene scene(0.0);
+  scene.run(200);
+  scene.device.set_hand_target({{0, 0, 0.0}, {}, 0});
+  scene.run(300);
+  ASSERT_GT(scene.loop.tool_state().force_world_N[2], 0.1);
+  scene.device.set_hand_target({{0, 0, 0.0}, {}, messages::kStopButton});
+  scene.run(1);
+  EXPECT_EQ(scene.loop.tool_state().force_world_N[2], 0.0);
+  scene.loop.stop_forces(false);  // while the button is down nothing comes back
+  scene.run(10);
+  EXPECT_EQ(scene.loop.gate_state(), GateState::Off);
+  scene.device.set_hand_target({{0, 0, 0.01}, {}, 0});
+  scene.run(500);
+  EXPECT_EQ(scene.loop.gate_state(), GateState::Off);  // nor by letting go of it
+  EXPECT_NE(scene.loop.tool_state().faults & bit(Fault::Stopped), 0u);
+  scene.loop.stop_forces(false);
+  scene.run(200);
+  EXPECT_EQ(scene.loop.gate_state(), GateState::On);
+}
+
+TEST(HapticLoop, JumpingPlacesAndClocksNeverBreakTheLoop) {
+  std::vector<messages::DeviceState> states;
+  for (int i = 0; i < 400; ++i) {
+    messages::DeviceState state;
+    const double far_m = i % 7 == 0 ? 1e300 : i % 5 == 0 ? -40.0 : 1e-3 * i;
+    state.stylus_position_world_m = {far_m, 0.0, i % 11 == 0 ? 1e8 : 0.0};
+    state.stylus_velocity_world_m_s = {i % 13 == 0 ? std::numeric_limits<double>::infinity() : 1e6, 0.0, 0.0};
+    states.push_back(state);
+  }
+  device::ReplayDevice device(states, {});
+  HapticLoop loop(device, quick_to_ramp());
+  loop.prepare(1'000 * kTick_ns);
+  for (std::uint64_t tick = 0; tick < 400; ++tick) {
+    loop.tick(tick % 3 == 0 ? 0 : tick % 17 == 0 ? ~std::uint64_t{0} : tick * kTick_ns);
+    EXPECT_TRUE(to_vec3(loop.tool_state().force_world_N).allFinite());
+    EXPECT_LE(to_vec3(loop.tool_state().force_world_N).norm(), device.profile().peak_force_N);
+  }
 }
 
 TEST(HapticLoop, TheSameInputsGiveTheSameBits) {

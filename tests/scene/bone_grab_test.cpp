@@ -27,7 +27,9 @@ const Vec3 kPaw_m(0.212, 0.0, 0.0);  // 12 mm before the end of the rod, level w
 /// A stylus that is where the test puts it.
 class HeldDevice : public device::Device {
  public:
-  explicit HeldDevice(const Vec3& position_m) : position_m(position_m) { profile_.peak_force_N = 20.0; }
+  explicit HeldDevice(const Vec3& position_m) : position_m(position_m) {
+    profile_.peak_force_N = profile_.continuous_force_N = 20.0;
+  }
   const std::string& name() const override { return name_; }
   const device::DeviceProfile& profile() const override { return profile_; }
   void open() override {}
@@ -65,6 +67,7 @@ constexpr double kRodDamping_Nms_rad = 0.02;
 haptics::HapticSettings quick_to_ramp(double force_scale = 1.0) {
   haptics::HapticSettings settings;
   settings.gate.ramp_s = 0.1;
+  settings.gate.force_limit = 1.0;
   settings.force_scale = force_scale;
   return settings;
 }

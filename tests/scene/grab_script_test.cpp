@@ -28,6 +28,7 @@ Scene lifted_rod(int workers) {
   scene.joints.resize(1);
   scene.activations.assign(2, 0.0);
   scene.tools.resize(1);
+  scene.tools[0].force_limit = 1.0;
   scene.script.push_back({0.0, 1.4, GrabBone{1, Vec3::UnitX(), Vec3(0.0, 0.0, 0.01)}});
   scene.script.push_back({0.8, 0.2, Activate{1, 0.1}});
   scene.script.push_back({1.4, 0.3, ReleaseHand{}});

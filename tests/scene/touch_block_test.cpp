@@ -19,7 +19,9 @@ constexpr std::uint64_t kTick_ns = 1'000'000, kStep_ns = 10 * kTick_ns;
 /// A stylus that is where the test puts it, and remembers the force.
 class HeldDevice : public device::Device {
  public:
-  explicit HeldDevice(const Vec3& position_m) : position_m(position_m) { profile_.peak_force_N = 20.0; }
+  explicit HeldDevice(const Vec3& position_m) : position_m(position_m) {
+    profile_.peak_force_N = profile_.continuous_force_N = 20.0;
+  }
   const std::string& name() const override { return name_; }
   const device::DeviceProfile& profile() const override { return profile_; }
   void open() override {}
@@ -140,6 +142,7 @@ haptics::HapticSettings block_settings(double friction) {
   settings.contact.stiffness_N_m = 800.0;
   settings.contact.static_friction = settings.contact.dynamic_friction = friction;
   settings.gate.ramp_s = 0.1;
+  settings.gate.force_limit = 1.0;
   return settings;
 }
 
