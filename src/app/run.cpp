@@ -2,12 +2,14 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
+#include "app/guarded_motor.h"
 #include "app/interruption.h"
 #include "app/options.h"
 #include "app/picture.h"
@@ -37,6 +39,7 @@ struct RunSummary {
   std::uint64_t steps = 0;
   scene::Extremes extremes;
   scene::ShoveRecord shove;  // joint -1: none was asked for
+  std::string notice;        // what the device does not bear of the scene's settings
 };
 
 class Stopwatch {
@@ -71,6 +74,7 @@ RunSummary run_lockstep(const Options& options, const scene::Scene& scene, simul
   summary.wall_s = stopwatch.seconds();
   summary.simulated_s = simulation.time_s();
   summary.extremes = session.extremes();
+  summary.notice = session.notice();
   summary.shove = session.conductor().shove_test().record();
   if (!pictured) write_picture(scene, simulation, session.tool(), "lateral", options.out / "scene.png");
   if (recorder) recorder->close();
@@ -79,10 +83,12 @@ RunSummary run_lockstep(const Options& options, const scene::Scene& scene, simul
 }
 
 nlohmann::json run_free(const Options& options, const scene::Scene& scene, simulation::Simulation& simulation,
-                        RunSummary& summary) {
+                        GuardedMotor& guarded, RunSummary& summary) {
   const auto recorder = open_recorder(options, scene, scene::Clock::Wall);
   device::SimulatedDevice device(scene.tools.front().device, scene::start_of_hand(scene.specimen));
-  scene::FreeSession session(scene, simulation, device, &device, recorder.get());
+  device.drive(guarded.motor);
+  scene::FreeSession session(scene, simulation, device, &device, recorder.get(), &guarded.watchdog);
+  summary.notice = session.notice();
   const double end_s = options.seconds.value_or(session.script_end_s());
   session.start();
   messages::SceneFrame frame;
@@ -123,6 +129,7 @@ nlohmann::json summary_json(const scene::Scene& scene, const RunSummary& summary
           {"largest_volume_error", summary.extremes.volume_error},
           {"smallest_J", summary.extremes.smallest_J},
           {"fault_bits", summary.extremes.faults},
+          {"notice", summary.notice},
           {"faults", haptics::describe_faults(static_cast<std::uint32_t>(summary.extremes.faults))}};
 }
 
@@ -154,6 +161,8 @@ nlohmann::json measure_stiffness(const Options& options, const scene::Scene& sce
 }  // namespace
 
 int run(const Options& options) {
+  std::optional<GuardedMotor> guarded;
+  if (options.realtime) guarded.emplace();  // first: the watchdog is forked off before there are threads
   const scene::Scene scene = scene_of(options);
   const std::vector<double> levels = levels_of(options);
   make_writable_folder(options.out);
@@ -164,11 +173,12 @@ int run(const Options& options) {
   {
     simulation::Simulation simulation(scene.specimen, scene.settings);
     if (options.realtime) {
-      timing = run_free(options, scene, simulation, summary);
+      timing = run_free(options, scene, simulation, *guarded, summary);
     } else {
       summary = run_lockstep(options, scene, simulation);
     }
   }
+  if (!summary.notice.empty()) spdlog::warn("{}", summary.notice);
   nlohmann::json report = summary_json(scene, summary);
   if (options.realtime) report["realtime"] = timing;
   if (summary.shove.joint >= 0) report["shove"] = shove_json(summary.shove);

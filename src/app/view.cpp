@@ -1,16 +1,19 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include <spdlog/spdlog.h>
 
+#include "app/guarded_motor.h"
 #include "app/interruption.h"
 #include "app/joint_watch.h"
 #include "app/options.h"
 #include "core/file.h"
 #include "device/mouse_device.h"
 #include "device/simulated_device.h"
+#include "haptics/stiffness_bound.h"
 #include "scene/free_session.h"
 #include "view/window.h"
 
@@ -34,7 +37,8 @@ int watched_joint(const scene::Scene& scene) {
 view::WindowSettings window_settings(const scene::Scene& scene, const device::Device& device, const Vec3& hand_m) {
   view::WindowSettings settings;
   settings.title = "Myotact: " + scene.title;
-  settings.note = scene.note;
+  const std::string notice = haptics::stiffness_notice(device.profile(), scene.tools.front().stiffness_N_m);
+  settings.note = notice.empty() ? scene.note : notice + "\n" + scene.note;
   settings.device_peak_N = device.profile().peak_force_N;
   settings.joint = watched_joint(scene);
   settings.hand_start_world_m = to_array(hand_m);
@@ -73,16 +77,21 @@ int view(const Options& options) {
   // Without a device named the mouse is the hand, and the script's hand stays away: the person leads.
   const bool scripted = !options.devices.empty() && options.devices.front() == "simulated";
   if (!scripted) scene.script.clear();
+  std::optional<GuardedMotor> guarded;
+  if (scripted) guarded.emplace();  // first: the watchdog is forked off before there are threads
   const Vec3 hand_m = scene::start_of_hand(scene.specimen);
   device::MouseDevice mouse(hand_m);
   device::SimulatedDevice simulated("simulated", hand_m);
+  if (guarded) simulated.drive(guarded->motor);
   if (options.seconds) make_writable_folder(options.out);
   device::Device& device = scripted ? static_cast<device::Device&>(simulated) : mouse;
   // First: without a display nothing is built.
   view::Window window(scene.specimen, window_settings(scene, device, hand_m));
   simulation::Simulation simulation(scene.specimen, scene.settings);
   const auto recorder = open_recorder(options, scene, scene::Clock::Wall);
-  scene::FreeSession session(scene, simulation, device, scripted ? &simulated : nullptr, recorder.get());
+  scene::FreeSession session(scene, simulation, device, scripted ? &simulated : nullptr, recorder.get(),
+                             guarded ? &guarded->watchdog : nullptr);
+  if (!session.notice().empty()) spdlog::warn("{}", session.notice());
   watch_for_interruption();
   session.start();
   messages::SceneFrame frame;

@@ -26,10 +26,17 @@ SimulatedDevice::SimulatedDevice(std::string name, const Vec3& start_world_m, co
       hand_(hand),
       position_m_(start_world_m),
       target_m_(start_world_m),
-      measured_m_(start_world_m) {}
+      measured_m_(start_world_m) {
+  commands_N_.fill(Vec3::Zero());
+}
 
 void SimulatedDevice::write(const messages::DeviceCommand& command) noexcept {
-  force_N_ = to_vec3(command.force_world_N);
+  const auto delay =
+      static_cast<std::size_t>(std::clamp(profile_.delay_ticks, 0, static_cast<int>(commands_N_.size()) - 1));
+  commands_N_[written_ % commands_N_.size()] = to_vec3(command.force_world_N);
+  force_N_ = written_ < delay ? Vec3(Vec3::Zero()) : commands_N_[(written_ - delay) % commands_N_.size()];
+  ++written_;
+  if (motor_ != nullptr) motor_->set_force(force_N_);
 }
 
 messages::DeviceState SimulatedDevice::read(std::uint64_t now_ns) noexcept {
@@ -37,8 +44,10 @@ messages::DeviceState SimulatedDevice::read(std::uint64_t now_ns) noexcept {
     target_m_ = to_vec3(targets_.front().position_world_m);
     target_velocity_m_s_ = to_vec3(targets_.front().velocity_world_m_s);
     buttons_ = targets_.front().buttons;
+    push_N_ = to_vec3(targets_.front().push_world_N);
     target_age_s_ = 0.0;
   }
+  if (motor_ != nullptr) force_N_ = motor_->force_world_N();
   const double dt_s = started_ && now_ns > last_ns_ ? 1e-9 * static_cast<double>(now_ns - last_ns_) : 0.0;
   started_ = true;
   last_ns_ = now_ns;
@@ -60,7 +69,7 @@ void SimulatedDevice::integrate(double h_s) noexcept {
   const double mass_kg = profile_.inertia_kg + hand_.mass_kg;
   const double k = hand_.stiffness_N_m;
   const double b = hand_.damping_Ns_m;
-  const Vec3 force_N = k * (target_m_ - position_m_) + b * target_velocity_m_s + force_N_;
+  const Vec3 force_N = k * (target_m_ - position_m_) + b * target_velocity_m_s + push_N_ + force_N_;
   Vec3 v = (mass_kg * velocity_m_s_ + h_s * force_N) / (mass_kg + h_s * (b + profile_.viscous_Ns_m) + h_s * h_s * k);
   const double speed_m_s = v.norm();
   const double lost_m_s = h_s * profile_.coulomb_N / mass_kg;

@@ -12,6 +12,8 @@ constexpr std::array kTexts = {
     FaultText{Fault::NonFiniteDevice, "no number from the device", "force zero while it lasts. Look at its driver."},
     FaultText{Fault::DeviceJumped, "device jumped",
               "force zero, then armed anew: no hand moves that fast. Look at encoders and cable."},
+    FaultText{Fault::WatchdogCut, "watchdog",
+              "the program hung: force zero, then armed anew. Free a core, or allow real-time priority."},
     FaultText{Fault::NonFiniteForce, "force is no number",
               "force zero, then back through the ramp. Look at contact stiffness and time step."},
     FaultText{Fault::TooFast, "device too fast", "force zero, then back through the ramp. Move more slowly."},

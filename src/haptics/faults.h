@@ -26,6 +26,7 @@ enum class Fault : std::uint32_t {
   MotorHot = 1u << 13,
   Buzz = 1u << 14,
   StiffnessLowered = 1u << 15,
+  WatchdogCut = 1u << 16,
 };
 
 constexpr std::uint32_t bit(Fault fault) {

@@ -21,7 +21,8 @@ constexpr double kShortestTick_s = 1e-4;
 constexpr double kLongestHeat_s = 1.0;  // a held force after that long is no force of this loop any more
 /// Faster than a thrown ball leaves the hand of an untrained person; 20 mm a tick.
 constexpr double kFasterThanAnyHand_m_s = 20.0;
-constexpr std::uint32_t kDeviceFaults = bit(Fault::DeviceLost) | bit(Fault::NonFiniteDevice) | bit(Fault::DeviceJumped);
+constexpr std::uint32_t kDeviceFaults =
+    bit(Fault::DeviceLost) | bit(Fault::NonFiniteDevice) | bit(Fault::DeviceJumped) | bit(Fault::WatchdogCut);
 constexpr double kRest_m_s = 1e-3;  // slower than this nothing useful can be damped
 
 Vec3 clamp_norm(const Vec3& force_N, double limit_N) {
@@ -69,6 +70,7 @@ double ForceGate::advance_clock(const GateInput& input) noexcept {
 /// How far the device moved; raises what is wrong with it.
 Vec3 ForceGate::watch_device(const GateInput& input, double elapsed_s) noexcept {
   if (!input.connected) faults_ |= bit(Fault::DeviceLost);
+  if (input.cut) faults_ |= bit(Fault::WatchdogCut);
   if (!input.device_position_m.allFinite()) faults_ |= bit(Fault::NonFiniteDevice);
   const bool known = knows_position_;
   knows_position_ = (faults_ & kDeviceFaults) == 0;
@@ -104,7 +106,7 @@ Vec3 ForceGate::admit(const GateInput& input) noexcept {
   const Vec3 ramped_N = gain_ * input.wanted_N;
   const Vec3 clamped_N = clamp_norm(ramped_N, limit_N());
   if (ramped_N.norm() > limit_N() && heat_.cuts()) faults_ |= bit(Fault::MotorHot);
-  const Vec3 passive_N = keep_passive(limit_rise(clamped_N, dt_s), moved_m, dt_s);
+  const Vec3 passive_N = keep_passive(limit_rise(clamped_N, dt_s), moved_m, input.damping_Ns_m, dt_s);
   last_sent_N_ = passive_N.allFinite() ? clamp_norm(passive_N, limit_N()) : Vec3::Zero();
   return last_sent_N_;
 }
@@ -139,14 +141,15 @@ Vec3 ForceGate::limit_rise(const Vec3& force_N, double dt_s) const noexcept {
 
 /// Books the work of the force that was really sent, which is exact because it was held between the two positions
 /// (Hannaford and Ryu 2002); while more came out than may, damping takes it back.
-Vec3 ForceGate::keep_passive(const Vec3& force_N, const Vec3& moved_m, double dt_s) noexcept {
+Vec3 ForceGate::keep_passive(const Vec3& force_N, const Vec3& moved_m, double damped_Ns_m, double dt_s) noexcept {
   energy_J_ += settings_.active_power_W * dt_s - last_sent_N_.dot(moved_m);
   energy_J_ = std::min(energy_J_, settings_.energy_store_J);
   const Vec3 velocity_m_s = moved_m / dt_s;
   if (energy_J_ >= 0.0 || velocity_m_s.norm() < kRest_m_s) return force_N;
   faults_ |= bit(Fault::EnergyInjected);
+  const double bears_Ns_m = kDampingShare / (1 + std::max(0, profile_.delay_ticks)) * profile_.inertia_kg / dt_s;
   const double damping_Ns_m =
-      std::min(-energy_J_ / (dt_s * velocity_m_s.squaredNorm()), kDampingShare * profile_.inertia_kg / dt_s);
+      std::clamp(-energy_J_ / (dt_s * velocity_m_s.squaredNorm()), 0.0, std::max(0.0, bears_Ns_m - damped_Ns_m));
   return force_N - damping_Ns_m * velocity_m_s;
 }
 

@@ -25,6 +25,8 @@ struct GateInput {
   Vec3 wanted_N = Vec3::Zero();
   Vec3 device_position_m = Vec3::Zero();
   bool connected = true;
+  bool cut = false;           // a watchdog took the force away
+  double damping_Ns_m = 0.0;  // already in the wanted force; device bears only so much
   bool has_model = false;
   std::uint64_t now_ns = 0;
   std::uint64_t model_arrived_ns = 0;  // when the newest model came in
@@ -64,7 +66,7 @@ class ForceGate {
   Vec3 shut(GateState state) noexcept;
   void change_state(const GateInput& input, double dt_s) noexcept;
   Vec3 limit_rise(const Vec3& force_N, double dt_s) const noexcept;
-  Vec3 keep_passive(const Vec3& force_N, const Vec3& moved_m, double dt_s) noexcept;
+  Vec3 keep_passive(const Vec3& force_N, const Vec3& moved_m, double damped_Ns_m, double dt_s) noexcept;
 
   device::DeviceProfile profile_;
   GateSettings settings_;

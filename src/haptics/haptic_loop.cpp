@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "haptics/faults.h"
+#include "haptics/stiffness_bound.h"
 
 namespace myotact::haptics {
 
@@ -18,12 +19,19 @@ bool is_finite(const std::array<double, 3>& v) {
   return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
 }
 
-/// The grip as this loop's device bears it.
-BoneDragSettings bone_settings(const HapticSettings& settings, const device::DeviceProfile& profile) {
-  BoneDragSettings bone = settings.bone;
-  bone.stiffness_N_m = std::min(bone.stiffness_N_m, profile.max_stiffness_N_m);
-  bone.force_scale = settings.force_scale;
-  return bone;
+constexpr double kFelt_N = 0.02;    // less force than this moves no device: nothing can buzz
+constexpr double kSoften_s = 0.02;  // a stiffness that is too much is gone before a second swing
+constexpr double kStiffen_s = 0.5;  // and comes back without a push
+constexpr double kTold_J = 0.1e-3;  // what a port may lack before it is called a fault: a count of an encoder at 5 N
+
+/// The settings as this loop's device bears them.
+HapticSettings bearable(HapticSettings settings, const device::DeviceProfile& profile) {
+  settings.bone.force_scale = settings.force_scale;
+  if (!settings.limit_stiffness) return settings;
+  const double most_N_m = stiffness_bound(profile).smallest_N_m();
+  settings.bone.stiffness_N_m = std::min(settings.bone.stiffness_N_m, most_N_m);
+  settings.contact.stiffness_N_m = std::min(settings.contact.stiffness_N_m, most_N_m);
+  return settings;
 }
 
 }  // namespace
@@ -40,12 +48,15 @@ Vec3 coupling_force_N(const Proxy& proxy, const ProxyGoal& device, const Contact
 
 HapticLoop::HapticLoop(device::Device& device, const HapticSettings& settings)
     : device_(device),
-      settings_(settings),
+      settings_(bearable(settings, device.profile())),
       ticks_(kTicksKept),
-      proxy_(settings.contact),
-      line_(settings.line),
-      bone_(bone_settings(settings, device.profile())),
-      gate_(device.profile(), settings.gate) {}
+      proxy_(settings_.contact),
+      line_(settings_.line),
+      bone_(settings_.bone),
+      ports_(device.profile().inertia_kg, device.profile().delay_ticks),
+      buzz_(device.profile().resolution_m),
+      notice_(settings.limit_stiffness ? stiffness_notice(device.profile(), settings.contact.stiffness_N_m) : ""),
+      gate_(device.profile(), settings_.gate) {}
 
 void HapticLoop::prepare(std::uint64_t now_ns) {
   device_.open();
@@ -72,25 +83,28 @@ void HapticLoop::tick(std::uint64_t now_ns) noexcept {
   if ((state.buttons & messages::kStopButton) != 0) gate_.stop();
   const bool is_new = take_model(now_ns);
   Vec3 contact_N = Vec3::Zero();
-  Vec3 line_N = Vec3::Zero();
-  Vec3 bone_N = Vec3::Zero();
+  PortForces felt;
   const bool device_is_sound = is_finite(state.stylus_position_world_m) && is_finite(state.stylus_velocity_world_m_s);
   if (device_is_sound) {
     const ProxyGoal goal{to_vec3(state.stylus_position_world_m), to_vec3(state.stylus_velocity_world_m_s)};
-    bone_N = bone_.tick(model_, is_new,
-                        {goal.position_m, goal.velocity_m_s, (state.buttons & messages::kGrabBoneButton) != 0,
-                         gate_.limit_N(), last_.tool.sequence + 1},
-                        dt_s_);
-    // A hand that holds the bone does not also press on it: two springs would be stiffer than the device stands.
-    contact_N = (1.0 - bone_.gain()) * contact_force_N(goal, now_ns, is_new);
+    soften(goal.position_m, now_ns);
+    felt.bone_N = bone_.tick(model_, is_new,
+                             {goal.position_m, goal.velocity_m_s, (state.buttons & messages::kGrabBoneButton) != 0,
+                              gate_.limit_N(), last_.tool.sequence + 1},
+                             dt_s_);
+    contact_N = contact_share() * contact_force_N(goal, now_ns, is_new);
+    felt.contact_N = settings_.force_scale * contact_N;
     const messages::LocalLine nothing_near;
-    line_N = line_.tick(model_ == nullptr ? nothing_near : model_->line,
-                        {goal.position_m, goal.velocity_m_s, (state.buttons & messages::kGrabButton) != 0}, dt_s_);
+    const Vec3 line_N =
+        line_.tick(model_ == nullptr ? nothing_near : model_->line,
+                   {goal.position_m, goal.velocity_m_s, (state.buttons & messages::kGrabButton) != 0}, dt_s_);
+    felt.line_N = settings_.force_scale * line_N;
+    felt = make_passive(felt, goal);
   } else {
     faults_ |= bit(Fault::NonFiniteDevice);
   }
-  const Vec3 sent_N = gate_and_write(settings_.force_scale * (contact_N + line_N) + bone_N,
-                                     to_vec3(state.stylus_position_world_m), now_ns);
+  const Vec3 sent_N = gate_and_write(felt.sum_N(), to_vec3(state.stylus_position_world_m), now_ns);
+  ports_.book(sent_N);
   faults_ |= proxy_faults();
   tell(state, sent_N, contact_N);
 }
@@ -121,11 +135,51 @@ Vec3 HapticLoop::contact_force_N(const ProxyGoal& goal, std::uint64_t now_ns, bo
   return force_N.norm() > peak_N ? Vec3(force_N * (peak_N / force_N.norm())) : force_N;
 }
 
+/// A hand that holds the bone does not also press on it: two springs would be stiffer than the device stands.
+double HapticLoop::contact_share() const noexcept {
+  return (1.0 - bone_.gain()) * age_share_ * buzz_.stiffness_share();
+}
+
+void HapticLoop::soften(const Vec3& device_m, std::uint64_t now_ns) noexcept {
+  if (buzz_.tick(device_m, to_vec3(last_.tool.force_world_N).norm() > kFelt_N, dt_s_)) faults_ |= bit(Fault::Buzz);
+  if (model_ == nullptr || !settings_.limit_stiffness) return;
+  const std::uint64_t since_ns = now_ns > model_->published_at_ns ? now_ns - model_->published_at_ns : 0;
+  // The simulation looked at the hand at the beginning of the step that ended with this model.
+  const double age_s = std::max(1e-3, 1e-9 * (static_cast<double>(since_ns) + static_cast<double>(model_->dt_ns)));
+  const double bears = std::min(1.0, stiffness_by_age_N_m(age_s) / settings_.contact.stiffness_N_m);
+  age_share_ += std::min(1.0, dt_s_ / (bears < age_share_ ? kSoften_s : kStiffen_s)) * (bears - age_share_);
+  if (bears < 1.0) faults_ |= bit(Fault::StiffnessLowered);
+}
+
+PortForces HapticLoop::make_passive(const PortForces& felt, const ProxyGoal& goal) noexcept {
+  PortsTick tick;
+  tick.wanted = felt;
+  tick.hand_m = goal.position_m;
+  tick.dt_s = dt_s_;
+  tick.proxy_m = proxy_.position_m();
+  if (proxy_.contact().active) {
+    tick.tissue_moved_m = dt_s_ * proxy_.contact().velocity_m_s;
+    tick.contact_stiffness_N_m = settings_.force_scale * contact_share() * settings_.contact.stiffness_N_m;
+  }
+  if (model_ != nullptr && line_.muscle() >= 0 && model_->line.muscle == line_.muscle()) tick.line = &model_->line;
+  tick.line_gain = settings_.force_scale * line_.gain();
+  tick.body = bone_.body();
+  tick.body_stiffness_N_m = settings_.force_scale * bone_.stiffness_N_m();
+  tick.body_point_m = bone_.target_m();
+  if (tick.body_stiffness_N_m > 0.0) tick.body_point_m += felt.bone_N / tick.body_stiffness_N_m;
+  const PortForces passive = ports_.admit(tick);
+  if (ports_.missing_J() > kTold_J) faults_ |= bit(Fault::EnergyInjected);
+  return passive;
+}
+
 Vec3 HapticLoop::gate_and_write(const Vec3& wanted_N, const Vec3& position_m, std::uint64_t now_ns) noexcept {
   GateInput input;
   input.wanted_N = wanted_N;
   input.device_position_m = position_m;
   input.connected = device_.connected();
+  input.cut = cut_;
+  input.damping_Ns_m = ports_.damping_Ns_m();
+  cut_ = false;
   input.has_model = model_ != nullptr;
   input.now_ns = now_ns;
   input.model_arrived_ns = model_arrived_ns_;
@@ -155,7 +209,7 @@ void HapticLoop::tell(const messages::DeviceState& state, const Vec3& sent_N, co
   tool.proxy_position_world_m = to_array(proxy_.position_m());
   tool.force_world_N = to_array(sent_N);
   tool.contact = {};
-  const double stiffness_N_m = (1.0 - bone_.gain()) * settings_.contact.stiffness_N_m;
+  const double stiffness_N_m = contact_share() * settings_.contact.stiffness_N_m;
   if (contact.active && stiffness_N_m > 0.0 && (faults_ & bit(Fault::NonFiniteDevice)) == 0) {
     // The spring pulls the material point with the opposite of what the hand feels, as long as the tissue rests.
     tool.contact = {contact.surface,

@@ -3,11 +3,14 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "device/device.h"
 #include "haptics/bone_drag.h"
+#include "haptics/buzz_detector.h"
 #include "haptics/contact_settings.h"
 #include "haptics/force_gate.h"
+#include "haptics/haptic_ports.h"
 #include "haptics/moving_surface.h"
 #include "haptics/muscle_line_drag.h"
 #include "haptics/proxy.h"
@@ -27,6 +30,9 @@ struct HapticSettings {
   GateSettings gate;
   /// Felt over simulated force: muscles pull with 10-1000 N, devices with 3-20 N. The tissue gets the unscaled force.
   double force_scale = 1.0;
+  /// Stiffnesses stay within what the device bears (stiffness_bound.h) and what the age of the simulation's answer
+  /// leaves of it. False: for measurements of where a loop becomes unstable.
+  bool limit_stiffness = true;
 };
 
 /// What a tick read, decided and wrote, for recorder and tables. tool.force_world_N is what the device was given.
@@ -43,8 +49,9 @@ Vec3 coupling_force_N(const Proxy& proxy, const ProxyGoal& device, const Contact
 
 /// One tool, once a millisecond: reads the device and the newest model, computes, gates and writes in the same tick.
 ///
-///   device.read --> [proxy, friction, coupling] + [muscle line, bone] --> [force gate] --> device.write
-///        models() newest --^                                                   '--> tool_states() newest, ticks() all
+///   device.read --> [proxy, friction, coupling] + [muscle line, bone] --> [ports] --> [force gate] --> device.write
+///        models() newest --^                                                       '--> tool_states() newest, ticks()
+///        all
 ///
 /// Whoever calls tick() owns the clock: a virtual one in lockstep, HapticThread's when it runs free.
 class HapticLoop {
@@ -60,6 +67,10 @@ class HapticLoop {
   /// Any thread: true: force zero from the next tick on, as the device's stop button does; it stays zero until false:
   /// the gate arms again and ramps up.
   void stop_forces(bool stopped) noexcept { stopped ? gate_.stop() : gate_.enable(); }
+  /// Haptic thread: tells the next tick that a watchdog took the force away: it comes back through the ramp.
+  void note_cut() noexcept { cut_ = true; }
+  /// What was changed of the settings because the device does not bear it, one line; or nothing.
+  const std::string& notice() const noexcept { return notice_; }
   /// Haptic thread: tells the next tick that deadlines went by.
   void note_missed(std::uint64_t ticks) noexcept { missed_ = missed_ || ticks > 0; }
 
@@ -72,10 +83,14 @@ class HapticLoop {
   const messages::ToolState& tool_state() const noexcept { return last_.tool; }
   GateState gate_state() const noexcept { return gate_.state(); }
   const ProxyCounters& proxy_counters() const noexcept { return proxy_.counters(); }
+  const HapticPorts& ports() const noexcept { return ports_; }
 
  private:
   bool take_model(std::uint64_t now_ns) noexcept;
   Vec3 contact_force_N(const ProxyGoal& goal, std::uint64_t now_ns, bool is_new) noexcept;
+  void soften(const Vec3& device_m, std::uint64_t now_ns) noexcept;
+  double contact_share() const noexcept;
+  PortForces make_passive(const PortForces& felt, const ProxyGoal& goal) noexcept;
   Vec3 gate_and_write(const Vec3& wanted_N, const Vec3& position_m, std::uint64_t now_ns) noexcept;
   void tell(const messages::DeviceState& state, const Vec3& sent_N, const Vec3& contact_N) noexcept;
   void tell_grabs(messages::ToolState& tool) const noexcept;
@@ -91,6 +106,10 @@ class HapticLoop {
   Proxy proxy_;
   MuscleLineDrag line_;
   BoneDrag bone_;
+  HapticPorts ports_;
+  BuzzDetector buzz_;
+  double age_share_ = 1.0;  // of the contact's stiffness, that the age of the model leaves
+  std::string notice_;
   ForceGate gate_;
   HapticTick last_;
   ProxyCounters counted_;
@@ -101,6 +120,7 @@ class HapticLoop {
   double dt_s_ = 1e-3;
   bool ticked_ = false;
   bool missed_ = false;
+  bool cut_ = false;
 };
 
 }  // namespace myotact::haptics

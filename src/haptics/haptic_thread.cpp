@@ -21,6 +21,7 @@ void HapticThread::stop() noexcept {
   // The thread is gone: this one may send the last, empty command.
   loop_.stop_forces(true);
   loop_.tick(realtime::steady_now_ns());
+  if (watchdog_ != nullptr) watchdog_->rest();
 }
 
 void HapticThread::run() noexcept {
@@ -33,7 +34,9 @@ void HapticThread::run() noexcept {
     last_ns = wake.now_ns;
     missed_.fetch_add(wake.missed, std::memory_order_relaxed);
     loop_.note_missed(wake.missed);
+    if (watchdog_ != nullptr && watchdog_->tripped()) loop_.note_cut();
     loop_.tick(wake.now_ns);
+    if (watchdog_ != nullptr) watchdog_->beat();
     count_.fetch_add(1, std::memory_order_relaxed);
     durations_.add(realtime::steady_now_ns() - wake.now_ns);
   }

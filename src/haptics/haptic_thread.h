@@ -8,6 +8,7 @@
 #include "haptics/haptic_loop.h"
 #include "realtime/period_histogram.h"
 #include "realtime/real_time_thread.h"
+#include "realtime/watchdog.h"
 
 namespace myotact::haptics {
 
@@ -15,7 +16,8 @@ namespace myotact::haptics {
 class HapticThread {
  public:
   /// `loop` outlives the thread and is prepared before start().
-  explicit HapticThread(HapticLoop& loop) : loop_(loop) {}
+  /// `watchdog`, which outlives the thread, is told of every tick; null: none.
+  explicit HapticThread(HapticLoop& loop, realtime::Watchdog* watchdog = nullptr) : loop_(loop), watchdog_(watchdog) {}
   ~HapticThread() { stop(); }
   HapticThread(const HapticThread&) = delete;
   HapticThread& operator=(const HapticThread&) = delete;
@@ -37,6 +39,7 @@ class HapticThread {
   void run() noexcept;
 
   HapticLoop& loop_;
+  realtime::Watchdog* watchdog_;
   realtime::RealTimePermission permission_;
   realtime::PeriodHistogram periods_;
   realtime::PeriodHistogram durations_;

@@ -36,6 +36,7 @@ class MuscleLineDrag {
   std::int32_t muscle() const noexcept { return muscle_; }  // in hand, or -1
   double fraction() const noexcept { return fraction_; }    // place on it
   double tension_N() const noexcept { return tension_N_; }  // of the string in the last tick; 0: none in hand
+  double gain() const noexcept { return gain_; }            // 0 .. 1, how far the hand has closed
   double grab_stiffness_N_m() const noexcept { return settings_.grab_stiffness_N_m; }
 
  private:

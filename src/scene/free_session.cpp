@@ -30,14 +30,15 @@ void hold_still(messages::LocalModel& model) {
 }  // namespace
 
 FreeSession::FreeSession(const Scene& scene, simulation::Simulation& simulation, device::Device& device,
-                         device::SimulatedDevice* scripted_device, RecordingWriter* recorder)
+                         device::SimulatedDevice* scripted_device, RecordingWriter* recorder,
+                         realtime::Watchdog* watchdog)
     : scene_(&scene),
       simulation_(&simulation),
       scripted_device_(scripted_device),
       recorder_(recorder),
       conductor_(scene, simulation),
       loop_(device, haptic_settings(scene.tools.front())),
-      haptic_thread_(loop_) {
+      haptic_thread_(loop_, watchdog) {
   obeyed_.gravity = scene.settings.gravity_m_s2.norm() > 0.0;
   obeyed_.hold_posture = scene.co_contraction && scene.co_contraction->hold_posture;
 }

@@ -55,8 +55,10 @@ class FreeSession {
  public:
   /// `device` is the scene's tool; `scripted_device` the same one when the script moves its hand, else null. All
   /// references must outlive the session. Throws Error.
+  /// `watchdog`: of the device, told of every tick; null: none.
   FreeSession(const Scene& scene, simulation::Simulation& simulation, device::Device& device,
-              device::SimulatedDevice* scripted_device, RecordingWriter* recorder);
+              device::SimulatedDevice* scripted_device, RecordingWriter* recorder,
+              realtime::Watchdog* watchdog = nullptr);
   ~FreeSession();
 
   void start();
@@ -65,6 +67,7 @@ class FreeSession {
 
   bool running() const { return running_.load(std::memory_order_relaxed); }
   double script_end_s() const { return conductor_.script_end_s(); }
+  const std::string& notice() const { return loop_.notice(); }  // what the device does not bear of the settings
 
   // ---- the drawing thread
   /// A stop goes to the haptic loop at once, whatever the simulation is busy with, and stays until `arms` counts on.

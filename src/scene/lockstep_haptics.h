@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "device/device.h"
 #include "haptics/haptic_loop.h"
@@ -26,6 +27,7 @@ class LockstepHaptics {
 
   const haptics::HapticTick& last_tick() const { return loop_.last_tick(); }
   const messages::ToolState& tool() const { return loop_.tool_state(); }
+  const std::string& notice() const { return loop_.notice(); }  // what the device does not bear of the settings
 
  private:
   std::uint64_t step_ns_;

@@ -27,6 +27,7 @@ class LockstepSession {
 
   Conductor& conductor() { return conductor_; }
   const messages::ToolState& tool() const { return haptics_.tool(); }
+  const std::string& notice() const { return haptics_.notice(); }
   const Extremes& extremes() const { return extremes_; }  // so far
 
  private:

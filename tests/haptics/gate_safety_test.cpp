@@ -181,7 +181,7 @@ TEST(Faults, EachHasATextWithARemedyOnce) {
     EXPECT_FALSE(text.name.empty());
     EXPECT_GT(text.remedy.size(), 20u);
   }
-  EXPECT_EQ(seen, (bit(Fault::StiffnessLowered) << 1) - 1);  // no gap up to the last one
+  EXPECT_EQ(seen, (bit(Fault::WatchdogCut) << 1) - 1);  // no gap up to the last one
   EXPECT_EQ(describe_faults(bit(Fault::Stopped) | bit(Fault::Buzz)).size(), 2u);
 }
 

@@ -32,7 +32,8 @@ HapticSettings quick_to_ramp() {
 /// A flat block whose top swings by 2 mm, a muscle line above it, and a simulated hand: all in lockstep.
 class Scene {
  public:
-  explicit Scene(double swing_m) : swing_m_(swing_m) {
+  explicit Scene(double swing_m, const HapticSettings& settings = quick_to_ramp())
+      : loop(device, settings), swing_m_(swing_m) {
     device.set_hand_target({{0, 0, 0.01}, {}, 0});
     loop.prepare(now_ns_ = kTick_ns);
     publish();
@@ -46,7 +47,7 @@ class Scene {
     messages::LocalModel& model = loop.models().back();
     write_patch(plane_, previous_m_, current_m_, to_vec3(loop.tool_state().proxy_position_world_m), model);
     model.sequence = ++sequence_;
-    model.published_at_ns = now_ns_;
+    model.published_at_ns = now_ns_ - older_ns;
     model.dt_ns = kStep_ns;
     model.line.muscle = 0;
     model.line.proximal_point_world_m = {-0.1, 0, 0.01};
@@ -73,7 +74,8 @@ class Scene {
   }
 
   device::SimulatedDevice device{"simulated", Vec3(0, 0, 0.01)};
-  HapticLoop loop{device, quick_to_ramp()};
+  HapticLoop loop;
+  std::uint64_t older_ns = 0;  // by which the models' content is older than the step
 
  private:
   TestMesh plane_ = make_plane(0.06, 10);
@@ -228,6 +230,46 @@ TEST(HapticLoop, TheDevicesStopButtonStopsUntilForcesAreEnabledAgain) {
   scene.loop.stop_forces(false);
   scene.run(200);
   EXPECT_EQ(scene.loop.gate_state(), GateState::On);
+}
+
+TEST(HapticLoop, AStiffnessBeyondTheBoundIsLoweredWithOneNotice) {
+  HapticSettings settings = quick_to_ramp();
+  settings.contact.stiffness_N_m = 5000.0;
+  Scene scene(0.0, settings);
+  EXPECT_NE(scene.loop.notice().find("5000"), std::string::npos);
+  scene.run(200);
+  scene.device.set_hand_target({{0, 0, -2e-3}, {}, 0});
+  scene.run(400);
+  EXPECT_EQ(scene.loop.tool_state().contact.stiffness_N_m, device::DeviceProfile{}.max_stiffness_N_m);
+  settings.limit_stiffness = false;
+  Scene unlimited(0.0, settings);
+  EXPECT_EQ(unlimited.loop.notice(), "");
+}
+
+TEST(HapticLoop, AnOldAnswerOfTheSimulationSoftensTheContact) {
+  Scene scene(0.0);
+  scene.older_ns = 190'000'000;  // 0.2 s with the step: 80 N s/m / 0.2 s = 400 N/m
+  scene.run(200);
+  scene.device.set_hand_target({{0, 0, 0.0}, {}, 0});
+  scene.run(400);
+  EXPECT_NEAR(scene.loop.tool_state().contact.stiffness_N_m, 400.0, 20.0);
+  EXPECT_NE(scene.loop.tool_state().faults & bit(Fault::StiffnessLowered), 0u);
+  scene.older_ns = 0;
+  scene.run(4000);
+  EXPECT_NEAR(scene.loop.tool_state().contact.stiffness_N_m, ContactSettings{}.stiffness_N_m, 1.0);
+}
+
+TEST(HapticLoop, AWatchdogsCutComesBackThroughTheRamp) {
+  Scene scene(0.0);
+  scene.run(200);
+  scene.device.set_hand_target({{0, 0, 0.0}, {}, 0});
+  scene.run(300);
+  ASSERT_GT(scene.loop.tool_state().force_world_N[2], 0.1);
+  scene.loop.note_cut();
+  scene.run(1);
+  EXPECT_EQ(scene.loop.tool_state().force_world_N[2], 0.0);
+  EXPECT_NE(scene.loop.tool_state().faults & bit(Fault::WatchdogCut), 0u);
+  EXPECT_EQ(scene.loop.gate_state(), GateState::Armed);
 }
 
 TEST(HapticLoop, JumpingPlacesAndClocksNeverBreakTheLoop) {
