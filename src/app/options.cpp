@@ -47,9 +47,10 @@ std::vector<double> levels_of(const Options& options) {
 }
 
 std::unique_ptr<scene::RecordingWriter> open_recorder(const Options& options, const scene::Scene& scene,
-                                                      scene::Clock clock) {
+                                                      const device::DeviceProfile& profile) {
   if (!options.record) return nullptr;
-  return std::make_unique<scene::RecordingWriter>(*options.record, scene::recording_header(scene, options.seed, clock));
+  return std::make_unique<scene::RecordingWriter>(*options.record,
+                                                  scene::recording_header(scene, options.seed, profile));
 }
 
 }  // namespace myotact::app

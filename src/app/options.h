@@ -51,7 +51,7 @@ std::vector<double> levels_of(const Options& options);
 
 /// A recorder on the file of --record, or null. Throws Error InputOutput.
 std::unique_ptr<scene::RecordingWriter> open_recorder(const Options& options, const scene::Scene& scene,
-                                                      scene::Clock clock);
+                                                      const device::DeviceProfile& profile);
 
 // One function a subcommand, in the file of its name. Each returns the exit status of the program or throws Error.
 int run(const Options& options);

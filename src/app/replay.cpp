@@ -1,6 +1,4 @@
-#include <algorithm>
 #include <iostream>
-#include <optional>
 
 #include <nlohmann/json.hpp>
 
@@ -15,32 +13,17 @@ namespace myotact::app {
 
 namespace {
 
-/// What came out again.
-struct Comparison {
-  std::size_t equal_steps = 0;              // before the first state that differs
-  std::optional<double> largest_force_N{};  // difference over all steps; nothing: ticks of the wall clock
-};
-
-Comparison play_again(const scene::Scene& scene, const scene::Recording& recording, bool feels,
-                      simulation::Simulation& simulation) {
-  Comparison result;
-  std::optional<scene::ForceReplay> hand;
-  if (feels) {
-    hand.emplace(scene, recording, simulation);
-    result.largest_force_N = 0.0;
+/// First step after which the state differs from the recorded one; the count of steps when none does.
+std::size_t play_again(const scene::Recording& recording, scene::ForceReplay& hand,
+                       simulation::Simulation& simulation) {
+  hand.feel(simulation);
+  for (std::size_t i = 0; i < recording.steps.size(); ++i) {
+    scene::apply(recording.steps[i], simulation);
+    simulation.step({&recording.steps[i].tool, 1});
+    if (simulation.state_hash() != recording.steps[i].state_hash) return i;
+    hand.feel(simulation);
   }
-  for (const scene::StepRecord& step : recording.steps) {
-    if (hand) {
-      hand->run_ticks();
-      result.largest_force_N = std::max(*result.largest_force_N, scene::force_difference_N(hand->tool(), step.tool));
-    }
-    scene::apply(step, simulation);
-    simulation.step({&step.tool, 1});
-    if (simulation.state_hash() != step.state_hash) break;
-    ++result.equal_steps;
-    if (hand) hand->publish_model();
-  }
-  return result;
+  return recording.steps.size();
 }
 
 }  // namespace
@@ -52,13 +35,17 @@ int replay(const Options& options) {
   scene::require_fit(recording, scene.specimen, options.file);
   simulation::Simulation simulation(scene.specimen, scene.settings);
   scene::Conductor start(scene, simulation);  // puts the simulation where the recording began
-  const bool feels = scene::clock_of_recording(header, options.file) == scene::Clock::Virtual;
-  const Comparison same = play_again(scene, recording, feels, simulation);
-  const bool equal = same.equal_steps == recording.steps.size() && same.largest_force_N.value_or(0.0) == 0.0;
-  nlohmann::json report = {{"file", options.file.string()},   {"steps", recording.steps.size()},
-                           {"ticks", recording.ticks.size()}, {"complete", recording.complete},
-                           {"equal_steps", same.equal_steps}, {"equal", equal}};
-  if (same.largest_force_N) report["largest_force_difference_N"] = *same.largest_force_N;
+  scene::ForceReplay hand(scene, recording, scene::device_of_recording(header, options.file));
+  const std::size_t same = play_again(recording, hand, simulation);
+  const bool equal = same == recording.steps.size() && hand.largest_difference_N() == 0.0;
+  const nlohmann::json report = {{"file", options.file.string()},
+                                 {"steps", recording.steps.size()},
+                                 {"ticks", recording.ticks.size()},
+                                 {"complete", recording.complete},
+                                 {"equal_steps", same},
+                                 {"forces_compared", hand.compared()},
+                                 {"largest_force_difference_N", hand.largest_difference_N()},
+                                 {"equal", equal}};
   if (options.json) {
     std::cout << report.dump(2) << std::endl;
   } else {

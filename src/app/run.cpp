@@ -51,7 +51,7 @@ class Stopwatch {
 };
 
 RunSummary run_lockstep(const Options& options, const scene::Scene& scene, simulation::Simulation& simulation) {
-  const auto recorder = open_recorder(options, scene, scene::Clock::Virtual);
+  const auto recorder = open_recorder(options, scene, device::DeviceProfile{});
   scene::SampleTable samples(scene.specimen, options.every);
   scene::LockstepSession session(scene, simulation, samples, recorder.get());
   const double end_s = options.seconds.value_or(session.conductor().script_end_s());
@@ -84,7 +84,7 @@ RunSummary run_lockstep(const Options& options, const scene::Scene& scene, simul
 
 nlohmann::json run_free(const Options& options, const scene::Scene& scene, simulation::Simulation& simulation,
                         GuardedMotor& guarded, RunSummary& summary) {
-  const auto recorder = open_recorder(options, scene, scene::Clock::Wall);
+  const auto recorder = open_recorder(options, scene, device::DeviceProfile{});
   device::SimulatedDevice device(scene.tools.front().device, scene::start_of_hand(scene.specimen));
   device.drive(guarded.motor);
   scene::FreeSession session(scene, simulation, device, &device, recorder.get(), &guarded.watchdog);

@@ -88,7 +88,7 @@ int view(const Options& options) {
   // First: without a display nothing is built.
   view::Window window(scene.specimen, window_settings(scene, device, hand_m));
   simulation::Simulation simulation(scene.specimen, scene.settings);
-  const auto recorder = open_recorder(options, scene, scene::Clock::Wall);
+  const auto recorder = open_recorder(options, scene, device.profile());
   scene::FreeSession session(scene, simulation, device, scripted ? &simulated : nullptr, recorder.get(),
                              guarded ? &guarded->watchdog : nullptr);
   if (!session.notice().empty()) spdlog::warn("{}", session.notice());

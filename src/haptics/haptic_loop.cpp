@@ -226,6 +226,7 @@ void HapticLoop::tell(const messages::DeviceState& state, const Vec3& sent_N, co
   last_.device = state;
   last_.model_sequence = tool.model_sequence;
   last_.line_tension_N = line_.tension_N();
+  last_.gate = gate_.state();
   ticks_.push(last_);
 }
 

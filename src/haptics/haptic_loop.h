@@ -41,6 +41,7 @@ struct HapticTick {
   std::uint64_t model_sequence = 0;  // model in use, 0: none
   messages::ToolState tool;
   double line_tension_N = 0.0;  // of the line in hand, 0: none
+  GateState gate = GateState::Off;
 };
 
 /// Force of the coupling spring on the hand [N], plus damping while the tool goes into the tissue. The normal part

@@ -6,6 +6,7 @@
 
 #include "realtime/periodic_loop.h"
 #include "scene/lockstep_haptics.h"
+#include "scene/model_writer.h"
 #include "scene/tool_frame.h"
 
 namespace myotact::scene {
@@ -18,13 +19,6 @@ constexpr std::uint64_t kStepsToCatchUp = 3;
 
 std::uint64_t nanoseconds(double seconds) {
   return static_cast<std::uint64_t>(std::llround(seconds * 1e9));
-}
-
-/// What is paused stays touchable, and is not stale: the same positions in both frames, published again and again.
-void hold_still(messages::LocalModel& model) {
-  model.previous_world_m = model.current_world_m;
-  model.grip.velocity_world_m_s = model.grip.acceleration_world_m_s2 = {};
-  model.grip.mobility_1_kg = {};
 }
 
 }  // namespace
@@ -52,6 +46,7 @@ FreeSession::~FreeSession() {
 void FreeSession::start() {
   started_ns_ = realtime::steady_now_ns();
   loop_.prepare(started_ns_);
+  loop_.tool_states().update();  // where the hand is: the first model is of the surface there
   publish_model();
   publish_frame();
   running_ = true;
@@ -134,6 +129,8 @@ void FreeSession::simulate() {
       const std::uint64_t begin_ns = realtime::steady_now_ns();
       step();
       steps_.add(realtime::steady_now_ns() - begin_ns);
+    } else {
+      take_ticks();
     }
     publish_model();
     publish_frame();
@@ -155,33 +152,28 @@ void FreeSession::step() {
   simulation_->step({&input_.tool, 1});
   ++step_count_;
   extremes_.add_step(*scene_, *simulation_);
-  take_ticks(input_);
+  take_ticks();
+  if (recorder_ == nullptr) return;
+  input_.state_hash = simulation_->state_hash();
+  recorder_->add(input_);
 }
 
-void FreeSession::take_ticks(const StepRecord& input) {
+void FreeSession::take_ticks() {
   std::vector<TickRecord> ticks;
   for (haptics::HapticTick tick; loop_.ticks().pop(tick);) {
     extremes_.add_tick(tick);
     fault_notice_.add(tick.tool.faults, realtime::steady_now_ns());
-    if (recorder_ != nullptr) ticks.push_back({tick.device, tick.model_sequence});
+    if (recorder_ != nullptr) ticks.push_back(record_of(tick));
   }
-  if (recorder_ == nullptr) return;
-  StepRecord record = input;
-  record.state_hash = simulation_->state_hash();
-  recorder_->add(ticks);
-  recorder_->add(record);
+  if (!ticks.empty()) recorder_->add(ticks);
 }
 
 void FreeSession::publish_model() {
-  messages::LocalModel& model = loop_.models().back();
   const messages::ToolState& tool = loop_.tool_states().front();
-  simulation_->write_local_model(tool, model);
-  if (obeyed_.paused) hold_still(model);
-  model.sequence = ++model_sequence_;
-  model.published_at_ns = realtime::steady_now_ns();
-  model.dt_ns = nanoseconds(scene_->settings.dt_s);
-  model.tool_sequence = tool.sequence;
+  const ModelRecord record{++model_sequence_, realtime::steady_now_ns(), obeyed_.paused, tool.tool_position_world_m, 0};
+  write_model(*simulation_, tool, record, nanoseconds(scene_->settings.dt_s), loop_.models().back());
   loop_.models().publish();
+  if (recorder_ != nullptr) recorder_->add(record);
 }
 
 void FreeSession::publish_frame() {

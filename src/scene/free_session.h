@@ -83,8 +83,8 @@ class FreeSession {
   void step();
   void publish_model();
   void publish_frame();
-  /// Ticks since the last step: for the summary, and with `input` for the recording.
-  void take_ticks(const StepRecord& input);
+  /// Ticks since the last time: for the summary and the recording.
+  void take_ticks();
 
   const Scene* scene_;
   simulation::Simulation* simulation_;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "scene/model_writer.h"
+
 namespace myotact::scene {
 
 haptics::HapticSettings haptic_settings(const ToolSettings& tool) {
@@ -18,11 +20,10 @@ haptics::HapticSettings haptic_settings(const ToolSettings& tool) {
   return settings;
 }
 
-LockstepHaptics::LockstepHaptics(device::Device& device, const Scene& scene, const simulation::Simulation& simulation)
+LockstepHaptics::LockstepHaptics(device::Device& device, const Scene& scene)
     : step_ns_(static_cast<std::uint64_t>(std::llround(scene.settings.dt_s * 1e9))),
       loop_(device, haptic_settings(scene.tools.front())) {
   loop_.prepare(clock_ns_);
-  publish_model(simulation);
 }
 
 int LockstepHaptics::ticks_a_step() const {
@@ -40,14 +41,12 @@ void LockstepHaptics::tick() {
   }
 }
 
-void LockstepHaptics::publish_model(const simulation::Simulation& simulation) {
-  messages::LocalModel& model = loop_.models().back();
-  simulation.write_local_model(loop_.tool_state(), model);
-  model.sequence = ++model_sequence_;
-  model.published_at_ns = clock_ns_;
-  model.dt_ns = step_ns_;
-  model.tool_sequence = loop_.tool_state().sequence;
+ModelRecord LockstepHaptics::publish_model(const simulation::Simulation& simulation) {
+  const messages::ToolState& tool = loop_.tool_state();
+  const ModelRecord record{++model_sequence_, clock_ns_, false, tool.tool_position_world_m, 0};
+  write_model(simulation, tool, record, step_ns_, loop_.models().back());
   loop_.models().publish();
+  return record;
 }
 
 }  // namespace myotact::scene

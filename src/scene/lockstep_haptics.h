@@ -5,6 +5,7 @@
 
 #include "device/device.h"
 #include "haptics/haptic_loop.h"
+#include "scene/recording.h"
 #include "scene/scene_file.h"
 #include "simulation/simulation.h"
 
@@ -16,14 +17,14 @@ haptics::HapticSettings haptic_settings(const ToolSettings& tool);
 /// A haptic loop on the virtual clock:  ticks of a step --> step (the caller's) --> publish_model --> ticks ...
 class LockstepHaptics {
  public:
-  /// `device` outlives this. Opens it and shows it the simulation as it is.
-  LockstepHaptics(device::Device& device, const Scene& scene, const simulation::Simulation& simulation);
+  /// `device` outlives this. Opens it. The first model is to be published before the first tick.
+  LockstepHaptics(device::Device& device, const Scene& scene);
 
   int ticks_a_step() const;
   double time_s() const;  // of the next tick
   void tick();
   /// The state after a step, felt from the next tick on.
-  void publish_model(const simulation::Simulation& simulation);
+  ModelRecord publish_model(const simulation::Simulation& simulation);
 
   const haptics::HapticTick& last_tick() const { return loop_.last_tick(); }
   const messages::ToolState& tool() const { return loop_.tool_state(); }

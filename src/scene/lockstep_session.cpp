@@ -10,7 +10,14 @@ LockstepSession::LockstepSession(const Scene& scene, simulation::Simulation& sim
       recorder_(recorder),
       conductor_(scene, simulation),
       device_(scene.tools.front().device, conductor_.hand(0.0).position_world_m),
-      haptics_(device_, scene, simulation) {}
+      haptics_(device_, scene) {
+  publish_model();
+}
+
+void LockstepSession::publish_model() {
+  const ModelRecord model = haptics_.publish_model(*simulation_);
+  if (recorder_ != nullptr) recorder_->add(model);
+}
 
 void LockstepSession::run_ticks() {
   for (int i = 0; i < haptics_.ticks_a_step(); ++i) {
@@ -21,7 +28,7 @@ void LockstepSession::run_ticks() {
     const haptics::HapticTick& tick = haptics_.last_tick();
     samples_->add(time_s, tick.tool, tick.line_tension_N, *simulation_);
     extremes_.add_tick(tick);
-    if (recorder_ != nullptr) ticks_.push_back({tick.device, tick.model_sequence});
+    if (recorder_ != nullptr) ticks_.push_back(record_of(tick));
   }
 }
 
@@ -32,12 +39,13 @@ void LockstepSession::step() {
   apply(input_, *simulation_);
   simulation_->step({&input_.tool, 1});
   extremes_.add_step(*scene_, *simulation_);
-  haptics_.publish_model(*simulation_);
-  if (recorder_ == nullptr) return;
-  input_.state_hash = simulation_->state_hash();
-  recorder_->add(ticks_);
-  recorder_->add(input_);
-  ticks_.clear();
+  if (recorder_ != nullptr) {
+    input_.state_hash = simulation_->state_hash();
+    recorder_->add(ticks_);
+    recorder_->add(input_);
+    ticks_.clear();
+  }
+  publish_model();
 }
 
 }  // namespace myotact::scene

@@ -32,6 +32,7 @@ class LockstepSession {
 
  private:
   void run_ticks();
+  void publish_model();
 
   const Scene* scene_;
   simulation::Simulation* simulation_;

@@ -1,5 +1,6 @@
 #include "scene/recording.h"
 
+#include <array>
 #include <bit>
 #include <cstring>
 #include <optional>
@@ -20,7 +21,7 @@ static_assert(std::endian::native == std::endian::little, "the recording's layou
 namespace {
 
 constexpr std::string_view kMagic = "MYOREC01";
-enum ChunkType : std::uint32_t { kHeader = 1, kStep = 2, kTicks = 3, kEnd = 4 };
+enum ChunkType : std::uint32_t { kHeader = 1, kStep = 2, kTicks = 3, kEnd = 4, kModel = 5, kTimedTicks = 6 };
 
 template <class T>
 void append(std::string& bytes, const T& value) {
@@ -101,39 +102,101 @@ bool read_step(std::string_view payload, Recording& recording) {
   return cursor.ok;
 }
 
-bool read_ticks(std::string_view payload, Recording& recording) {
+/// `timed`: with their times; files of earlier versions hold none.
+bool read_ticks(std::string_view payload, bool timed, Recording& recording) {
   Cursor cursor{payload};
   while (cursor.ok && !cursor.rest.empty()) {
-    const auto device = cursor.take<messages::DeviceState>();
-    const auto sequence = cursor.take<std::uint64_t>();
-    if (cursor.ok) recording.ticks.push_back({device, sequence});
+    TickRecord tick;
+    tick.device = cursor.take<messages::DeviceState>();
+    tick.model_sequence = cursor.take<std::uint64_t>();
+    if (timed) {
+      tick.time_ns = cursor.take<std::uint64_t>();
+      tick.forces_stopped = cursor.take<std::uint8_t>() != 0;
+    }
+    if (cursor.ok) recording.ticks.push_back(tick);
   }
   return cursor.ok;
 }
 
+bool read_model(std::string_view payload, Recording& recording) {
+  Cursor cursor{payload};
+  ModelRecord model;
+  model.sequence = cursor.take<std::uint64_t>();
+  model.published_at_ns = cursor.take<std::uint64_t>();
+  model.holds_still = cursor.take<std::uint8_t>() != 0;
+  model.tool_position_world_m = cursor.take<std::array<double, 3>>();
+  model.step = recording.steps.size();
+  if (cursor.ok) recording.models.push_back(model);
+  return cursor.ok;
+}
+
+bool read_chunk(const Chunk& chunk, Recording& recording) {
+  switch (chunk.type) {
+    case kStep:
+      return read_step(chunk.payload, recording);
+    case kTicks:
+    case kTimedTicks:
+      return read_ticks(chunk.payload, chunk.type == kTimedTicks, recording);
+    case kModel:
+      return read_model(chunk.payload, recording);
+    case kEnd:
+      recording.complete = true;
+      return true;
+    default:
+      return true;  // of a later version
+  }
+}
+
+/// Keys of a device's profile in the header.
+struct ProfileKey {
+  const char* name;
+  double device::DeviceProfile::*value;
+};
+constexpr std::array<ProfileKey, 7> kProfileKeys = {{
+    {"peak_force_N", &device::DeviceProfile::peak_force_N},
+    {"continuous_force_N", &device::DeviceProfile::continuous_force_N},
+    {"max_stiffness_N_m", &device::DeviceProfile::max_stiffness_N_m},
+    {"inertia_kg", &device::DeviceProfile::inertia_kg},
+    {"viscous_Ns_m", &device::DeviceProfile::viscous_Ns_m},
+    {"coulomb_N", &device::DeviceProfile::coulomb_N},
+    {"resolution_m", &device::DeviceProfile::resolution_m},
+}};
+constexpr double kMostOfAll = 1e6;  // of any of them: no device of this world
+
 }  // namespace
 
-std::string recording_header(const Scene& scene, std::uint64_t seed, Clock clock) {
+TickRecord record_of(const haptics::HapticTick& tick) {
+  return {tick.device, tick.model_sequence, tick.tool.time_ns, tick.gate == haptics::GateState::Off};
+}
+
+std::string recording_header(const Scene& scene, std::uint64_t seed, const device::DeviceProfile& profile) {
+  nlohmann::json device = {{"delay_ticks", profile.delay_ticks}};
+  for (const ProfileKey& key : kProfileKeys) device[key.name] = profile.*key.value;
   const nlohmann::json header = {{"schema", 1},
                                  {"seed", seed},
-                                 {"clock", clock == Clock::Virtual ? "virtual" : "wall"},
+                                 {"device", device},
                                  {"specimen", std::filesystem::absolute(scene.specimen_folder).string()},
                                  {"scene", scene.source_text}};
   return header.dump();
 }
 
-Clock clock_of_recording(const nlohmann::json& header, const std::filesystem::path& file) {
+device::DeviceProfile device_of_recording(const nlohmann::json& header, const std::filesystem::path& file) {
+  device::DeviceProfile profile;
   JsonObject fields(JsonValue(header, file.string()));
-  const std::optional<JsonValue> clock = fields.find("clock");
-  if (!clock) return Clock::Wall;
-  return clock->one_of({"virtual", "wall"}) == "virtual" ? Clock::Virtual : Clock::Wall;
+  const std::optional<JsonValue> device = fields.find("device");
+  if (!device) return profile;
+  JsonObject numbers(*device);
+  for (const ProfileKey& key : kProfileKeys) profile.*key.value = numbers.at(key.name).number_between(0.0, kMostOfAll);
+  profile.delay_ticks = numbers.at("delay_ticks").integer_between(0, 1000);
+  numbers.finish();
+  return profile;
 }
 
 Scene scene_of_recording(const nlohmann::json& header, const std::filesystem::path& file, const Overrides& overrides) {
   JsonObject fields(JsonValue(header, file.string()));
   fields.at("schema").integer_between(1, 1);
   fields.at("seed").number();
-  fields.find("clock");  // clock_of_recording
+  fields.find("device");  // device_of_recording
   Overrides all = {{"specimen", fields.at("specimen").string()}};
   for (const auto& [key, value] : overrides) all[key] = value;
   const std::string text = fields.at("scene").string();
@@ -188,8 +251,19 @@ void RecordingWriter::add(const std::vector<TickRecord>& ticks) {
   for (const TickRecord& tick : ticks) {
     append(payload, tick.device);
     append(payload, tick.model_sequence);
+    append(payload, tick.time_ns);
+    append(payload, static_cast<std::uint8_t>(tick.forces_stopped));
   }
-  write_chunk(kTicks, payload);
+  write_chunk(kTimedTicks, payload);
+}
+
+void RecordingWriter::add(const ModelRecord& model) {
+  std::string payload;
+  append(payload, model.sequence);
+  append(payload, model.published_at_ns);
+  append(payload, static_cast<std::uint8_t>(model.holds_still));
+  append(payload, model.tool_position_world_m);
+  write_chunk(kModel, payload);
 }
 
 void RecordingWriter::close() {
@@ -207,11 +281,8 @@ Recording read_recording(const std::filesystem::path& path) {
   Recording recording;
   recording.header_json = header->payload;
   while (const auto chunk = take_chunk(rest)) {
-    if (chunk->type == kEnd) recording.complete = true;
-    const bool read = chunk->type == kStep    ? read_step(chunk->payload, recording)
-                      : chunk->type == kTicks ? read_ticks(chunk->payload, recording)
-                                              : true;
-    if (!read) throw bad_data(path.string(), "", "a chunk is shorter than its content; recorded by another version?");
+    if (!read_chunk(*chunk, recording))
+      throw bad_data(path.string(), "", "a chunk is shorter than its content; recorded by another version?");
   }
   return recording;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -9,6 +10,8 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "core/vector.h"
+#include "device/device.h"
+#include "haptics/haptic_loop.h"
 #include "messages/device.h"
 #include "messages/tool_state.h"
 #include "scene/scene_file.h"
@@ -31,12 +34,26 @@ struct StepRecord {
 struct TickRecord {
   messages::DeviceState device;
   std::uint64_t model_sequence = 0;
+  std::uint64_t time_ns = 0;    // of the loop's clock
+  bool forces_stopped = false;  // by a person or a caller
+};
+
+TickRecord record_of(const haptics::HapticTick& tick);
+
+/// A model that the haptic loop could take.
+struct ModelRecord {
+  std::uint64_t sequence = 0;
+  std::uint64_t published_at_ns = 0;
+  bool holds_still = false;                       // the simulation paused
+  std::array<double, 3> tool_position_world_m{};  // of the tool state for which it was written
+  std::size_t step = 0;  // how many steps went before; told by the place in the file, not written
 };
 
 struct Recording {
   std::string header_json;  // program version, seed, settings, the scene's text
   std::vector<StepRecord> steps;
   std::vector<TickRecord> ticks;
+  std::vector<ModelRecord> models;
   bool complete = false;  // the closing chunk is there
 };
 
@@ -46,6 +63,7 @@ class RecordingWriter {
   RecordingWriter(const std::filesystem::path& path, const std::string& header_json);
   void add(const StepRecord& step);
   void add(const std::vector<TickRecord>& ticks);
+  void add(const ModelRecord& model);
   void close();
 
  private:
@@ -55,14 +73,12 @@ class RecordingWriter {
   std::ofstream file_;
 };
 
-/// Of the ticks of a recording: `Virtual` ones can be felt again bit for bit, `Wall` ones depend on when models came.
-enum class Clock { Virtual, Wall };
+/// What a recording must hold to be run again: seed, device, the scene's text and where its specimen is.
+std::string recording_header(const Scene& scene, std::uint64_t seed, const device::DeviceProfile& profile);
 
-/// What a recording must hold to be run again: seed, clock, the scene's text and where its specimen is.
-std::string recording_header(const Scene& scene, std::uint64_t seed, Clock clock);
-
-/// The clock that a recording's header names; Wall for one that names none. Throws Error BadData.
-Clock clock_of_recording(const nlohmann::json& header, const std::filesystem::path& file);
+/// What the recorded device could bear; that of a simulated one for a recording that does not say. Throws Error
+/// BadData.
+device::DeviceProfile device_of_recording(const nlohmann::json& header, const std::filesystem::path& file);
 
 /// The scene that a recording's header describes. Throws Error BadData.
 Scene scene_of_recording(const nlohmann::json& header, const std::filesystem::path& file, const Overrides& overrides);

@@ -1,15 +1,19 @@
 #include "measure/fidelity/replay_goals.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <thread>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include "core/json_reader.h"
+#include "device/simulated_device.h"
 #include "scene/force_replay.h"
+#include "scene/free_session.h"
 #include "scene/lockstep_session.h"
 #include "simulation/simulation.h"
 
@@ -34,7 +38,7 @@ class TemporaryFile {
 };
 
 void record(const scene::Scene& scene, double end_s, const std::filesystem::path& path) {
-  scene::RecordingWriter writer(path, scene::recording_header(scene, 1, scene::Clock::Virtual));
+  scene::RecordingWriter writer(path, scene::recording_header(scene, 1, device::DeviceProfile{}));
   simulation::Simulation simulation(scene.specimen, scene.settings);
   scene::SampleTable samples(scene.specimen, 1'000'000);
   scene::LockstepSession session(scene, simulation, samples, &writer);
@@ -44,8 +48,20 @@ void record(const scene::Scene& scene, double end_s, const std::filesystem::path
   writer.close();
 }
 
+/// The same with its own threads: when models arrive is up to the scheduler, and recorded.
+void record_free(const scene::Scene& scene, double seconds, const std::filesystem::path& path) {
+  device::SimulatedDevice device(scene.tools.front().device, scene::start_of_hand(scene.specimen));
+  scene::RecordingWriter writer(path, scene::recording_header(scene, 1, device.profile()));
+  simulation::Simulation simulation(scene.specimen, scene.settings);
+  scene::FreeSession session(scene, simulation, device, &device, &writer);
+  session.start();
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+  session.stop();
+  writer.close();
+}
+
 struct Comparison {
-  std::size_t steps = 0, unlike_states = 0;
+  std::size_t compared = 0, unlike_states = 0;
   double largest_difference_N = 0.0, largest_force_N = 0.0;
 };
 
@@ -55,19 +71,18 @@ Comparison feel_again(const std::filesystem::path& path) {
   const scene::Scene scene = scene::scene_of_recording(header, path, {});
   simulation::Simulation simulation(scene.specimen, scene.settings);
   const scene::Conductor start(scene, simulation);
-  scene::ForceReplay hand(scene, recording, simulation);
+  scene::ForceReplay hand(scene, recording, scene::device_of_recording(header, path));
   Comparison result;
-  result.steps = recording.steps.size();
+  hand.feel(simulation);
   for (const scene::StepRecord& step : recording.steps) {
-    hand.run_ticks();
-    result.largest_difference_N =
-        std::max(result.largest_difference_N, scene::force_difference_N(hand.tool(), step.tool));
-    result.largest_force_N = std::max(result.largest_force_N, to_vec3(step.tool.force_world_N).norm());
     scene::apply(step, simulation);
     simulation.step({&step.tool, 1});
     result.unlike_states += simulation.state_hash() != step.state_hash ? 1 : 0;
-    hand.publish_model();
+    hand.feel(simulation);
   }
+  result.compared = hand.compared();
+  result.largest_difference_N = hand.largest_difference_N();
+  result.largest_force_N = hand.largest_force_N();
   return result;
 }
 
@@ -79,12 +94,19 @@ GoalFigures measure_replay(Effort effort) {
   if (effort == Effort::Short) overrides["tissue.default"] = "line";
   record(scene::load_scene("elbow", overrides), effort == Effort::Short ? 6.0 : 3600.0, file.path());
   const Comparison same = feel_again(file.path());
+  record_free(scene::load_scene("elbow", {{"tissue.default", "line"}}), effort == Effort::Short ? 2.0 : 10.0,
+              file.path());
+  const Comparison free = feel_again(file.path());
   GoalFigures result;
-  result.figures = {{"largest difference of a force, same build", 1e6 * same.largest_difference_N, "uN", 0.0},
-                    {"steps whose state differs", static_cast<double>(same.unlike_states), "", 0.0},
-                    {"steps compared", static_cast<double>(same.steps), "", 100.0, true},
-                    {"largest force that was felt", same.largest_force_N, "N", 0.1, true}};
-  result.note = "scene elbow: touch, slide, line drag, co-contraction; forces compared at the end of every step";
+  result.figures = {
+      {"largest difference of a force, same build", 1e6 * same.largest_difference_N, "uN", 0.0},
+      {"the same, recorded on the wall clock", 1e6 * free.largest_difference_N, "uN", 0.0},
+      {"steps whose state differs", static_cast<double>(same.unlike_states + free.unlike_states), "", 0.0},
+      {"steps whose force was compared", static_cast<double>(same.compared), "", 100.0, true},
+      {"largest force that was felt", same.largest_force_N, "N", 0.1, true}};
+  result.note =
+      "scene elbow: touch, slide, line drag, co-contraction; forces compared where a step took them. Across compilers: "
+      "tests/replay/touch_trace.csv, within 1 uN in g++ and in clang builds";
   return result;
 }
 
