@@ -40,6 +40,21 @@ CLI::App* add_scene_command(CLI::App& program, Options& options, const char* nam
   return command;
 }
 
+CLI::App* add_probe(CLI::App& program, Options& options) {
+  CLI::App* probe = program.add_subcommand(
+      "probe", "drive the proxy along a path over any surface mesh; out/probe.csv: proxy and force, one row a tick");
+  probe->add_option("surface", options.file, "surface [metres]: .ply, .stl, .obj or .off")->required();
+  probe->add_option("--path", options.path, "CSV of the device: t_s, x_m, y_m, z_m [seconds, metres]")->required();
+  probe->add_option("--frames", options.frames,
+                    "folder of a deforming surface: times.csv (file, t_s) and the frames it names");
+  probe->add_option("--radius", options.radius_m, "of the proxy sphere [m], 0 .. 0.005")->capture_default_str();
+  probe->add_option("--stiffness", options.stiffness_N_m, "of the coupling [N/m], 1 .. 10000")->capture_default_str();
+  probe->add_option("--mu", options.friction, "coefficient of friction, 0 .. 2")->capture_default_str();
+  probe->add_option("--rate", options.rate_hz, "ticks a second [Hz], 10 .. 100000")->capture_default_str();
+  add_common(*probe, options);
+  return probe;
+}
+
 /// Declares all subcommands; returns what the one that was given does.
 void declare(CLI::App& program, Options& options, std::function<int(const Options&)>& action) {
   program.set_version_flag("--version", MYOTACT_VERSION);
@@ -91,6 +106,7 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
   fidelity->add_flag("--brief", options.brief, "shorter runs, as the tests make them");
   add_common(*fidelity, options);
   bind(fidelity, myotact::app::fidelity);
+  bind(add_probe(program, options), myotact::app::probe);
   CLI::App* devices = program.add_subcommand("devices", "which devices there are");
   add_common(*devices, options);
   bind(devices, myotact::app::devices);

@@ -31,13 +31,19 @@ struct Options {
   std::optional<std::string> joint;  // stiffness
   std::string shard;
   std::vector<std::filesystem::path> merge;
-  std::filesystem::path file;                // replay, solve
+  std::filesystem::path file;                // replay, solve, probe
   std::optional<std::filesystem::path> vtk;  // solve
   std::string filter;                        // validate
   std::optional<std::filesystem::path> report;
-  bool suite = false;      // fidelity: every goal
-  std::vector<int> goals;  // fidelity: these goals
-  bool brief = false;      // fidelity: seconds instead of minutes
+  bool suite = false;                           // fidelity: every goal
+  std::vector<int> goals;                       // fidelity: these goals
+  bool brief = false;                           // fidelity: seconds instead of minutes
+  std::filesystem::path path;                   // probe: where the device goes
+  std::optional<std::filesystem::path> frames;  // probe: folder of a deforming surface
+  double radius_m = 3e-3;                       // probe, as the three below
+  double stiffness_N_m = 800.0;
+  double friction = 0.3;
+  double rate_hz = 1000.0;
 };
 
 /// --set and --device as overrides of the scene. Throws Error Usage for a --set without "=".
@@ -61,6 +67,7 @@ int replay(const Options& options);
 int solve(const Options& options);
 int validate(const Options& options);
 int fidelity(const Options& options);
+int probe(const Options& options);
 int devices(const Options& options);
 
 }  // namespace myotact::app

@@ -4,7 +4,7 @@ namespace myotact::haptics {
 
 /// How the tool feels against tissue.
 struct ContactSettings {
-  double radius_m = 3e-3;  // of the proxy sphere, > 0
+  double radius_m = 3e-3;  // of the proxy sphere; 0: a point
   // Across the fibres, and everywhere on tissue without: wet fascia 0.05-0.3, skin and hair coat 0.3-0.8
   // (reference 2.4)
   double static_friction = 0.3;

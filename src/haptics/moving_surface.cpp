@@ -21,6 +21,11 @@ double played(const messages::LocalModel& model, std::uint64_t now_ns) {
   return age_ns >= model.dt_ns ? 1.0 : static_cast<double>(age_ns) / static_cast<double>(model.dt_ns);
 }
 
+/// A vertex when this share of its way is played.
+Vec3 place_m(const messages::LocalModel& model, std::size_t vertex, double share) {
+  return (1.0 - share) * to_vec3(model.previous_world_m[vertex]) + share * to_vec3(model.current_world_m[vertex]);
+}
+
 bool all_finite(const std::array<double, 9>& matrix) {
   return std::all_of(matrix.begin(), matrix.end(), [](double x) { return std::isfinite(x); });
 }
@@ -68,10 +73,11 @@ void MovingSurface::begin_tick(const messages::LocalModel& model, std::uint64_t 
   const double s = played(model, now_ns);
   double largest_squared_m2 = 0.0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(model.vertex_count); ++i) {
-    to_m_[i] = (1.0 - s) * to_vec3(model.previous_world_m[i]) + s * to_vec3(model.current_world_m[i]);
+    to_m_[i] = place_m(model, i, s);
     largest_squared_m2 = std::max(largest_squared_m2, (to_m_[i] - from_m_[i]).squaredNorm());
   }
   largest_motion_m_ = std::sqrt(largest_squared_m2);
+  last_ns_ = now_ns;
 }
 
 std::size_t MovingSurface::slot_of(std::int32_t surface, std::int32_t triangle) noexcept {
@@ -91,8 +97,9 @@ int MovingSurface::find(std::int32_t surface, std::int32_t triangle) const noexc
 
 void MovingSurface::adopt(const messages::LocalModel& model) noexcept {
   const Vertices old_m = to_m_;
+  const double s = played(model, last_ns_);
   for (std::size_t i = 0; i < static_cast<std::size_t>(model.vertex_count); ++i) {
-    from_m_[i] = to_vec3(model.previous_world_m[i]);
+    from_m_[i] = place_m(model, i, s);
   }
   // The old triangles are still in place while the new ones look for themselves among them.
   for (int i = 0; i < model.triangle_count; ++i) {
@@ -113,6 +120,7 @@ void MovingSurface::adopt(const messages::LocalModel& model) noexcept {
     slots_[slot] = static_cast<std::int16_t>(i + 1);
   }
   model_ = &model;
+  ++adopted_count_;
 }
 
 Vec3 MovingSurface::motion_m(int local, const std::array<double, 3>& barycentric) const noexcept {

@@ -18,7 +18,8 @@ bool is_sound(const messages::LocalModel& model) noexcept;
 ///   tick:             from ====== to
 ///
 /// A new model carries on from where the surface was: its vertices start where the same triangles' corners ended, so
-/// that an early or late model moves the surface and never makes it jump. Real-time safe.
+/// that an early or late model moves the surface and never makes it jump. Triangles that the old model did not hold
+/// start where the new one has them at the end of the last tick. Real-time safe.
 class MovingSurface {
  public:
   /// Starts the tick that ends at `now_ns`. `model` must be sound and must stay in place until the next call.
@@ -34,6 +35,10 @@ class MovingSurface {
     const auto vertex = static_cast<std::size_t>(triangle(local).vertices[static_cast<std::size_t>(corner)]);
     return from_m_[vertex] + fraction * (to_m_[vertex] - from_m_[vertex]);
   }
+  Vec3 corner_motion_m(int local, int corner) const noexcept {
+    const auto vertex = static_cast<std::size_t>(triangle(local).vertices[static_cast<std::size_t>(corner)]);
+    return to_m_[vertex] - from_m_[vertex];
+  }
   /// What a point of a triangle moves by over the whole tick.
   Vec3 motion_m(int local, const std::array<double, 3>& barycentric) const noexcept;
   Vec3 point_m(int local, const std::array<double, 3>& barycentric, double fraction) const noexcept;
@@ -43,6 +48,8 @@ class MovingSurface {
   Vec3 fibre_W(int local) const noexcept;
   /// The farthest that any vertex moves in the tick.
   double largest_motion_m() const noexcept { return largest_motion_m_; }
+  /// How many models were taken so far: with another one, places in the model mean other triangles.
+  std::uint64_t adopted_count() const noexcept { return adopted_count_; }
   /// Place of a triangle in the model, by its numbers in the scene; -1: not in it.
   int find(std::int32_t surface, std::int32_t triangle) const noexcept;
 
@@ -59,6 +66,8 @@ class MovingSurface {
   Vertices from_m_{};
   Vertices to_m_{};
   double largest_motion_m_ = 0.0;
+  std::uint64_t last_ns_ = 0;  // end of the last tick
+  std::uint64_t adopted_count_ = 0;
 };
 
 }  // namespace myotact::haptics

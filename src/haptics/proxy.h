@@ -9,6 +9,7 @@
 #include "haptics/friction.h"
 #include "haptics/half_space_projection.h"
 #include "haptics/moving_surface.h"
+#include "haptics/near_surface.h"
 
 namespace myotact::haptics {
 
@@ -28,6 +29,7 @@ struct ProxyContact {
   Vec3 normal = Vec3::UnitZ();       // unit, out of the tissue, along what all contacts together push
   Vec3 velocity_m_s = Vec3::Zero();  // of the tissue at the point
   bool sliding = false;
+  int bearing = 0;  // how many triangles hold the sphere against the device, 1 to 3
 };
 
 /// Events since the start.
@@ -53,7 +55,10 @@ struct ProxyCounters {
 /// Real-time safe; one thread.
 class Proxy {
  public:
-  explicit Proxy(const ContactSettings& settings) : settings_(settings), friction_(settings) {}
+  /// Smallest sphere: a radius below, 0 included, is felt as a point.
+  static constexpr double kPoint_m = 1e-4;
+
+  explicit Proxy(const ContactSettings& settings);
 
   /// Advances to the end of the surface's tick, `dt_s` > 0 long.
   void tick(const MovingSurface& surface, const messages::LocalModel& model, const ProxyGoal& goal,
@@ -75,40 +80,26 @@ class Proxy {
     Vec3 offset_T_m = Vec3::Zero();  // in the triangle's frame
     int local = -1;                  // its place in the model of this tick, -1: none
   };
-  struct Nearest {
-    int local = -1;
-    double distance_m = 0.0;
-    Vec3 point_m = Vec3::Zero();
-    std::array<double, 3> barycentric{};
-  };
   struct Tick {
     const MovingSurface* surface = nullptr;
     ProxyGoal goal;
     double dt_s = 0.0;
-    Vec3 coverage_centre_m = Vec3::Zero();
-    double coverage_m = 0.0;     // the centre may go that far
-    double travel_left_m = 0.0;  // beyond it triangles were not looked at
-    int tests = 0;               // of the sphere against triangles
     bool slipped = false;
     bool rubbed = false;  // was held by the surface
     Vec3 rubbed_from_m = Vec3::Zero();
-    double linearised_at = -1.0;  // fraction and place of the nearest points at hand
-    Vec3 linearised_m = Vec3::Zero();
+    int ways = 0;  // how often it was allowed a longer one
   };
 
-  void collect_candidates(Tick& tick) noexcept;
+  double longest_way_m(const Tick& tick) const noexcept;
+  bool allow_more(Tick& tick, double fraction) noexcept;
+  void move_towards(const Vec3& target_m) noexcept;
   void carry(Tick& tick) noexcept;
-  double relative_motion_m(const Tick& tick, const Vec3& carried_m) const noexcept;
+  void put_outside(Tick& tick, double fraction) noexcept;
   void seek_goal(Tick& tick) noexcept;
   Projection press(Tick& tick) noexcept;
   Vec3 free_target_m(const Tick& tick) const noexcept;
   Vec3 slide(const Projection& held, Tick& tick) noexcept;
 
-  int nearest() const noexcept;
-  double linearise(const Vec3& p_m, double fraction, Tick& tick) noexcept;
-  Projection project(const Vec3& goal_m) noexcept;
-  Projection project_at(const Vec3& goal_m, double radius_m) noexcept;
-  void move_towards(const Vec3& target_m, Tick& tick) noexcept;
   void rescue_if_inside(const Tick& tick) noexcept;
 
   void find_anchor(const MovingSurface& surface) noexcept;
@@ -125,16 +116,12 @@ class Proxy {
   ProxyContact contact_;
   ProxyCounters counters_;
 
-  std::array<std::int16_t, messages::kMaxLocalTriangles> candidates_{};
-  int candidate_count_ = 0;
-  std::array<Nearest, messages::kMaxLocalTriangles> near_{};
-  std::array<HalfSpace, messages::kMaxLocalTriangles> half_spaces_{};
-  int near_count_ = 0;
+  NearSurface near_;
+  Vec3 last_goal_m_ = Vec3::Zero();
   static constexpr int kMaxTouching = 32;     // triangles round one corner of a bad mesh
   std::array<int, kMaxTouching> touching_{};  // places in near_
   std::array<HalfSpace, kMaxTouching> touching_spaces_{};
   int touching_count_ = 0;
-  double clearance_m_ = 0.0;  // of the last linearisation
 };
 
 }  // namespace myotact::haptics

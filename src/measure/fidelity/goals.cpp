@@ -7,6 +7,9 @@
 #include "measure/fidelity/friction_goals.h"
 #include "measure/fidelity/goal.h"
 #include "measure/fidelity/loop_goals.h"
+#include "measure/fidelity/proxy_cost_goals.h"
+#include "measure/fidelity/proxy_force_goals.h"
+#include "measure/fidelity/proxy_goals.h"
 #include "measure/fidelity/replay_goals.h"
 
 namespace myotact::measure {
@@ -14,9 +17,14 @@ namespace myotact::measure {
 namespace {
 
 constexpr std::array kGoals = {
+    Goal{1, "no fall-through on deforming meshes", measure_deforming_contact},
+    Goal{2, "no fall-through on sheets, in grooves, over edges", measure_hard_shapes},
+    Goal{3, "tick cost in contact with friction", measure_tick_cost},
+    Goal{4, "following a deformed surface", measure_surface_update},
     Goal{5, "loop period and missed ticks", measure_loop_period},
     Goal{6, "friction coefficient and breakaway", measure_friction_coefficient},
     Goal{7, "creep while sticking to moving tissue", measure_sticking},
+    Goal{14, "penetration, and depth against force", measure_penetration},
     Goal{21, "a recorded session comes out again", measure_replay},
 };
 

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "measure/fidelity/goal.h"
+
+namespace myotact::measure {
+
+/// Goal 1: random approaches to a swelling, rippling ball, and the test frame by frame of the references: contact 2 mm
+/// deep, then the surface moves outwards once, within one tick. Counts proxies inside (winding number) and rescues.
+GoalFigures measure_deforming_contact(Effort effort);
+
+/// Goal 2: thin sheets, grooves, slides over edges and corners. Counts proxies inside, told in closed form.
+GoalFigures measure_hard_shapes(Effort effort);
+
+}  // namespace myotact::measure
