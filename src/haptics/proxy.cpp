@@ -2,18 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Geometry>
 
 #include "geometry/closest_point.h"
+#include "haptics/surface_walk.h"
 
 namespace myotact::haptics {
 
 namespace {
 
-/// Safe parts of one tick, at most. A surface at 5 m/s past a 3 mm sphere needs 4.
-constexpr int kMaxParts = 16;
+/// Safe parts of one tick, at most. A surface at 5 m/s past a 3 mm sphere needs 4,
+/// past one of 0.5 mm 40.
+constexpr int kMaxParts = 64;
 /// Moves towards the device in one tick. A flat surface needs two, a fold of a muscle four.
 constexpr int kMaxMoves = 10;
 /// Of the radius: a surface this near bears the sphere. Above, the sphere flies on; it lands without losing its
@@ -34,8 +35,6 @@ constexpr int kTestBudget = 2000;
 /// A stuck sphere may be off its anchor by this share of the radius (normal travel over a curved surface) before the
 /// anchor is renewed: the anchor is what keeps it from creeping, so it is kept as long as it makes sense.
 constexpr double kAnchorSlack = 0.05;
-/// Nearest points of two triangles closer than this are the same corner or the same point of an edge.
-constexpr double kSamePoint_m = 1e-9;
 /// Beyond all that a model holds.
 constexpr double kEverywhere_m = 1e3;
 /// Of the radius: the way that a tick is allowed at first, besides that of hand and surface. Longer ways come with
@@ -48,22 +47,10 @@ std::size_t at(int index) {
   return static_cast<std::size_t>(index);
 }
 
-/// Share of a triangle in the pseudo-normal at its nearest point: the angle it fills there (Baerentzen and Aanaes
-/// 2005).
-double angle_at(const MovingSurface& surface, int local, const std::array<double, 3>& barycentric, double fraction) {
-  for (int corner = 0; corner < 3; ++corner) {
-    if (barycentric[at(corner)] < 1.0) continue;
-    const Vec3 tip_m = surface.corner_m(local, corner, fraction);
-    const Vec3 a = surface.corner_m(local, (corner + 1) % 3, fraction) - tip_m;
-    const Vec3 b = surface.corner_m(local, (corner + 2) % 3, fraction) - tip_m;
-    return std::atan2(a.cross(b).norm(), a.dot(b));
-  }
-  return std::numbers::pi;
-}
-
 }  // namespace
 
-Proxy::Proxy(const ContactSettings& settings) : settings_(settings), near_(std::max(settings.radius_m, kPoint_m)) {
+Proxy::Proxy(const ContactSettings& settings)
+    : settings_(settings), friction_(settings), near_(std::max(settings.radius_m, kPoint_m)) {
   settings_.radius_m = std::max(settings.radius_m, kPoint_m);
 }
 
@@ -83,21 +70,20 @@ void Proxy::tick(const MovingSurface& surface, const messages::LocalModel& model
   tick.dt_s = dt_s;
   near_.begin_tick(surface, model);
   find_anchor(surface);
-  if (!placed_) {  // the first look goes as far as the model does
-    p_m_ = last_goal_m_ = goal.position_m;
-    near_.collect(p_m_, kEverywhere_m);
-    near_.linearise(p_m_, 0.0);
-    rescue_if_inside(tick);
-    placed_ = true;
-  }
+  if (!placed_) place(surface, goal.position_m);
   const Vec3 before_m = p_m_;
   const double hand_m = (goal.position_m - last_goal_m_).norm();
   const double usual_m = kUsualWay * settings_.radius_m + 1.5 * hand_m + 2.0 * surface.largest_motion_m();
   near_.collect(p_m_, std::min(usual_m, longest_way_m(tick)));
   near_.linearise(p_m_, 0.0);
-  rescue_if_inside(tick);
+  if (rescue_if_inside(surface)) {
+    ++counters_.rescues;
+    near_.collect(p_m_, longest_way_m(tick));
+    near_.linearise(p_m_, 0.0);
+  }
   carry(tick);
   seek_goal(tick);
+  remember_home(surface);
   last_goal_m_ = goal.position_m;
   if (!p_m_.allFinite()) {  // never seen; a sphere that is nowhere would stay there
     follow(before_m);
@@ -162,26 +148,40 @@ void Proxy::put_outside(Tick& tick, double fraction) noexcept {
   if (fraction < 1.0) near_.linearise(p_m_, fraction);
 }
 
-void Proxy::rescue_if_inside(const Tick& tick) noexcept {
+/// The safety net under the half-spaces: to the side where it was last, not to whatever surface is nearest, which in a
+/// thin sheet may be the other side.
+bool Proxy::rescue_if_inside(const MovingSurface& surface) noexcept {
   const int first = near_.nearest();
-  if (first < 0) return;
-  const Vec3 foot_m = near_.near(first).point_m;
-  Vec3 outward = Vec3::Zero();
-  int sharing = 0;
-  for (int i = 0; i < near_.count(); ++i) {
-    if ((near_.near(i).point_m - foot_m).norm() > kSamePoint_m) continue;
-    const int local = near_.near(i).local;
-    outward +=
-        angle_at(*tick.surface, local, near_.near(i).barycentric, 0.0) * tick.surface->frame_W(local, 0.0).col(2);
-    ++sharing;
-  }
-  const std::array<double, 3>& b = near_.near(first).barycentric;
-  const bool on_face = std::min({b[0], b[1], b[2]}) > 0.0;
-  const bool on_border = sharing < 2 && !on_face;  // the end of an open surface has no inside
-  if (on_border || outward.dot(p_m_ - foot_m) >= 0.0) return;
-  p_m_ = foot_m + settings_.radius_m * outward.normalized();
+  if (first < 0) return false;
+  const NearestPoint& nearest = near_.near(first);
+  if (outward_at(surface, nearest).dot(p_m_ - nearest.point_m) >= 0.0) return false;
+  const int home = home_surface_ < 0 ? -1 : surface.find(home_surface_, home_triangle_);
+  const NearestPoint foot = home < 0 ? nearest : walk_to_nearest(surface, home, p_m_);
+  const Vec3 outward = outward_at(surface, foot);
+  if (outward.dot(p_m_ - foot.point_m) >= 0.0) return false;  // of its own sheet it is outside
+  p_m_ = foot.point_m + settings_.radius_m * outward.normalized();
   anchor_ = {};
-  if (placed_) ++counters_.rescues;  // a device that starts inside tissue is no fault of the proxy
+  return true;
+}
+
+/// Begins where the device is, or beside the surface that is there: a device that starts inside tissue is no fault of
+/// the proxy. The first look goes as far as the model does.
+void Proxy::place(const MovingSurface& surface, const Vec3& goal_m) noexcept {
+  p_m_ = last_goal_m_ = goal_m;
+  home_surface_ = -1;
+  near_.collect(p_m_, kEverywhere_m);
+  const double clearance_m = near_.linearise(p_m_, 0.0);
+  if (!rescue_if_inside(surface) && near_.nearest() >= 0 && clearance_m < settings_.radius_m) {
+    p_m_ += (settings_.radius_m - clearance_m) * near_.normal(near_.nearest());
+  }
+  placed_ = true;
+}
+
+void Proxy::remember_home(const MovingSurface& surface) noexcept {
+  if (near_.nearest() < 0) return;  // nothing within its way
+  const messages::LocalModel::Triangle& triangle = surface.triangle(near_.near(near_.nearest()).local);
+  home_surface_ = triangle.surface;
+  home_triangle_ = triangle.triangle;
 }
 
 // ---- friction

@@ -100,7 +100,9 @@ class Proxy {
   Vec3 free_target_m(const Tick& tick) const noexcept;
   Vec3 slide(const Projection& held, Tick& tick) noexcept;
 
-  void rescue_if_inside(const Tick& tick) noexcept;
+  bool rescue_if_inside(const MovingSurface& surface) noexcept;
+  void place(const MovingSurface& surface, const Vec3& goal_m) noexcept;
+  void remember_home(const MovingSurface& surface) noexcept;
 
   void find_anchor(const MovingSurface& surface) noexcept;
   Vec3 anchored_m(const MovingSurface& surface, double fraction) const noexcept;
@@ -118,6 +120,8 @@ class Proxy {
 
   NearSurface near_;
   Vec3 last_goal_m_ = Vec3::Zero();
+  std::int32_t home_surface_ = -1;  // what it was nearest to at the end of the last tick: the side it belongs on
+  std::int32_t home_triangle_ = -1;
   static constexpr int kMaxTouching = 32;     // triangles round one corner of a bad mesh
   std::array<int, kMaxTouching> touching_{};  // places in near_
   std::array<HalfSpace, kMaxTouching> touching_spaces_{};

@@ -44,6 +44,7 @@ struct Tally {
   std::uint64_t ticks = 0;
   std::uint64_t inside = 0;
   std::uint64_t rescues = 0;
+  std::uint64_t without_room = 0;  // left out
 
   void count(const SurfaceTouch& touch) { rescues += touch.proxy().counters().rescues; }
   double rescue_share() const { return static_cast<double>(rescues) / std::max(1.0, static_cast<double>(ticks)); }
@@ -165,7 +166,22 @@ std::vector<Place> random_places(const geometry::TriangleMesh& mesh, int count, 
   return places;
 }
 
-/// Settles at the place, moves the surface once within one tick, waits 16 ticks. Nothing: no sound contact was made.
+/// Whether there is outside, as far as the sphere's centre, over the touched point of the moved surface.
+bool has_room(const geometry::TriangleMesh& mesh, const std::vector<Vec3>& moved_m,
+              const haptics::ProxyContact& contact, double radius_m) {
+  const auto& triangle = mesh.triangles[static_cast<std::size_t>(contact.triangle)];
+  const auto corner = [&](std::size_t k) { return moved_m[static_cast<std::size_t>(triangle[k])]; };
+  const Vec3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
+  Vec3 point_m = Vec3::Zero();
+  for (std::size_t k = 0; k < 3; ++k) point_m += contact.barycentric[k] * corner(k);
+  for (const double share : {0.01, 0.5, 1.0}) {
+    if (winding_number(mesh, moved_m, point_m + share * radius_m * normal) > 0.5) return false;
+  }
+  return true;
+}
+
+/// Settles at the place, moves the surface once within one tick, waits 16 ticks. Left out: places without sound
+/// contact, and those where the moved surface passes through itself (a cleft that closes), so that nothing is outside.
 void run_frame(SurfaceTouch& touch, const geometry::TriangleMesh& mesh, const std::vector<Vec3>& moved_m,
                const Place& place, std::uint64_t& now_ns, Tally& tally) {
   constexpr int kSettle = 6;
@@ -176,8 +192,12 @@ void run_frame(SurfaceTouch& touch, const geometry::TriangleMesh& mesh, const st
   const haptics::ProxyGoal pressed{place.point_m + (radius_m - kDeep_m) * place.normal, Vec3::Zero()};
   touch.tick({place.point_m + (radius_m + 1e-3) * place.normal, Vec3::Zero()}, now_ns += kTick_ns);
   for (int tick = 0; tick < kSettle; ++tick) touch.tick(pressed, now_ns += kTick_ns);
-  const bool is_contact = touch.proxy().contact().active;
-  if (!is_contact || winding_number(mesh, touch.positions_m(), touch.proxy().position_m()) > 0.5) return;
+  const haptics::ProxyContact contact = touch.proxy().contact();
+  if (!contact.active || winding_number(mesh, mesh.positions_m, touch.proxy().position_m()) > 0.5) return;
+  if (!has_room(mesh, moved_m, contact, radius_m)) {
+    ++tally.without_room;
+    return;
+  }
   touch.play(mesh.positions_m, moved_m, now_ns, kTick_ns);
   for (int tick = 0; tick < kAfter; ++tick) touch.tick(pressed, now_ns += kTick_ns);
   ++tally.trials;
@@ -218,15 +238,19 @@ GoalFigures measure_deforming_contact(Effort effort) {
   geometry::TriangleMesh bumpy = make_ball(kBall_m, 3);
   swell(make_ball(kBall_m, 3), {}, 0.0, bumpy.positions_m);
   shapes.push_back({"bumpy ball", std::move(bumpy)});
+  std::uint64_t rescues = 0;
   for (const NamedShape& shape : shapes) {
     const Tally frames = measure_frames(shape.mesh, full ? 1'000 : 25);
-    result.figures.push_back({fmt::format("inside, of {} single moves of the {}", frames.trials, shape.name),
-                              static_cast<double>(frames.inside), "", 0.0});
-    result.figures.push_back({"rescues a tick of them", frames.rescue_share(), "", 1e-4});
+    result.figures.push_back(
+        {fmt::format("inside, of {} single moves of the {}{}", frames.trials, shape.name,
+                     frames.without_room == 0 ? "" : fmt::format(" ({} had no room)", frames.without_room)),
+         static_cast<double>(frames.inside), "", 0.0});
+    rescues += frames.rescues;
   }
   result.note =
       "approaches: 5-500 mm/s, 60-200 frames/s, radius 0.5-5 mm, edges 0.9-14 mm; single moves: 2 mm deep, "
-      "then all vertices 0.1, 1, 2 or 5 mm outwards within 1 ms, radius 0.5, 2, 5 mm";
+      "then all vertices 0.1, 1, 2 or 5 mm outwards within 1 ms, radius 0.5, 2, 5 mm; no room: the moved surface "
+      "passes through itself there";
   return result;
 }
 
