@@ -33,6 +33,7 @@ scene::Scene scene_of(const Options& options) {
                                              join(kKnown) + " (nearest: " + nearest_word(name, kKnown) + ")");
   }
   if (!options.devices.empty()) scene.tools.front().device = options.devices.front();
+  scene::set_seed(scene, options.seed);
   return scene;
 }
 

@@ -60,7 +60,7 @@ double Friction::coefficient() const noexcept {
 }
 
 Vec3 Friction::slip_m(const FrictionTrial& trial) const noexcept {
-  const double viscous = settings_.viscous_Ns_m / (settings_.stiffness_N_m * trial.dt_s);
+  const double viscous = settings_.viscous_Ns_m / (trial.stiffness_N_m * trial.dt_s);
   const Vec3 pull_m = trial.lag_m - viscous * trial.slipped_m;
   const double across_m = coefficient() * trial.depth_m;
   Vec3 along, across;

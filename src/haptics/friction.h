@@ -12,6 +12,7 @@ struct FrictionTrial {
   double depth_m = 0.0;           // force along the normal over the coupling's stiffness, >= 0
   Vec3 normal = Vec3::UnitZ();    // unit
   Vec3 fibre = Vec3::Zero();      // any length, any slope; zero: alike in all directions
+  double stiffness_N_m = 800.0;   // of the coupling, > 0
   double dt_s = 1e-3;             // > 0
 };
 

@@ -51,6 +51,7 @@ HapticLoop::HapticLoop(device::Device& device, const HapticSettings& settings)
       settings_(bearable(settings, device.profile())),
       ticks_(kTicksKept),
       proxy_(settings_.contact),
+      texture_(settings_.texture),
       line_(settings_.line),
       bone_(settings_.bone),
       ports_(device.profile().inertia_kg, device.profile().delay_ticks),
@@ -94,6 +95,7 @@ void HapticLoop::tick(std::uint64_t now_ns) noexcept {
                              dt_s_);
     contact_N = contact_share() * contact_force_N(goal, now_ns, is_new);
     felt.contact_N = settings_.force_scale * contact_N;
+    felt.texture_N = settings_.force_scale * texture_force_N(goal, contact_N);
     const messages::LocalLine nothing_near;
     const Vec3 line_N =
         line_.tick(model_ == nullptr ? nothing_near : model_->line,
@@ -158,6 +160,7 @@ PortForces HapticLoop::make_passive(const PortForces& felt, const ProxyGoal& goa
   tick.dt_s = dt_s_;
   tick.proxy_m = proxy_.position_m();
   if (proxy_.contact().active) {
+    tick.texture_held_J = settings_.force_scale * texture_.held_J();
     tick.tissue_moved_m = dt_s_ * proxy_.contact().velocity_m_s;
     tick.contact_stiffness_N_m = settings_.force_scale * contact_share() * settings_.contact.stiffness_N_m;
   }
@@ -170,6 +173,12 @@ PortForces HapticLoop::make_passive(const PortForces& felt, const ProxyGoal& goa
   const PortForces passive = ports_.admit(tick);
   if (ports_.missing_J() > kTold_J) faults_ |= bit(Fault::EnergyInjected);
   return passive;
+}
+
+/// For the hand only: the tissue feels the contact's force, about which texture goes to and fro.
+Vec3 HapticLoop::texture_force_N(const ProxyGoal& goal, const Vec3& contact_N) noexcept {
+  const double normal_N = std::max(0.0, contact_N.dot(proxy_.contact().normal));
+  return texture_.tick_N(surface_, proxy_.contact(), {goal, normal_N, settings_.contact.stiffness_N_m, dt_s_});
 }
 
 Vec3 HapticLoop::gate_and_write(const Vec3& wanted_N, const Vec3& position_m, std::uint64_t now_ns) noexcept {

@@ -14,6 +14,7 @@
 #include "haptics/moving_surface.h"
 #include "haptics/muscle_line_drag.h"
 #include "haptics/proxy.h"
+#include "haptics/texture.h"
 #include "messages/local_model.h"
 #include "messages/tool_state.h"
 #include "realtime/bounded_fifo.h"
@@ -28,6 +29,7 @@ struct HapticSettings {
   LineDragSettings line;
   BoneDragSettings bone;  // its force scale is the loop's
   GateSettings gate;
+  TextureSettings texture;
   /// Felt over simulated force: muscles pull with 10-1000 N, devices with 3-20 N. The tissue gets the unscaled force.
   double force_scale = 1.0;
   /// Stiffnesses stay within what the device bears (stiffness_bound.h) and what the age of the simulation's answer
@@ -50,9 +52,8 @@ Vec3 coupling_force_N(const Proxy& proxy, const ProxyGoal& device, const Contact
 
 /// One tool, once a millisecond: reads the device and the newest model, computes, gates and writes in the same tick.
 ///
-///   device.read --> [proxy, friction, coupling] + [muscle line, bone] --> [ports] --> [force gate] --> device.write
-///        models() newest --^                                                       '--> tool_states() newest, ticks()
-///        all
+///   device.read --> [proxy, friction, coupling] + [texture] + [muscle line, bone] --> [ports] --> [force gate]
+///        models() newest --^                          device.write, tool_states() newest, ticks() all <--'
 ///
 /// Whoever calls tick() owns the clock: a virtual one in lockstep, HapticThread's when it runs free.
 class HapticLoop {
@@ -92,6 +93,7 @@ class HapticLoop {
   void soften(const Vec3& device_m, std::uint64_t now_ns) noexcept;
   double contact_share() const noexcept;
   PortForces make_passive(const PortForces& felt, const ProxyGoal& goal) noexcept;
+  Vec3 texture_force_N(const ProxyGoal& goal, const Vec3& contact_N) noexcept;
   Vec3 gate_and_write(const Vec3& wanted_N, const Vec3& position_m, std::uint64_t now_ns) noexcept;
   void tell(const messages::DeviceState& state, const Vec3& sent_N, const Vec3& contact_N) noexcept;
   void tell_grabs(messages::ToolState& tool) const noexcept;
@@ -105,6 +107,7 @@ class HapticLoop {
 
   MovingSurface surface_;
   Proxy proxy_;
+  Texture texture_;
   MuscleLineDrag line_;
   BoneDrag bone_;
   HapticPorts ports_;

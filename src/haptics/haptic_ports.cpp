@@ -9,6 +9,9 @@ namespace {
 
 /// Added damping b is stable in a loop of period T on a mass m below about m / T; this keeps well away (reference 2.6).
 constexpr double kDampingShare = 0.4;
+/// What vibration and knocks may give to a hand while there is contact. Friction of a slide takes a hundred times as
+/// much (0.3 N at 0.1 m/s: 30 mW), which is where a real vibration has it from.
+constexpr double kTextureGives_W = 3e-4;
 constexpr double kNoForce_N = 1e-6;
 
 /// Energy of a spring of stiffness k that is stretched by `stretch_m` and gives `force_N`; beyond F / k its force was
@@ -38,6 +41,7 @@ HapticPorts::HapticPorts(double inertia_kg, int delay_ticks, const PortSettings&
     : inertia_kg_(inertia_kg),
       damping_share_(kDampingShare / (1 + std::max(0, delay_ticks))),
       contact_(settings),
+      texture_(settings),
       line_(settings),
       bone_(settings) {}
 
@@ -47,6 +51,19 @@ PortTick HapticPorts::contact_tick(const PortsTick& tick) const noexcept {
   port.environment_moved_m = tick.tissue_moved_m;
   port.stored_J =
       spring_energy_J(port.wanted_N.norm(), tick.contact_stiffness_N_m, (tick.proxy_m - tick.hand_m).norm());
+  return port;
+}
+
+/// A hand that presses puts a spring's energy into the relief too: the contact's, of which the relief is the small part
+/// that depends on the place.
+PortTick HapticPorts::texture_tick(const PortsTick& tick) noexcept {
+  PortTick port;
+  port.wanted_N = tick.wanted.texture_N;
+  port.environment_moved_m = tick.tissue_moved_m;
+  port.stored_J = tick.texture_held_J;
+  texture_.credit(tick.texture_held_J - texture_held_J_);
+  if (tick.contact_stiffness_N_m > 0.0) texture_.credit(kTextureGives_W * tick.dt_s);
+  texture_held_J_ = tick.texture_held_J;
   return port;
 }
 
@@ -106,6 +123,7 @@ PortForces HapticPorts::admit(const PortsTick& tick) noexcept {
   damping_left_Ns_m_ = damping_share_ * inertia_kg_ / tick.dt_s;
   PortForces asked;
   asked.contact_N = admit(contact_, contact_tick(tick), tick);
+  asked.texture_N = admit(texture_, texture_tick(tick), tick);
   asked.line_N = admit(line_, line_tick(tick), tick);
   asked.bone_N = admit(bone_, bone_tick(tick), tick);
   asked_N_ = asked.sum_N();
@@ -115,15 +133,15 @@ PortForces HapticPorts::admit(const PortsTick& tick) noexcept {
 void HapticPorts::book(const Vec3& sent_N) noexcept {
   const double asked_N2 = asked_N_.squaredNorm();
   const double share = asked_N2 > 0.0 ? std::clamp(sent_N.dot(asked_N_) / asked_N2, 0.0, 1.0) : 0.0;
-  for (EnergyPort* port : {&contact_, &line_, &bone_}) port->book(share);
+  for (EnergyPort* port : {&contact_, &texture_, &line_, &bone_}) port->book(share);
 }
 
 double HapticPorts::missing_J() const noexcept {
-  return std::max({contact_.missing_J(), line_.missing_J(), bone_.missing_J()});
+  return std::max({contact_.missing_J(), texture_.missing_J(), line_.missing_J(), bone_.missing_J()});
 }
 
 double HapticPorts::damping_Ns_m() const noexcept {
-  return contact_.damping_Ns_m() + line_.damping_Ns_m() + bone_.damping_Ns_m();
+  return contact_.damping_Ns_m() + texture_.damping_Ns_m() + line_.damping_Ns_m() + bone_.damping_Ns_m();
 }
 
 }  // namespace myotact::haptics

@@ -11,10 +11,11 @@ namespace myotact::haptics {
 /// What the effects of a tick do to the hand, as felt (after the force scale).
 struct PortForces {
   Vec3 contact_N = Vec3::Zero();
+  Vec3 texture_N = Vec3::Zero();
   Vec3 line_N = Vec3::Zero();
   Vec3 bone_N = Vec3::Zero();
 
-  Vec3 sum_N() const { return contact_N + line_N + bone_N; }
+  Vec3 sum_N() const { return contact_N + texture_N + line_N + bone_N; }
 };
 
 /// What the ports must know of the tick beside the forces.
@@ -25,6 +26,7 @@ struct PortsTick {
   Vec3 proxy_m = Vec3::Zero();                // of the contact
   Vec3 tissue_moved_m = Vec3::Zero();         // under it, in this tick
   double contact_stiffness_N_m = 0.0;         // felt; 0: none
+  double texture_held_J = 0.0;                // the most that the relief may give back
   const messages::LocalLine* line = nullptr;  // in hand, as the newest model has it; null: none
   double line_gain = 0.0;                     // force scale times how far the hand has closed
   std::int32_t body = -1;                     // in hand
@@ -35,6 +37,7 @@ struct PortsTick {
 /// One observer of energy for each effect, side by side: none can spend what another took.
 ///
 ///   contact  spring between hand and proxy, carried by the tissue
+///   texture  relief, vibration and knock on the tissue
 ///   line     string to the ends of a muscle line; the muscle changes its tension
 ///   bone     spring between hand and a point of a bone, which moves
 ///
@@ -52,18 +55,21 @@ class HapticPorts {
   double damping_Ns_m() const noexcept;  // added in the last tick, all ports
   double missing_J() const noexcept;     // what came out and should not have, in the worst port
   const EnergyPort& contact() const noexcept { return contact_; }
+  const EnergyPort& texture() const noexcept { return texture_; }
   const EnergyPort& line() const noexcept { return line_; }
   const EnergyPort& bone() const noexcept { return bone_; }
 
  private:
   PortTick contact_tick(const PortsTick& tick) const noexcept;
+  PortTick texture_tick(const PortsTick& tick) noexcept;
   PortTick line_tick(const PortsTick& tick) noexcept;
   PortTick bone_tick(const PortsTick& tick) noexcept;
   Vec3 admit(EnergyPort& port, PortTick tick, const PortsTick& all) noexcept;
 
   double inertia_kg_;
   double damping_share_;
-  EnergyPort contact_, line_, bone_;
+  EnergyPort contact_, texture_, line_, bone_;
+  double texture_held_J_ = 0.0;
   Vec3 hand_m_ = Vec3::Zero();
   bool knows_hand_ = false;
   Vec3 moved_m_ = Vec3::Zero();     // the hand, in this tick

@@ -275,6 +275,7 @@ Vec3 Proxy::slide(const Projection& held, Tick& tick) noexcept {
   trial.lag_m = along_surface(held.point_m - p_m_);
   trial.slipped_m = along_surface(p_m_ - tick.rubbed_from_m);
   trial.fibre = surface.fibre_W(bearing.local);
+  trial.stiffness_N_m = settings_.stiffness_N_m;
   trial.dt_s = tick.dt_s;
   const Vec3 slip_m = friction_.slip_m(trial);
   tick.slipped = tick.slipped || slip_m.norm() > kConverged_m;

@@ -17,6 +17,7 @@ haptics::HapticSettings haptic_settings(const ToolSettings& tool) {
   settings.contact.viscous_Ns_m = tool.viscous_Ns_m;
   settings.force_scale = tool.force_scale;
   settings.gate.force_limit = tool.force_limit;
+  settings.texture = tool.texture;
   return settings;
 }
 

@@ -195,13 +195,16 @@ device::DeviceProfile device_of_recording(const nlohmann::json& header, const st
 Scene scene_of_recording(const nlohmann::json& header, const std::filesystem::path& file, const Overrides& overrides) {
   JsonObject fields(JsonValue(header, file.string()));
   fields.at("schema").integer_between(1, 1);
-  fields.at("seed").number();
+  const JsonValue seed = fields.at("seed");
+  if (!seed.raw().is_number_unsigned()) throw seed.error("must be a whole number of at least 0");
   fields.find("device");  // device_of_recording
   Overrides all = {{"specimen", fields.at("specimen").string()}};
   for (const auto& [key, value] : overrides) all[key] = value;
   const std::string text = fields.at("scene").string();
   fields.finish();
-  return parse_scene(text, file, all);
+  Scene scene = parse_scene(text, file, all);
+  set_seed(scene, seed.raw().get<std::uint64_t>());
+  return scene;
 }
 
 void require_fit(const Recording& recording, const anatomy::Specimen& specimen, const std::filesystem::path& file) {

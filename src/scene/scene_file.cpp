@@ -13,6 +13,7 @@
 #include "core/file.h"
 #include "core/json_reader.h"
 #include "core/text.h"
+#include "scene/texture_file.h"
 #include "simulation/line_model.h"
 #include "simulation/skeleton.h"
 
@@ -223,6 +224,7 @@ ToolSettings read_tool(const JsonValue& value) {
   if (const auto limit = fields.find("force_limit")) tool.force_limit = limit->number_between(0.0, 1.0);
   if (const auto friction = fields.find("friction")) read_friction(*friction, tool);
   if (const auto stiffness = fields.find("stiffness_N_m")) tool.stiffness_N_m = stiffness->number_between(10.0, 5000.0);
+  if (const auto texture = fields.find("texture")) tool.texture = textures_asked_for(*texture);
   fields.finish();
   return tool;
 }
@@ -266,6 +268,10 @@ Scene parse_scene(const std::string& text, const std::filesystem::path& file, co
   root.finish();
   if (scene.tools.empty()) scene.tools.emplace_back();
   return scene;
+}
+
+void set_seed(Scene& scene, std::uint64_t seed) {
+  for (ToolSettings& tool : scene.tools) tool.texture.seed = seed++;
 }
 
 std::vector<std::string> built_in_scenes() {

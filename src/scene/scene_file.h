@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -8,6 +9,7 @@
 
 #include "anatomy/specimen.h"
 #include "core/vector.h"
+#include "haptics/texture_set.h"
 #include "scene/script.h"
 #include "simulation/simulation.h"
 
@@ -34,6 +36,7 @@ struct ToolSettings {
   double along_over_across = 1.0;  // friction along the fibres over across them
   double viscous_Ns_m = 0.0;
   double stiffness_N_m = 800.0;
+  haptics::TextureSettings texture;  // smooth where empty
 };
 
 struct JointSetting {
@@ -64,6 +67,9 @@ Scene load_scene(const std::string& name_or_path, const Overrides& overrides = {
 
 /// The same from text, for recordings; `file` is named in errors and relative specimen paths start at its folder.
 Scene parse_scene(const std::string& text, const std::filesystem::path& file, const Overrides& overrides);
+
+/// Of everything random: the vibration of textures, each tool its own.
+void set_seed(Scene& scene, std::uint64_t seed);
 
 /// Names of the scenes in assets/scenes.
 std::vector<std::string> built_in_scenes();
