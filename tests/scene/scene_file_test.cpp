@@ -86,6 +86,21 @@ TEST_F(SceneFile, ReadsTheFrictionOfATool) {
   EXPECT_THAT(complaint(tool(R"({"static": 0.3, "dynamic": 0.3, "viscous": 1})")), HasSubstr("viscous_Ns_m"));
 }
 
+TEST_F(SceneFile, ReadsTheTextureOfATool) {
+  const auto tool = [](const std::string& texture) {
+    return R"(, "tools": [{"device": "simulated", "texture": )" + texture + "}]";
+  };
+  const auto waves_of = [&](const std::string& texture, messages::Tissue tissue) {
+    return parse(tool(texture)).tools.front().texture.by_tissue[static_cast<std::size_t>(tissue)].relief.size();
+  };
+  EXPECT_EQ(waves_of("false", messages::Tissue::Muscle), 0u);
+  EXPECT_GT(waves_of("true", messages::Tissue::Muscle), 0u);
+  EXPECT_EQ(waves_of("true", messages::Tissue::Skin), 0u);
+  EXPECT_GT(waves_of(R"("bone")", messages::Tissue::Skin), 0u);
+  EXPECT_THAT(complaint(tool(R"("bones")")), HasSubstr("nearest: \"bone\""));
+  EXPECT_THAT(complaint(tool("3")), HasSubstr("/tools/0/texture"));
+}
+
 TEST_F(SceneFile, AWeldCannotBeCoContracted) {
   anatomy::Specimen fused = myotact::testing::antagonist_hinge();
   anatomy::Joint& joint = fused.joints[0];

@@ -11,6 +11,7 @@
 #include "measure/fidelity/proxy_force_goals.h"
 #include "measure/fidelity/proxy_goals.h"
 #include "measure/fidelity/replay_goals.h"
+#include "measure/fidelity/texture_goals.h"
 
 namespace myotact::measure {
 
@@ -25,6 +26,7 @@ constexpr std::array kGoals = {
     Goal{6, "friction coefficient and breakaway", measure_friction_coefficient},
     Goal{7, "creep while sticking to moving tissue", measure_sticking},
     Goal{14, "penetration, and depth against force", measure_penetration},
+    Goal{16, "spectrum and strength of texture", measure_texture_spectrum},
     Goal{21, "a recorded session comes out again", measure_replay},
 };
 
