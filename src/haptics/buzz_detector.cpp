@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace myotact::haptics {
 
@@ -11,6 +12,7 @@ constexpr double kTurnsASecond = 30.0;  // reference 2.6
 /// The strongest texture (0.3 N, from 30 Hz) swings a hand and stylus of 0.17 kg by 0.1 mm from end to end.
 constexpr double kSwing_m = 150e-6;
 constexpr double kCounts = 4.0;  // the reference's measure of a calm wall
+constexpr double kLasts = 0.7;   // of a swing eight turns ago: 1.4 % of the critical damping lets it fall that far
 constexpr double kSoftest = 0.125;
 constexpr double kDoubling_s = 10.0;
 constexpr double kFeltFor_s = 0.1;  // a tool that buzzes at a wall leaves it in every swing
@@ -29,12 +31,18 @@ bool BuzzDetector::turns_too_often(Axis& axis, double x_m) const noexcept {
   }
   if (back_m <= 0.0) axis.farthest_m = x_m;
   if (back_m < swing_m_) return false;
+  const std::size_t at = axis.turns % kTurns;
+  const double oldest_s = axis.turned_s[at], oldest_m = axis.swung_m[at];
+  const double swung_m = std::abs(axis.farthest_m - axis.turned_m);
   axis.direction = -axis.direction;
+  axis.turned_m = axis.farthest_m;
   axis.farthest_m = x_m;
-  const double oldest_s = axis.turned_s[axis.turns % kTurns];
-  axis.turned_s[axis.turns % kTurns] = now_s_;
+  axis.turned_s[at] = now_s_;
+  axis.swung_m[at] = swung_m;
+  if (!std::exchange(axis.turned, true)) return false;
   ++axis.turns;
-  return axis.turns > kTurns && now_s_ - oldest_s < static_cast<double>(kTurns) / kTurnsASecond;
+  const bool often = now_s_ - oldest_s < static_cast<double>(kTurns) / kTurnsASecond;
+  return axis.turns > kTurns && often && swung_m > kLasts * oldest_m;
 }
 
 bool BuzzDetector::tick(const Vec3& position_m, bool feels, double dt_s) noexcept {

@@ -11,8 +11,8 @@ namespace myotact::haptics {
 ///
 /// The motion along each axis turns round when it has come back by `swing_m` from where it was farthest: smaller swings
 /// are texture and encoder. More than 30 turns a second for eight turns running are no hand: tremor makes 16 to 24
-/// (8-12 Hz). Then the stiffness is halved, down to an eighth; it grows back by 7 % a second, doubling in 10 s.
-/// Real-time safe; one thread.
+/// (8-12 Hz). Nor may the swings die out, as they do after a knock. Then the stiffness is halved, down to an eighth; it
+/// grows back by 7 % a second, doubling in 10 s. Real-time safe; one thread.
 class BuzzDetector {
  public:
   /// `resolution_m` of the encoder: swings of a few counts are none.
@@ -28,8 +28,11 @@ class BuzzDetector {
 
   struct Axis {
     double farthest_m = 0.0;
-    int direction = 0;  // +1, -1; 0: none yet
+    int direction = 0;      // +1, -1; 0: none yet
+    bool turned = false;    // before its first turn it came from anywhere: no swing
+    double turned_m = 0.0;  // where it last turned
     std::array<double, kTurns> turned_s{};
+    std::array<double, kTurns> swung_m{};
     std::size_t turns = 0;  // since the last halving
   };
   bool turns_too_often(Axis& axis, double x_m) const noexcept;

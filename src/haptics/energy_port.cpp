@@ -22,7 +22,7 @@ Vec3 EnergyPort::admit(const PortTick& tick) noexcept {
   swing_J_ = kept * (swing_J_ + sent_N_.dot(tick.environment_moved_m) - tick.dt_s * slow_W);
   energy_J_ -= sent_N_.dot(tick.hand_moved_m - tick.environment_moved_m);
   const double surplus_J = energy_J_ - tick.stored_J;
-  if (surplus_J > 0.0) energy_J_ = tick.stored_J + kept * std::min(surplus_J, settings_.store_J);
+  if (surplus_J > 0.0) energy_J_ = tick.stored_J + kept * std::min(surplus_J, tick.opens ? 0.0 : settings_.store_J);
   if (!std::isfinite(energy_J_) || !std::isfinite(swing_J_)) reset();
   missing_J_ = std::max({0.0, -energy_J_, swing_J_ - kSwing_J - kSlow_s * std::abs(slow_W)});
 

@@ -17,6 +17,7 @@ struct PortTick {
   Vec3 hand_moved_m = Vec3::Zero();         // since the last tick
   Vec3 environment_moved_m = Vec3::Zero();  // of the port's other end by itself: tissue, point of a bone
   double stored_J = 0.0;                    // in the port's springs: what it may give back at any time, >= 0
+  bool opens = false;                       // lets go of what it stores: nothing of it may be spent later
   double most_damping_Ns_m = 0.0;           // that the device bears
   double dt_s = 1e-3;                       // > 0
 };

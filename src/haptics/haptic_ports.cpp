@@ -45,10 +45,17 @@ HapticPorts::HapticPorts(double inertia_kg, int delay_ticks, const PortSettings&
       line_(settings),
       bone_(settings) {}
 
+/// A hand that closes on a taut line, or on the move, finds energy in it that nobody here put in.
+void HapticPorts::find(EnergyPort& port, double energy_J) noexcept {
+  port.credit(energy_J);
+  found_J_ += energy_J;
+}
+
 PortTick HapticPorts::contact_tick(const PortsTick& tick) const noexcept {
   PortTick port;
   port.wanted_N = tick.wanted.contact_N;
   port.environment_moved_m = tick.tissue_moved_m;
+  port.opens = !(tick.contact_stiffness_N_m > 0.0);  // what friction took pays for no later touch
   port.stored_J =
       spring_energy_J(port.wanted_N.norm(), tick.contact_stiffness_N_m, (tick.proxy_m - tick.hand_m).norm());
   return port;
@@ -77,7 +84,8 @@ PortTick HapticPorts::line_tick(const PortsTick& tick) noexcept {
   const messages::LocalLine& before = same ? held_line_ : now;
   const double before_J = string_energy_J(before, tick.hand_m);
   const double now_J = string_energy_J(now, tick.hand_m);
-  line_.credit(std::max(0.0, tick.line_gain - line_gain_) * before_J);  // the hand closes
+  find(line_, std::max(0.0, tick.line_gain - line_gain_) * before_J);
+  port.opens = tick.line_gain < line_gain_;
   const double force_N = port.wanted_N.norm();
   if (same && force_N > kNoForce_N) {
     port.environment_moved_m = port.wanted_N * (tick.line_gain * (now_J - before_J) / (force_N * force_N));
@@ -100,7 +108,8 @@ PortTick HapticPorts::bone_tick(const PortsTick& tick) noexcept {
     }
     body_point_m_ = tick.body_point_m;
     port.stored_J = spring_energy_J(port.wanted_N.norm(), k, (tick.hand_m - body_offset_m_ - body_point_m_).norm());
-    if (k > body_stiffness_N_m_) bone_.credit((1.0 - body_stiffness_N_m_ / k) * port.stored_J);  // the hand closes
+    if (k > body_stiffness_N_m_) find(bone_, (1.0 - body_stiffness_N_m_ / k) * port.stored_J);
+    port.opens = k < body_stiffness_N_m_;
   }
   body_ = tick.body;
   body_stiffness_N_m_ = tick.body >= 0 ? k : 0.0;

@@ -52,14 +52,16 @@ class HapticPorts {
   /// After the gate: what was sent for the sum of what was asked [N].
   void book(const Vec3& sent_N) noexcept;
 
-  double damping_Ns_m() const noexcept;  // added in the last tick, all ports
-  double missing_J() const noexcept;     // what came out and should not have, in the worst port
+  double damping_Ns_m() const noexcept;                 // added in the last tick, all ports
+  double found_J() const noexcept { return found_J_; }  // stored in lines and grips when the hand closed, so far
+  double missing_J() const noexcept;                    // what came out and should not have, in the worst port
   const EnergyPort& contact() const noexcept { return contact_; }
   const EnergyPort& texture() const noexcept { return texture_; }
   const EnergyPort& line() const noexcept { return line_; }
   const EnergyPort& bone() const noexcept { return bone_; }
 
  private:
+  void find(EnergyPort& port, double energy_J) noexcept;
   PortTick contact_tick(const PortsTick& tick) const noexcept;
   PortTick texture_tick(const PortsTick& tick) noexcept;
   PortTick line_tick(const PortsTick& tick) noexcept;
@@ -74,6 +76,7 @@ class HapticPorts {
   bool knows_hand_ = false;
   Vec3 moved_m_ = Vec3::Zero();     // the hand, in this tick
   double damping_left_Ns_m_ = 0.0;  // that the device still bears in this tick
+  double found_J_ = 0.0;
   Vec3 asked_N_ = Vec3::Zero();
   messages::LocalLine held_line_;  // of the last tick; muscle -1: none
   double line_gain_ = 0.0;

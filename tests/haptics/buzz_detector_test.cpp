@@ -31,6 +31,15 @@ TEST(BuzzDetector, NeitherTremorNorTextureNorAFreeToolIsABuzz) {
   EXPECT_EQ(share_after(1.0, 20e-3), 1.0);
 }
 
+TEST(BuzzDetector, WhatRingsOutAfterAKnockIsNoBuzz) {
+  BuzzDetector detector(20e-6);
+  for (int i = 0; i < 1000; ++i) {
+    const double t_s = i * kTick_s;
+    const double x_m = 3e-3 * std::exp(-5.0 * t_s) * std::sin(2.0 * std::numbers::pi * 30.0 * t_s);
+    EXPECT_FALSE(detector.tick(Vec3(0.0, 0.0, x_m), true, kTick_s));
+  }
+}
+
 TEST(BuzzDetector, ABouncingToolTouchesOnlyNowAndThen) {
   BuzzDetector detector(20e-6);
   bool halved = false;
@@ -46,6 +55,7 @@ TEST(BuzzDetector, AnEighthIsTheSoftestAndItDoublesInTenSeconds) {
   for (int i = 0; i < 20'000; ++i) detector.tick(Vec3((i / 10) % 2 * 1e-3, 0, 0), true, kTick_s);  // 50 Hz for 20 s
   EXPECT_GE(detector.stiffness_share(), 0.125);
   EXPECT_LT(detector.stiffness_share(), 0.14);
+  for (int i = 0; i < 200; ++i) detector.tick(Vec3::Zero(), true, kTick_s);  // the last swing is over
   const double share = detector.stiffness_share();
   for (int i = 0; i < 10'000; ++i) detector.tick(Vec3::Zero(), true, kTick_s);
   EXPECT_NEAR(detector.stiffness_share(), 2.0 * share, 1e-6);

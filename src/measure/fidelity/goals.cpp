@@ -11,6 +11,8 @@
 #include "measure/fidelity/proxy_force_goals.h"
 #include "measure/fidelity/proxy_goals.h"
 #include "measure/fidelity/replay_goals.h"
+#include "measure/fidelity/safety_goals.h"
+#include "measure/fidelity/stability_goals.h"
 #include "measure/fidelity/texture_goals.h"
 
 namespace myotact::measure {
@@ -25,8 +27,11 @@ constexpr std::array kGoals = {
     Goal{5, "loop period and missed ticks", measure_loop_period},
     Goal{6, "friction coefficient and breakaway", measure_friction_coefficient},
     Goal{7, "creep while sticking to moving tissue", measure_sticking},
+    Goal{10, "stiffest calm wall over the bound of the device", measure_stable_stiffness},
     Goal{14, "penetration, and depth against force", measure_penetration},
+    Goal{15, "energy that the rendering gives to a hand", measure_energy_given},
     Goal{16, "spectrum and strength of texture", measure_texture_spectrum},
+    Goal{20, "force within its limit, and gone at once, whatever goes wrong", measure_safety},
     Goal{21, "a recorded session comes out again", measure_replay},
 };
 
