@@ -98,5 +98,17 @@ TEST(Run, InterruptedRunStillLeavesItsTables) {
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "out" / "summary.json"));
 }
 
+// The watchdog is a child of the program. Killed, the program cannot say goodbye to it.
+TEST(Run, AKilledProgramLeavesNoWatchdogBehind) {
+  TemporaryFolder folder;
+  const Outcome outcome =
+      run_program("run elbow --set tissue.default=line --realtime --seconds 60 --out " + at(folder, "out") +
+                  " & P=$!; sleep 3; W=$(ps -o pid= --ppid $P); kill -9 $P; wait $P; sleep 0.5; for w in $W; do echo "
+                  "watched by $w; "
+                  "if grep -qs 'State:.[^Z]' /proc/$w/status; then echo left behind; fi; done");
+  EXPECT_THAT(outcome.output, HasSubstr("watched by"));
+  EXPECT_THAT(outcome.output, ::testing::Not(HasSubstr("left behind")));
+}
+
 }  // namespace
 }  // namespace myotact::testing

@@ -11,6 +11,7 @@
 #include "haptics/faults.h"
 #include "haptics/stiffness_bound.h"
 #include "measure/fidelity/virtual_touch.h"
+#include "scene/texture_file.h"
 
 namespace myotact::measure {
 
@@ -139,6 +140,7 @@ struct EnergyGiven {
 
 EnergyGiven poke(double seconds) {
   haptics::HapticSettings settings;
+  settings.texture = scene::own_textures();
   VirtualTouch touch({true, true, true}, Vec3(0.0, 0.0, 0.02), {}, {}, settings);
   Poking poking(15);
   EnergyGiven given;
@@ -203,7 +205,8 @@ GoalFigures measure_energy_given(Effort effort) {
                     {"largest force that was felt", given.largest_N, "N", 1.0, true},
                     {"share of the time in touch", given.touched_s / seconds, "", 0.2, true}};
   result.note = fmt::format(
-      "{} s of simulated poking: contact with friction on waves, line and bone in hand; touches in which the force was "
+      "{} s of simulated poking: contact with friction and texture on waves, line and bone in hand; touches in which "
+      "the force was "
       "cut for "
       "cut-off are not in the second figure",
       seconds);
