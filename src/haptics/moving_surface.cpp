@@ -101,26 +101,38 @@ void MovingSurface::adopt(const messages::LocalModel& model) noexcept {
   for (std::size_t i = 0; i < static_cast<std::size_t>(model.vertex_count); ++i) {
     from_m_[i] = place_m(model, i, s);
   }
-  // The old triangles are still in place while the new ones look for themselves among them.
+  // The old triangles are still in place while the new ones look for themselves among them; most are where they were.
+  const auto same = [&](int i, const messages::LocalModel::Triangle& fresh) {
+    const messages::LocalModel::Triangle& old = triangles_[static_cast<std::size_t>(i)];
+    return i < known_count_ && old.surface == fresh.surface && old.triangle == fresh.triangle;
+  };
+  bool is_same_list = model.triangle_count == known_count_;
   for (int i = 0; i < model.triangle_count; ++i) {
     const messages::LocalModel::Triangle& fresh = model.triangles[static_cast<std::size_t>(i)];
-    const int old = find(fresh.surface, fresh.triangle);
+    const bool is_here = same(i, fresh);
+    is_same_list = is_same_list && is_here;
+    const int old = is_here ? i : find(fresh.surface, fresh.triangle);
     if (old < 0) continue;
     for (std::size_t corner = 0; corner < 3; ++corner) {
       from_m_[static_cast<std::size_t>(fresh.vertices[corner])] =
           old_m[static_cast<std::size_t>(triangles_[static_cast<std::size_t>(old)].vertices[corner])];
     }
   }
+  std::copy_n(model.triangles.begin(), model.triangle_count, triangles_.begin());
+  known_count_ = model.triangle_count;
+  if (!is_same_list) number_triangles();
+  model_ = &model;
+  ++adopted_count_;
+}
+
+void MovingSurface::number_triangles() noexcept {
   slots_.fill(0);
-  for (int i = 0; i < model.triangle_count; ++i) {
-    const messages::LocalModel::Triangle& fresh = model.triangles[static_cast<std::size_t>(i)];
-    triangles_[static_cast<std::size_t>(i)] = fresh;
-    std::size_t slot = slot_of(fresh.surface, fresh.triangle);
+  for (int i = 0; i < known_count_; ++i) {
+    const messages::LocalModel::Triangle& triangle = triangles_[static_cast<std::size_t>(i)];
+    std::size_t slot = slot_of(triangle.surface, triangle.triangle);
     while (slots_[slot] != 0) slot = (slot + 1) % kSlots;
     slots_[slot] = static_cast<std::int16_t>(i + 1);
   }
-  model_ = &model;
-  ++adopted_count_;
 }
 
 Vec3 MovingSurface::motion_m(int local, const std::array<double, 3>& barycentric) const noexcept {

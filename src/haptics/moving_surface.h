@@ -57,11 +57,13 @@ class MovingSurface {
   static constexpr std::size_t kSlots = 1024;  // four times the triangles: short chains
   static std::size_t slot_of(std::int32_t surface, std::int32_t triangle) noexcept;
   void adopt(const messages::LocalModel& model) noexcept;
+  void number_triangles() noexcept;
 
   using Vertices = std::array<Vec3, messages::kMaxLocalVertices>;
 
   const messages::LocalModel* model_ = nullptr;
   std::array<messages::LocalModel::Triangle, messages::kMaxLocalTriangles> triangles_{};
+  int known_count_ = 0;                       // of triangles_
   std::array<std::int16_t, kSlots> slots_{};  // 1 + place of a triangle, 0: free
   Vertices from_m_{};
   Vertices to_m_{};

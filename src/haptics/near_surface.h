@@ -26,7 +26,14 @@ struct NearestPoint {
 /// collecting anew from where the first one ended. Real-time safe; one thread.
 class NearSurface {
  public:
-  explicit NearSurface(double radius_m) noexcept : radius_m_(radius_m) {}
+  /// `stand_off`: what stands on the triangles (a smooth skin) is within the way when it comes as near as they do; at
+  /// most `highest_m` and `of_edge` of the longest edge, and nothing where no edge is longer than `shortest_m`.
+  struct StandOff {
+    double highest_m = 0.0;
+    double of_edge = 0.0;
+    double shortest_m = 0.0;
+  };
+  NearSurface(double radius_m, const StandOff& stand_off) noexcept : radius_m_(radius_m), stand_off_(stand_off) {}
 
   /// Starts a tick on this surface, which stays where it is until the next call.
   void begin_tick(const MovingSurface& surface, const messages::LocalModel& model) noexcept;
@@ -44,6 +51,7 @@ class NearSurface {
 
   double clearance_m() const noexcept { return clearance_m_; }
   double travel_left_m() const noexcept { return travel_left_m_; }
+  double stand_off_m() const noexcept { return stand_off_m_; }
   /// How far the corners of those triangles move in the tick, at most, relative to something that is carried.
   double relative_motion_m(const Vec3& carried_m) const noexcept;
   int count() const noexcept { return near_count_; }
@@ -62,6 +70,8 @@ class NearSurface {
   static constexpr std::size_t kMost = messages::kMaxLocalTriangles;
 
   double radius_m_;
+  StandOff stand_off_;
+  double stand_off_m_ = 0.0;  // on this model
   const MovingSurface* surface_ = nullptr;
   Vec3 coverage_centre_m_ = Vec3::Zero();
   double coverage_m_ = 0.0;  // the centre may go that far from there

@@ -50,7 +50,11 @@ std::size_t at(int index) {
 }  // namespace
 
 Proxy::Proxy(const ContactSettings& settings)
-    : settings_(settings), friction_(settings), near_(std::max(settings.radius_m, kPoint_m)) {
+    : settings_(settings),
+      friction_(settings),
+      near_(std::max(settings.radius_m, kPoint_m), {4.0 / 3.0 * CurvedSurface::kHighest_m, CurvedSurface::kSteepest,
+                                                    CurvedSurface::kShortest * std::max(settings.radius_m, kPoint_m)}),
+      skin_(std::max(settings.radius_m, kPoint_m)) {
   settings_.radius_m = std::max(settings.radius_m, kPoint_m);
 }
 
@@ -69,6 +73,7 @@ void Proxy::tick(const MovingSurface& surface, const messages::LocalModel& model
   tick.goal = goal;
   tick.dt_s = dt_s;
   near_.begin_tick(surface, model);
+  skin_.begin_tick(surface);
   find_anchor(surface);
   if (!placed_) place(surface, goal.position_m);
   const Vec3 before_m = p_m_;
@@ -217,21 +222,53 @@ void Proxy::seek_goal(Tick& tick) noexcept {
   settle_contact(held, tick);
 }
 
+/// The triangles whose skin touches the sphere, all as near as the nearest. Where a fold leaves less room than the
+/// radius they themselves count, not their skins.
+void Proxy::find_touching() noexcept {
+  const double clearance_m = near_.linearise(p_m_, 1.0);
+  const bool is_squeezed = clearance_m < kSqueezed * settings_.radius_m;
+  const double radius_m = is_squeezed ? clearance_m : settings_.radius_m;
+  std::array<NearestPoint, kMaxTouching> points;
+  int count = 0;
+  int first = -1;
+  touching_count_ = 0;
+  felt_clearance_m_ = clearance_m;
+  if (near_.nearest() < 0 || clearance_m > kTouching * settings_.radius_m + near_.stand_off_m()) return;
+  const double stand_off_m = is_squeezed ? 0.0 : near_.stand_off_m();
+  const auto look_at = [&](int i) {
+    const NearestPoint& near = near_.near(i);
+    const double bound_m = felt_clearance_m_ + kTogether_m;
+    if (near.distance_m > bound_m + stand_off_m || count == kMaxTouching) return;
+    const bool is_curved = stand_off_m > 0.0;
+    if (is_curved && near.distance_m > bound_m + skin_.height_m(near.local)) return;
+    points[at(count)] = is_curved ? skin_.nearest(near, p_m_) : near;
+    if (points[at(count)].distance_m > bound_m) return;
+    if (first < 0 || points[at(count)].distance_m < felt_clearance_m_) first = count;
+    felt_clearance_m_ = std::min(felt_clearance_m_, points[at(count)].distance_m);
+    touching_[at(count++)] = i;
+  };
+  look_at(near_.nearest());  // first, for the others need not be looked at when they are farther
+  for (int i = 0; i < near_.count(); ++i) {
+    if (i != near_.nearest()) look_at(i);
+  }
+  if (felt_clearance_m_ > kTouching * settings_.radius_m) return;
+  if (first >= 0) std::swap(points[0], points[at(first)]), std::swap(touching_[0], touching_[at(first)]);
+  for (int i = 0; i < count; ++i) {
+    if (points[at(i)].distance_m > felt_clearance_m_ + kTogether_m) continue;
+    HalfSpace half;
+    half.normal = points[at(i)].distance_m > 0.0 ? Vec3((p_m_ - points[at(i)].point_m) / points[at(i)].distance_m)
+                                                 : near_.normal(touching_[at(i)]);
+    if (i > 0 && half.normal.dot(touching_spaces_[0].normal) > kSameWay) continue;
+    half.offset_m = half.normal.dot(points[at(i)].point_m) + radius_m;
+    touching_[at(touching_count_)] = touching_[at(i)];
+    touching_spaces_[at(touching_count_++)] = half;
+  }
+}
+
 /// Where the device would pull the sphere if only the triangles that it touches were there, without friction. Planes of
 /// farther triangles are safe to obey but no truth: they would tilt the reaction.
 Projection Proxy::press(Tick& tick) noexcept {
-  const double clearance_m = near_.linearise(p_m_, 1.0);
-  touching_count_ = 0;
-  const double radius_m = clearance_m < kSqueezed * settings_.radius_m ? clearance_m : settings_.radius_m;
-  const int first = near_.nearest();
-  for (int i = 0; i < near_.count() && clearance_m <= kTouching * settings_.radius_m; ++i) {
-    if (near_.near(i).distance_m > clearance_m + kTogether_m || touching_count_ == kMaxTouching) continue;
-    if (i != first && near_.normal(i).dot(near_.normal(first)) > kSameWay) continue;
-    touching_[at(touching_count_)] = i;
-    HalfSpace& half = touching_spaces_[at(touching_count_++)];
-    half.normal = near_.normal(i);
-    half.offset_m = half.normal.dot(near_.near(i).point_m) + radius_m;
-  }
+  find_touching();
   Projection held =
       project_to_half_spaces(tick.goal.position_m, std::span(touching_spaces_.data(), at(touching_count_)));
   if (!held.feasible) {  // no room at all: the sphere stays where it is
@@ -248,7 +285,7 @@ Projection Proxy::press(Tick& tick) noexcept {
 Vec3 Proxy::free_target_m(const Tick& tick) const noexcept {
   const Vec3 way_m = tick.goal.position_m - p_m_;
   const double length_m = way_m.norm();
-  if (near_.clearance_m() <= kTouching * settings_.radius_m || !(length_m > 0.0)) return tick.goal.position_m;
+  if (felt_clearance_m_ <= kTouching * settings_.radius_m || !(length_m > 0.0)) return tick.goal.position_m;
   double free_m = length_m;
   for (int i = 0; i < near_.count(); ++i) {
     const double approach = -near_.normal(i).dot(way_m) / length_m;

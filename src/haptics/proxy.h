@@ -6,6 +6,7 @@
 
 #include "core/vector.h"
 #include "haptics/contact_settings.h"
+#include "haptics/curved_surface.h"
 #include "haptics/friction.h"
 #include "haptics/half_space_projection.h"
 #include "haptics/moving_surface.h"
@@ -49,8 +50,8 @@ struct ProxyCounters {
 ///     carry the centre with the tissue under its anchor
 ///     half-spaces of all near triangles --> put the centre where they allow (a moving surface hits a resting proxy)
 ///   then, at the end of the tick, a few times
-///     half-spaces of the touched triangles --> towards the device, less friction, by at most half of the clearance
-///     half-spaces of all near triangles --> put the centre where they allow
+///     half-spaces of the touched triangles' skins --> towards the device, less friction, by at most half of the
+///     clearance half-spaces of all near triangles --> put the centre where they allow
 ///
 /// Real-time safe; one thread.
 class Proxy {
@@ -96,6 +97,7 @@ class Proxy {
   void carry(Tick& tick) noexcept;
   void put_outside(Tick& tick, double fraction) noexcept;
   void seek_goal(Tick& tick) noexcept;
+  void find_touching() noexcept;
   Projection press(Tick& tick) noexcept;
   Vec3 free_target_m(const Tick& tick) const noexcept;
   Vec3 slide(const Projection& held, Tick& tick) noexcept;
@@ -119,6 +121,7 @@ class Proxy {
   ProxyCounters counters_;
 
   NearSurface near_;
+  CurvedSurface skin_;
   Vec3 last_goal_m_ = Vec3::Zero();
   std::int32_t home_surface_ = -1;  // what it was nearest to at the end of the last tick: the side it belongs on
   std::int32_t home_triangle_ = -1;
@@ -126,6 +129,7 @@ class Proxy {
   std::array<int, kMaxTouching> touching_{};  // places in near_
   std::array<HalfSpace, kMaxTouching> touching_spaces_{};
   int touching_count_ = 0;
+  double felt_clearance_m_ = 0.0;  // to the skin
 };
 
 }  // namespace myotact::haptics

@@ -28,6 +28,7 @@ constexpr std::array kGoals = {
     Goal{6, "friction coefficient and breakaway", measure_friction_coefficient},
     Goal{7, "creep while sticking to moving tissue", measure_sticking},
     Goal{10, "stiffest calm wall over the bound of the device", measure_stable_stiffness},
+    Goal{13, "steps of the force across edges, frames, triangles", measure_force_steps},
     Goal{14, "penetration, and depth against force", measure_penetration},
     Goal{15, "energy that the rendering gives to a hand", measure_energy_given},
     Goal{16, "spectrum and strength of texture", measure_texture_spectrum},
