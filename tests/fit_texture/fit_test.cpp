@@ -38,8 +38,8 @@ std::vector<double> process(const std::vector<double>& reflection, double rms_N,
   return {y.begin() + 1000, y.end()};
 }
 
-/// RMS over 20-280 Hz of 10 log10 of the ratio of two processes' densities.
-double distance_dB(std::span<const double> fitted, std::span<const double> expected) {
+/// RMS over 20-280 Hz of 10 log10 of the ratio of two processes' densities. [dB]
+double spectral_distance(std::span<const double> fitted, std::span<const double> expected) {
   double squares = 0.0;
   int count = 0;
   for (double f = 20.0; f <= 280.0; f += 2.0, ++count) {
@@ -102,7 +102,7 @@ TEST(Fit, ComesBackThroughTheFile) {
   EXPECT_EQ(file.tissue, messages::Tissue::Tendon);
   const haptics::VibrationNode& node = file.set.vibration.node(0, 0);
   EXPECT_NEAR(node.rms_N, 0.05, 0.002);
-  EXPECT_LT(distance_dB(std::span(node.reflection.data(), 4), kTrue), 0.5);
+  EXPECT_LT(spectral_distance(std::span(node.reflection.data(), 4), kTrue), 0.5);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(node.reflection[i], grid.node(0, 0).reflection[i]);
 }
 
@@ -152,7 +152,7 @@ TEST(Fit, SortsAGridByForceAndSpeed) {
   const haptics::VibrationGrid grid = fit_vibration(recording, settings, "r");
   const auto check = [&](std::size_t force, std::size_t speed, double rms_N, const std::vector<double>& model) {
     EXPECT_NEAR(grid.node(force, speed).rms_N, rms_N, 0.04 * rms_N);
-    EXPECT_LT(distance_dB(std::span(grid.node(force, speed).reflection.data(), 4), model), 0.5);
+    EXPECT_LT(spectral_distance(std::span(grid.node(force, speed).reflection.data(), 4), model), 0.5);
   };
   check(0, 0, 0.02, kTrue);
   check(1, 1, 0.06, other);
