@@ -34,6 +34,8 @@ class Friction {
  public:
   explicit Friction(const ContactSettings& settings) : settings_(settings) {}
 
+  /// From now on the coupling spring is this stiff, > 0.
+  void couple(double stiffness_N_m) noexcept { settings_.stiffness_N_m = stiffness_N_m; }
   /// How far the sphere slips on, in the plane of the contact. Zero while it sticks.
   Vec3 slip_m(const FrictionTrial& trial) const noexcept;
   /// Ends a tick in contact: how far the sphere slipped in it, and how fast the tool goes over the tissue.

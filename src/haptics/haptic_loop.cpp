@@ -93,7 +93,7 @@ void HapticLoop::tick(std::uint64_t now_ns) noexcept {
                              {goal.position_m, goal.velocity_m_s, (state.buttons & messages::kGrabBoneButton) != 0,
                               gate_.limit_N(), last_.tool.sequence + 1},
                              dt_s_);
-    contact_N = contact_share() * contact_force_N(goal, now_ns, is_new);
+    contact_N = contact_force_N(goal, now_ns, is_new);
     felt.contact_N = settings_.force_scale * contact_N;
     felt.texture_N = settings_.force_scale * texture_force_N(goal, contact_N);
     const messages::LocalLine nothing_near;
@@ -129,12 +129,25 @@ Vec3 HapticLoop::contact_force_N(const ProxyGoal& goal, std::uint64_t now_ns, bo
   if (model_ != nullptr) surface_.begin_tick(*model_, now_ns, is_new);
   if (nothing_known) {
     proxy_.follow(goal.position_m);
+    compliance_.forget();
+    tissue_shift_m_.setZero();
     return Vec3::Zero();
   }
-  proxy_.tick(surface_, *model_, goal, dt_s_);
-  const Vec3 force_N = coupling_force_N(proxy_, goal, settings_.contact);
+  const Vec3 unloaded_m = -compliance_.shift_m();
+  compliance_.bear(contact_share() * settings_.contact.stiffness_N_m);
+  compliance_.tick(*model_, proxy_.contact(), now_ns, dt_s_);
+  unloaded_moved_m_ = -compliance_.shift_m() - unloaded_m;
+  ContactSettings felt = settings_.contact;
+  felt.stiffness_N_m = compliance_.felt_stiffness_N_m();
+  felt.damping_Ns_m *= contact_share();
+  const ProxyGoal played{goal.position_m + compliance_.shift_m(), goal.velocity_m_s};
+  proxy_.couple(felt.stiffness_N_m, felt.damping_Ns_m);
+  proxy_.tick(surface_, *model_, played, dt_s_);
+  Vec3 force_N = coupling_force_N(proxy_, played, felt);
   const double peak_N = gate_.limit_N() / settings_.force_scale;  // the tissue feels no more than the hand
-  return force_N.norm() > peak_N ? Vec3(force_N * (peak_N / force_N.norm())) : force_N;
+  if (force_N.norm() > peak_N) force_N *= peak_N / force_N.norm();
+  tissue_shift_m_ = compliance_.tissue_shift_m(force_N);
+  return force_N;
 }
 
 /// A hand that holds the bone does not also press on it: two springs would be stiffer than the device stands.
@@ -158,11 +171,12 @@ PortForces HapticLoop::make_passive(const PortForces& felt, const ProxyGoal& goa
   tick.wanted = felt;
   tick.hand_m = goal.position_m;
   tick.dt_s = dt_s_;
-  tick.proxy_m = proxy_.position_m();
+  // The contact's spring, tissue included, ends where the tissue would be without the tool.
+  tick.proxy_m = proxy_.position_m() - compliance_.shift_m();
   if (proxy_.contact().active) {
     tick.texture_held_J = settings_.force_scale * texture_.held_J();
-    tick.tissue_moved_m = dt_s_ * proxy_.contact().velocity_m_s;
-    tick.contact_stiffness_N_m = settings_.force_scale * contact_share() * settings_.contact.stiffness_N_m;
+    tick.tissue_moved_m = dt_s_ * proxy_.contact().velocity_m_s + unloaded_moved_m_;
+    tick.contact_stiffness_N_m = settings_.force_scale * compliance_.felt_stiffness_N_m();
   }
   if (model_ != nullptr && line_.muscle() >= 0 && model_->line.muscle == line_.muscle()) tick.line = &model_->line;
   tick.line_gain = settings_.force_scale * line_.gain();
@@ -215,17 +229,18 @@ void HapticLoop::tell(const messages::DeviceState& state, const Vec3& sent_N, co
   tool.time_ns = last_ns_;
   tool.model_sequence = model_ == nullptr ? 0 : model_->sequence;
   if ((faults_ & bit(Fault::NonFiniteDevice)) == 0) tool.tool_position_world_m = state.stylus_position_world_m;
-  tool.proxy_position_world_m = to_array(proxy_.position_m());
+  tool.proxy_position_world_m = to_array(proxy_.position_m() + tissue_shift_m_);
   tool.force_world_N = to_array(sent_N);
   tool.contact = {};
-  const double stiffness_N_m = contact_share() * settings_.contact.stiffness_N_m;
-  if (contact.active && stiffness_N_m > 0.0 && (faults_ & bit(Fault::NonFiniteDevice)) == 0) {
-    // The spring pulls the material point with the opposite of what the hand feels, as long as the tissue rests.
+  const double stiffness_N_m = compliance_.coupling_stiffness_N_m();
+  if (contact.active && contact_share() > 0.0 && (faults_ & bit(Fault::NonFiniteDevice)) == 0) {
+    // The spring pulls the material point with the opposite of what the hand feels, as long as the tissue is where it
+    // is believed to be; its rest place follows the device.
     tool.contact = {contact.surface,
                     contact.triangle,
                     contact.barycentric,
                     to_array(contact.normal),
-                    to_array(contact.point_m - contact_N / stiffness_N_m),
+                    to_array(contact.point_m + tissue_shift_m_ - contact_N / stiffness_N_m),
                     stiffness_N_m};
   }
   tool.buttons = state.buttons;

@@ -8,6 +8,7 @@
 #include "device/device.h"
 #include "haptics/bone_drag.h"
 #include "haptics/buzz_detector.h"
+#include "haptics/contact_compliance.h"
 #include "haptics/contact_settings.h"
 #include "haptics/force_gate.h"
 #include "haptics/haptic_ports.h"
@@ -107,6 +108,9 @@ class HapticLoop {
 
   MovingSurface surface_;
   Proxy proxy_;
+  ContactCompliance compliance_;
+  Vec3 tissue_shift_m_ = Vec3::Zero();    // from the played surface to where the touched tissue is
+  Vec3 unloaded_moved_m_ = Vec3::Zero();  // in this tick, beyond that surface, of the tissue if nothing touched it
   Texture texture_;
   MuscleLineDrag line_;
   BoneDrag bone_;

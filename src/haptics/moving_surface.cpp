@@ -56,7 +56,9 @@ bool is_sound(const messages::LocalModel& model) noexcept {
       return false;
     if (!is_finite(triangle.tissue.fibre_edges[0]) || !is_finite(triangle.tissue.fibre_edges[1])) return false;
   }
-  if (!all_finite(model.compliance_m_N) || !is_sound(model.grip)) return false;
+  const messages::LocalContact& contact = model.contact;
+  if (!all_finite(contact.compliance_m_N) || !to_vec3(contact.force_world_N).allFinite()) return false;
+  if (!is_sound(model.grip)) return false;
   const messages::LocalLine& line = model.line;
   const bool line_is_finite = is_finite(line.tension_N) && is_finite(line.length_m) && is_finite(line.stiffness_N_m) &&
                               is_finite(line.damping_Ns_m) && is_place(line.proximal_point_world_m) &&

@@ -61,6 +61,12 @@ class Proxy {
 
   explicit Proxy(const ContactSettings& settings);
 
+  /// From now on the spring between device and sphere is this stiff, > 0, and so damped.
+  void couple(double stiffness_N_m, double damping_Ns_m) noexcept {
+    settings_.stiffness_N_m = stiffness_N_m;
+    settings_.damping_Ns_m = damping_Ns_m;
+    friction_.couple(stiffness_N_m);
+  }
   /// Advances to the end of the surface's tick, `dt_s` > 0 long.
   void tick(const MovingSurface& surface, const messages::LocalModel& model, const ProxyGoal& goal,
             double dt_s) noexcept;

@@ -22,6 +22,17 @@ struct LocalLine {
   double damping_Ns_m = 0.0;                       // dT/d(dl/dt), >= 0
 };
 
+/// The touched place as the step had it that made the positions of the model: round there the tissue gives way by
+///
+///   compliance (force - force_world_N)
+///
+/// within one step more. Row-major.
+struct LocalContact {
+  std::int32_t surface = -1;               // touched in that step, -1: none
+  std::array<double, 3> force_world_N{};   // of the tool's coupling spring on the tissue at the end of the step
+  std::array<double, 9> compliance_m_N{};  // of the material point, its joints and inertia included, spring left out
+};
+
 /// The joint of the scene reduced to one degree of freedom.
 struct LocalJoint {
   double angle_rad = 0.0;
@@ -82,8 +93,7 @@ struct LocalModel {
   std::array<std::array<double, 3>, kMaxLocalVertices> previous_world_m{};  // at published_at - dt
   std::array<std::array<double, 3>, kMaxLocalVertices> current_world_m{};   // at published_at
   std::array<Triangle, kMaxLocalTriangles> triangles{};
-  /// Displacement of the touched material point by a force on it, one step long, row-major; zero without contact.
-  std::array<double, 9> compliance_m_N{};
+  LocalContact contact{};
   LocalLine line{};
   LocalGrip grip{};
   LocalJoint joint{};

@@ -17,6 +17,7 @@ namespace myotact::simulation {
 
 /// A spring between a place in the world and a material point of a muscle or a point of a body.
 struct ToolSpring {
+  int surface = -1;     // of the scene, for the spring of a contact; -1: of something in hand
   int muscle = -1;      // or -1: `body` and `body_rest_m` say where
   MaterialPoint point;  // of the muscle's mesh
   int body = -1;
@@ -84,7 +85,7 @@ struct Limb {
   std::vector<TouchSurface> touch_surfaces;  // one a muscle; none without contact
   std::vector<ToolSpring> springs;           // of the present step
   std::vector<Vec3> spring_force_N;          // on the tissue or bone
-  std::vector<Mat3> spring_compliance_m_N;   // of the tissue under each spring in the present step
+  std::vector<Mat3> spring_compliance_m_N;   // of what each spring pulls at in the present step, the spring left out
 
   std::span<const double> angles() const {
     return {now.angle_rad.data(), static_cast<std::size_t>(now.angle_rad.size())};

@@ -16,13 +16,15 @@ std::size_t at(int i) {
 }  // namespace
 
 void Simulation::Impl::write_contact(const messages::ToolContact& contact, messages::LocalModel& model) const {
-  model.compliance_m_N = {};
+  model.contact = {};
   for (std::size_t s = 0; s < limb.springs.size(); ++s) {
     const ToolSpring& spring = limb.springs[s];
-    if (contact.stiffness_N_m <= 0.0 || spring.muscle < 0 || spring.muscle != contact.surface) continue;
+    if (contact.stiffness_N_m <= 0.0 || spring.surface < 0 || spring.surface != contact.surface) continue;
     if (spring.target_W_m != to_vec3(contact.target_world_m)) continue;
+    model.contact.surface = contact.surface;
+    model.contact.force_world_N = to_array(limb.spring_force_N[s]);
     const Mat3& compliance = limb.spring_compliance_m_N[s];
-    for (int k = 0; k < 9; ++k) model.compliance_m_N[at(k)] = compliance(k / 3, k % 3);
+    for (int k = 0; k < 9; ++k) model.contact.compliance_m_N[at(k)] = compliance(k / 3, k % 3);
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <Eigen/Cholesky>
+
 namespace myotact::simulation {
 namespace {
 
@@ -93,14 +95,22 @@ void add_springs(const Limb& limb, SmallSystem& small) {
   }
 }
 
-/// Compliance of the tissue under each spring: U^T matrix^-1 U of the muscle alone.
+/// Compliance of what each spring pulls at, the other springs left out: U^T matrix^-1 U of its muscle, and what the
+/// joints add, P^T joints^-1 P.
 void read_compliance(Limb& limb, const SmallSystem& small) {
+  const auto joints = static_cast<Eigen::Index>(small.joints.size());
+  const Eigen::MatrixXd columns = small.matrix.topRightCorner(joints, small.size() - joints);
+  const Eigen::MatrixXd turns = joints > 0 && columns.cols() > 0
+                                    ? Eigen::MatrixXd(small.matrix.topLeftCorner(joints, joints).ldlt().solve(columns))
+                                    : columns;
   for (std::size_t s = 0; s < limb.springs.size(); ++s) {
     const int muscle = limb.springs[s].muscle;
-    const Eigen::Index row = small.spring_row(s);
-    limb.spring_compliance_m_N[s].setZero();
-    if (muscle < 0 || limb.muscles[at(muscle)].rigid) continue;
-    limb.spring_compliance_m_N[s] = limb.muscles[at(muscle)].reduced.block<3, 3>(row, row);
+    const auto first = static_cast<Eigen::Index>(3 * s);
+    Mat3& compliance = limb.spring_compliance_m_N[s];
+    compliance.setZero();
+    if (muscle >= 0 && !limb.muscles[at(muscle)].rigid)
+      compliance = limb.muscles[at(muscle)].reduced.block<3, 3>(small.spring_row(s), small.spring_row(s));
+    if (joints > 0) compliance += columns.middleCols<3>(first).transpose() * turns.middleCols<3>(first);
   }
 }
 

@@ -42,6 +42,7 @@ std::optional<ToolSpring> contact_spring(const messages::ToolContact& contact, c
                       usable_barycentric(contact.barycentric);
   if (!usable) return std::nullopt;
   ToolSpring spring;
+  spring.surface = contact.surface;
   spring.target_W_m = to_vec3(contact.target_world_m);
   spring.stiffness_N_m = contact.stiffness_N_m;
   const std::array<int, 3>& triangle = surface->triangles[at(contact.triangle)];

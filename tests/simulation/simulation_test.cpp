@@ -159,7 +159,8 @@ TEST(Simulation, ASpringOnTheSkinPullsAndItsComplianceTellsHowFar) {
   const Vec3 force = stiffness_N_m * (to_vec3(tool.contact.target_world_m) - start - moved);
   messages::LocalModel model;
   simulation.write_local_model(tool, model);
-  const Mat3 compliance = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(model.compliance_m_N.data());
+  const Mat3 compliance =
+      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(model.contact.compliance_m_N.data());
   EXPECT_LT((compliance * force - moved).norm(), 0.01 * moved.norm());
   EXPECT_LT(moved.z(), 0.0);
 }
@@ -174,6 +175,35 @@ TEST(Simulation, APushOnABoneTurnsTheJoint) {
   tool.contact.target_world_m = to_array(start + Vec3(0.0, 0.0, 0.01));
   simulation.step({&tool, 1});
   EXPECT_GT(simulation.joint(0).angle_rad, 0.0);
+}
+
+// The same push once more, from the same rest, by a spring ten times as stiff: the point goes where the compliance that
+// the first push told says, although no tissue is in it.
+TEST(Simulation, ThePushedBoneTellsItsForceAndHowFarItsJointYields) {
+  const anatomy::Specimen specimen = testing::hinged_bones();
+  const std::array<int, 3>& triangle = specimen.bones[1].surface.triangles[0];
+  Vec3 start = Vec3::Zero();
+  for (int v : triangle) start += specimen.bones[1].surface.positions_m[static_cast<std::size_t>(v)] / 3.0;
+  for (const double stiffness_N_m : {5.0, 50.0}) {
+    Simulation simulation(specimen, {});
+    ToolState tool = press(1, 0, Vec3::Zero(), stiffness_N_m);
+    tool.contact.target_world_m = to_array(start + Vec3(0.0, 0.0, 1e-3));
+    simulation.step({&tool, 1});
+    Vec3 moved = simulation.body_pose(1) * start - start;
+    messages::LocalModel model;
+    simulation.write_local_model(tool, model);
+    EXPECT_EQ(model.contact.surface, 1);
+    const Vec3 force = to_vec3(model.contact.force_world_N);
+    EXPECT_LT((force - stiffness_N_m * (to_vec3(tool.contact.target_world_m) - start - moved)).norm(),
+              1e-9 * force.norm());
+    const Mat3 compliance =
+        Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(model.contact.compliance_m_N.data());
+    EXPECT_LT((compliance * force - moved).norm(), 0.01 * moved.norm());
+    tool.contact = {};
+    simulation.step({&tool, 1});
+    simulation.write_local_model(tool, model);
+    EXPECT_EQ(model.contact.surface, -1);
+  }
 }
 
 // Rod of 0.2 m, hinged at its end, no spring or damper: the mathematical period of small swings is 2 pi sqrt(2 L / 3
