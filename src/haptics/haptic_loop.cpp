@@ -143,7 +143,7 @@ Vec3 HapticLoop::contact_force_N(const ProxyGoal& goal, std::uint64_t now_ns, bo
   const ProxyGoal played{goal.position_m + compliance_.shift_m(), goal.velocity_m_s};
   proxy_.couple(felt.stiffness_N_m, felt.damping_Ns_m);
   proxy_.tick(surface_, *model_, played, dt_s_);
-  Vec3 force_N = coupling_force_N(proxy_, played, felt);
+  Vec3 force_N = contact_share() > 0.0 ? coupling_force_N(proxy_, played, felt) : Vec3::Zero();
   const double peak_N = gate_.limit_N() / settings_.force_scale;  // the tissue feels no more than the hand
   if (force_N.norm() > peak_N) force_N *= peak_N / force_N.norm();
   tissue_shift_m_ = compliance_.tissue_shift_m(force_N);
