@@ -53,6 +53,7 @@ HapticLoop::HapticLoop(device::Device& device, const HapticSettings& settings)
       proxy_(settings_.contact),
       texture_(settings_.texture),
       line_(settings_.line),
+      snap_(settings_.snap),
       bone_(settings_.bone),
       ports_(device.profile().inertia_kg, device.profile().delay_ticks),
       buzz_(device.profile().resolution_m),
@@ -97,9 +98,11 @@ void HapticLoop::tick(std::uint64_t now_ns) noexcept {
     felt.contact_N = settings_.force_scale * contact_N;
     felt.texture_N = settings_.force_scale * texture_force_N(goal, contact_N);
     const messages::LocalLine nothing_near;
+    const messages::LocalLine& line = model_ == nullptr ? nothing_near : model_->line;
+    const bool open = line_.gain() <= 0.0 && bone_.body() < 0;
+    felt.texture_N += settings_.force_scale * snap_.tick(line, goal.position_m, open, dt_s_);
     const Vec3 line_N =
-        line_.tick(model_ == nullptr ? nothing_near : model_->line,
-                   {goal.position_m, goal.velocity_m_s, (state.buttons & messages::kGrabButton) != 0}, dt_s_);
+        line_.tick(line, {goal.position_m, goal.velocity_m_s, (state.buttons & messages::kGrabButton) != 0}, dt_s_);
     felt.line_N = settings_.force_scale * line_N;
     felt = make_passive(felt, goal);
   } else {
@@ -171,10 +174,11 @@ PortForces HapticLoop::make_passive(const PortForces& felt, const ProxyGoal& goa
   tick.wanted = felt;
   tick.hand_m = goal.position_m;
   tick.dt_s = dt_s_;
+  tick.texture_held_J = settings_.force_scale * snap_.held_J();
   // The contact's spring, tissue included, ends where the tissue would be without the tool.
   tick.proxy_m = proxy_.position_m() - compliance_.shift_m();
   if (proxy_.contact().active) {
-    tick.texture_held_J = settings_.force_scale * texture_.held_J();
+    tick.texture_held_J += settings_.force_scale * texture_.held_J();
     tick.tissue_moved_m = dt_s_ * proxy_.contact().velocity_m_s + unloaded_moved_m_;
     tick.contact_stiffness_N_m = settings_.force_scale * compliance_.felt_stiffness_N_m();
   }

@@ -12,6 +12,7 @@
 #include "haptics/contact_settings.h"
 #include "haptics/force_gate.h"
 #include "haptics/haptic_ports.h"
+#include "haptics/line_snap.h"
 #include "haptics/moving_surface.h"
 #include "haptics/muscle_line_drag.h"
 #include "haptics/proxy.h"
@@ -28,6 +29,7 @@ inline constexpr std::uint64_t kTickPeriod_ns = 1'000'000;
 struct HapticSettings {
   ContactSettings contact;
   LineDragSettings line;
+  LineSnapSettings snap;
   BoneDragSettings bone;  // its force scale is the loop's
   GateSettings gate;
   TextureSettings texture;
@@ -113,6 +115,7 @@ class HapticLoop {
   Vec3 unloaded_moved_m_ = Vec3::Zero();  // in this tick, beyond that surface, of the tissue if nothing touched it
   Texture texture_;
   MuscleLineDrag line_;
+  LineSnap snap_;
   BoneDrag bone_;
   HapticPorts ports_;
   BuzzDetector buzz_;

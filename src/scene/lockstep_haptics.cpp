@@ -15,6 +15,7 @@ haptics::HapticSettings haptic_settings(const ToolSettings& tool) {
   settings.contact.stribeck_m_s = tool.stribeck_m_s;
   settings.contact.along_over_across = tool.along_over_across;
   settings.contact.viscous_Ns_m = tool.viscous_Ns_m;
+  settings.snap.force_N = tool.line_snap_N;
   settings.force_scale = tool.force_scale;
   settings.gate.force_limit = tool.force_limit;
   settings.texture = tool.texture;

@@ -224,6 +224,7 @@ ToolSettings read_tool(const JsonValue& value) {
   if (const auto limit = fields.find("force_limit")) tool.force_limit = limit->number_between(0.0, 1.0);
   if (const auto friction = fields.find("friction")) read_friction(*friction, tool);
   if (const auto stiffness = fields.find("stiffness_N_m")) tool.stiffness_N_m = stiffness->number_between(10.0, 5000.0);
+  if (const auto snap = fields.find("line_snap_N")) tool.line_snap_N = snap->number_between(0.0, 1.0);
   if (const auto texture = fields.find("texture")) tool.texture = textures_asked_for(*texture);
   fields.finish();
   return tool;

@@ -36,6 +36,7 @@ struct ToolSettings {
   double along_over_across = 1.0;  // friction along the fibres over across them
   double viscous_Ns_m = 0.0;
   double stiffness_N_m = 800.0;
+  double line_snap_N = 0.0;  // the most that a muscle line near the surface pulls a passing tool with
   haptics::TextureSettings texture;  // smooth where empty
 };
 

@@ -218,7 +218,7 @@ messages::LocalLine local_line(std::span<const LineView> lines, const LineHand& 
   messages::LocalLine result;
   const LineView* chosen = nullptr;
   LinePlace place;
-  place.distance_m = kLineReach_m;
+  double nearest_m = kLineReach_m;
   for (const LineView& line : lines) {
     if (line.points_m.size() < 2) continue;
     if (line.muscle == hand.grabbed_muscle && line.muscle >= 0) {
@@ -227,7 +227,9 @@ messages::LocalLine local_line(std::span<const LineView> lines, const LineHand& 
       break;
     }
     const LinePlace here = nearest_place(line.points_m, line.fractions, hand.tool_m);
-    if (here.distance_m > place.distance_m) continue;
+    const double counts_m = here.distance_m - (line.muscle == hand.offered_muscle ? kLineLead_m : 0.0);
+    if (counts_m > nearest_m) continue;
+    nearest_m = counts_m;
     chosen = &line;
     place = here;
   }

@@ -71,16 +71,20 @@ struct LineHand {
   Vec3 tool_m = Vec3::Zero();
   int grabbed_muscle = -1;  // -1: none in hand
   double grab_fraction = 0.0;
+  int offered_muscle = -1;  // the nearest line so far, -1: none
 };
 
 /// A line farther than this from the tool is not offered.
 inline constexpr double kLineReach_m = 0.030;
+/// Another line must be nearer than the one offered so far by this much, or the offer would flicker between two lines
+/// while a hand trembles by 0.2 mm halfway.
+inline constexpr double kLineLead_m = 0.002;
 /// The string's ends lie at least this far from the place in hand, where the line is long enough: a closer end would
 /// make a small sideways pull a steep one.
 inline constexpr double kShortestString_m = 0.020;
 
-/// The line in hand, else the nearest within reach, else muscle -1. Negative stiffness or damping is sent as 0, which
-/// the contract of LocalLine asks for. Real-time safe.
+/// The line in hand, else the nearest within reach (the one offered so far a little longer), else muscle -1. Negative
+/// stiffness or damping is sent as 0, which the contract of LocalLine asks for. Real-time safe.
 messages::LocalLine local_line(std::span<const LineView> lines, const LineHand& hand) noexcept;
 
 }  // namespace myotact::simulation

@@ -100,6 +100,7 @@ void Simulation::set_joint_torque(int joint, double torque_Nm) {
 }
 
 void Simulation::restart() {
+  impl_->offered_line = -1;
   return_to_file_pose(impl_->limb);
 }
 
@@ -149,6 +150,7 @@ void Simulation::step(std::span<const messages::ToolState> tools) {
   });
   if (refreshes) in.next_refresh = (in.next_refresh + 1) % static_cast<int>(in.limb.muscles.size());
   ++in.steps;
+  in.offered_line = tools.empty() ? -1 : in.line_at(tools.front()).muscle;
 }
 
 double Simulation::time_s() const {

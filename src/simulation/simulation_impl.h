@@ -37,6 +37,7 @@ struct Simulation::Impl {
   int next_refresh = 0;  // muscle whose stiffness is refreshed by the next step
   int failed_steps = 0;
   double residual_share = 0.0;  // of the last step
+  int offered_line = -1;        // muscle whose line was nearest to the first tool after the last step
 
   double time_s() const { return static_cast<double>(steps) * settings.dt_s; }
   bool advance_in_parts(double dt_s, int halvings);
@@ -48,7 +49,7 @@ struct Simulation::Impl {
   JointReadout joint(int joint, const std::vector<LineReading>& lines_now) const;
   double tension_N(int muscle) const;
   void write_contact(const messages::ToolContact& contact, messages::LocalModel& model) const;
-  void write_line(const messages::ToolState& tool, messages::LocalModel& model) const;
+  messages::LocalLine line_at(const messages::ToolState& tool) const;
   void write_joint(int joint, const std::vector<LineReading>& lines_now, messages::JointFrame& frame) const;
   void write_grip(const messages::ToolState& tool, messages::LocalModel& model) const;
 };

@@ -28,7 +28,7 @@ void Simulation::Impl::write_contact(const messages::ToolContact& contact, messa
   }
 }
 
-void Simulation::Impl::write_line(const messages::ToolState& tool, messages::LocalModel& model) const {
+messages::LocalLine Simulation::Impl::line_at(const messages::ToolState& tool) const {
   std::vector<std::vector<Vec3>> points;
   std::vector<LineView> views;
   const std::vector<LineReading> lines_now = read_lines();
@@ -38,7 +38,7 @@ void Simulation::Impl::write_line(const messages::ToolState& tool, messages::Loc
     views.push_back({static_cast<int>(m), points[m], lines[m].fractions, std::max(0.0, tension_N(static_cast<int>(m))),
                      force.stiffness_N_m, force.damping_Ns_m});
   }
-  model.line = local_line(views, {to_vec3(tool.tool_position_world_m), tool.grabbed_line, tool.grab_fraction});
+  return local_line(views, {to_vec3(tool.tool_position_world_m), tool.grabbed_line, tool.grab_fraction, offered_line});
 }
 
 void Simulation::Impl::write_grip(const messages::ToolState& tool, messages::LocalModel& model) const {
@@ -79,7 +79,7 @@ void Simulation::write_local_model(const messages::ToolState& tool, messages::Lo
   model.tool_sequence = tool.sequence;
   in.surfaces.patch().write(to_vec3(tool.proxy_position_world_m), model);
   in.write_contact(tool.contact, model);
-  in.write_line(tool, model);
+  model.line = in.line_at(tool);
   in.write_grip(tool, model);
   model.joint = {};
   for (int j = 0; j < in.limb.skeleton.joint_count(); ++j) {

@@ -166,6 +166,23 @@ TEST(LocalLine, NearestLineWithinReachIsOffered) {
   EXPECT_EQ(local_line(lines, {Vec3(0.062, 0.031, 0.0), -1, 0.0}).muscle, -1);
 }
 
+// A finger that trembles by 0.2 mm between two lines does not change hands between them; one that goes over does, once.
+TEST(LocalLine, TheOfferDoesNotFlickerBetweenTwoLines) {
+  const std::vector<double> fractions = arc_fractions(kLine);
+  std::array<Vec3, 6> beside = kLine;
+  for (Vec3& point_m : beside) point_m.y() += 0.02;
+  const std::array<LineView, 2> lines{{{0, kLine, fractions, 10.0, 1.0, 1.0}, {1, beside, fractions, 50.0, 2.0, 3.0}}};
+  int offered = -1, changes = 0;
+  for (int i = 0; i <= 1000; ++i) {
+    const double y_m = 2e-5 * i + 2e-4 * std::sin(0.9 * i);
+    const int now = local_line(lines, {Vec3(0.07, y_m, 0.0), -1, 0.0, offered}).muscle;
+    changes += i > 0 && now != offered;
+    offered = now;
+  }
+  EXPECT_EQ(changes, 1);
+  EXPECT_EQ(offered, 1);
+}
+
 TEST(LocalLine, TheLineInHandStaysInHandAndItsStringGoesThroughTheTool) {
   const std::vector<double> fractions = arc_fractions(kLine);
   const std::array<LineView, 2> lines{{{0, kLine, fractions, 10.0, 1.0, 1.0}, {1, kLine, fractions, 50.0, 2.0, 3.0}}};

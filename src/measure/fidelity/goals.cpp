@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "measure/fidelity/coupling_goals.h"
+#include "measure/fidelity/drag_goals.h"
 #include "measure/fidelity/friction_goals.h"
 #include "measure/fidelity/goal.h"
 #include "measure/fidelity/loop_goals.h"
@@ -29,6 +30,7 @@ constexpr std::array kGoals = {
     Goal{6, "friction coefficient and breakaway", measure_friction_coefficient},
     Goal{7, "creep while sticking to moving tissue", measure_sticking},
     Goal{8, "felt stiffness against the tissue's own", measure_felt_stiffness},
+    Goal{9, "joint stiffness felt at the paw", measure_joint_at_paw},
     Goal{10, "stiffest calm wall over the bound of the device", measure_stable_stiffness},
     Goal{11, "stiffest calm coupling, simulation one step late", measure_multirate_stability},
     Goal{12, "force jitter of a press of 1 N", measure_press_jitter},
@@ -36,6 +38,7 @@ constexpr std::array kGoals = {
     Goal{14, "penetration, and depth against force", measure_penetration},
     Goal{15, "energy that the rendering gives to a hand", measure_energy_given},
     Goal{16, "spectrum and strength of texture", measure_texture_spectrum},
+    Goal{17, "force of a line in hand against a strand", measure_line_drag},
     Goal{18, "impulse of the hand against that of the tissue", measure_impulse_balance},
     Goal{20, "force within its limit, and gone at once, whatever goes wrong", measure_safety},
     Goal{21, "a recorded session comes out again", measure_replay},
