@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "haptics/faults.h"
 #include "haptics/stiffness_bound.h"
@@ -108,7 +109,9 @@ void HapticLoop::tick(std::uint64_t now_ns) noexcept {
   } else {
     faults_ |= bit(Fault::NonFiniteDevice);
   }
-  const Vec3 sent_N = gate_and_write(felt.sum_N(), to_vec3(state.stylus_position_world_m), now_ns);
+  const Vec3 nowhere = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+  const Vec3 sent_N =
+      gate_and_write(felt.sum_N(), device_is_sound ? to_vec3(state.stylus_position_world_m) : nowhere, now_ns);
   ports_.book(sent_N);
   faults_ |= proxy_faults();
   tell(state, sent_N, contact_N);
@@ -123,6 +126,7 @@ bool HapticLoop::take_model(std::uint64_t now_ns) noexcept {
     return false;
   }
   model_ = &models_.front();
+  model_interval_ns_ = model_arrived_ns_ != 0 && now_ns > model_arrived_ns_ ? now_ns - model_arrived_ns_ : 0;
   model_arrived_ns_ = now_ns;
   return true;
 }
@@ -162,8 +166,10 @@ void HapticLoop::soften(const Vec3& device_m, std::uint64_t now_ns) noexcept {
   if (buzz_.tick(device_m, to_vec3(last_.tool.force_world_N).norm() > kFelt_N, dt_s_)) faults_ |= bit(Fault::Buzz);
   if (model_ == nullptr || !settings_.limit_stiffness) return;
   const std::uint64_t since_ns = now_ns > model_->published_at_ns ? now_ns - model_->published_at_ns : 0;
-  // The simulation looked at the hand at the beginning of the step that ended with this model.
-  const double age_s = std::max(1e-3, 1e-9 * (static_cast<double>(since_ns) + static_cast<double>(model_->dt_ns)));
+  // The simulation looked at the hand at the beginning of the step that ended with this model; steps may take longer
+  // than the time that they simulate.
+  const std::uint64_t step_ns = std::max(model_->dt_ns, model_interval_ns_);
+  const double age_s = std::max(1e-3, 1e-9 * (static_cast<double>(since_ns) + static_cast<double>(step_ns)));
   const double bears = std::min(1.0, stiffness_by_age_N_m(age_s) / settings_.contact.stiffness_N_m);
   age_share_ += std::min(1.0, dt_s_ / (bears < age_share_ ? kSoften_s : kStiffen_s)) * (bears - age_share_);
   if (bears < 1.0) faults_ |= bit(Fault::StiffnessLowered);

@@ -126,6 +126,7 @@ class HapticLoop {
   ProxyCounters counted_;
   const messages::LocalModel* model_ = nullptr;  // in use; null: none came yet, or the newest was unsound
   std::uint64_t model_arrived_ns_ = 0;
+  std::uint64_t model_interval_ns_ = 0;  // between the last two models; 0: not known
   std::uint64_t last_ns_ = 0;
   std::uint32_t faults_ = 0;
   double dt_s_ = 1e-3;

@@ -205,10 +205,8 @@ GoalFigures measure_energy_given(Effort effort) {
                     {"largest force that was felt", given.largest_N, "N", 1.0, true},
                     {"share of the time in touch", given.touched_s / seconds, "", 0.2, true}};
   result.note = fmt::format(
-      "{} s of simulated poking: contact with friction and texture on waves, line and bone in hand; touches in which "
-      "the force was "
-      "cut for "
-      "cut-off are not in the second figure",
+      "{} s of simulated poking: contact with friction and texture on waves, line and bone in hand; the second figure "
+      "leaves out touches while the gate opens after a cut-off",
       seconds);
   return result;
 }
