@@ -22,6 +22,7 @@ constexpr std::array kRates_hz = {62.5, 100.0, 200.0};
 device::DeviceProfile smooth_device() {
   device::DeviceProfile profile;
   profile.peak_force_N = 20.0;
+  profile.continuous_force_N = 20.0;  // warm motors are not the question
   profile.max_stiffness_N_m = 1e5;
   profile.inertia_kg = 0.1;
   profile.viscous_Ns_m = 0.2;
@@ -161,9 +162,9 @@ GoalFigures measure_press_jitter(Effort effort) {
     }
   }
   result.note = fmt::format(
-      "800 N/m, one step late, device with 0.05 N of friction and an encoder of 20 um; without any friction the "
-      "encoder's "
-      "steps of {:.0f} mN keep it going at up to {:.0f} mN",
+      "800 N/m, one step late, device with 0.05 N of friction and an encoder of 20 um; without any friction, where "
+      "nothing "
+      "stops the encoder's steps of {:.0f} mN, up to {:.0f} mN",
       1e3 * 800.0 * least_friction.resolution_m, 1e3 * without_friction_N);
   return result;
 }
