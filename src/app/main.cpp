@@ -51,7 +51,10 @@ CLI::App* add_probe(CLI::App& program, Options& options) {
   probe->add_option("--stiffness", options.stiffness_N_m, "of the coupling [N/m], 1 .. 10000")->capture_default_str();
   probe->add_option("--mu", options.friction, "coefficient of friction, 0 .. 2")->capture_default_str();
   probe->add_option("--rate", options.rate_hz, "ticks a second [Hz], 10 .. 100000")->capture_default_str();
-  add_common(*probe, options);
+  probe->add_option("-o,--out", options.out, "folder for probe.csv")->capture_default_str();
+  probe->add_flag("--json", options.json, "machine-readable summary on standard output");
+  probe->add_option("--log-level", options.log_level, "trace, debug, info, warning, error, critical or off")
+      ->capture_default_str();
   return probe;
 }
 

@@ -16,8 +16,8 @@ namespace {
 constexpr double kRidge = 0.8;
 /// Two make the point exact to 1 um on a patch of 3 mm with a radius of curvature of 10 mm, three to 10 nm.
 constexpr int kIterations = 3;
-/// In barycentric coordinates: 30 nm on an edge of 3 mm.
-constexpr double kSettled = 1e-5;
+/// In barycentric coordinates: the next step would be a hundredth of this one, 30 nm on an edge of 3 mm.
+constexpr double kSettled = 1e-3;
 
 std::size_t at(int index) {
   return static_cast<std::size_t>(index);

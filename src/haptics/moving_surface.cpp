@@ -21,9 +21,10 @@ double played(const messages::LocalModel& model, std::uint64_t now_ns) {
   return age_ns >= model.dt_ns ? 1.0 : static_cast<double>(age_ns) / static_cast<double>(model.dt_ns);
 }
 
-/// A vertex when this share of its way is played.
+/// A vertex when this share of its way is played. One that rests rests to the bit, so that what was computed holds.
 Vec3 place_m(const messages::LocalModel& model, std::size_t vertex, double share) {
-  return (1.0 - share) * to_vec3(model.previous_world_m[vertex]) + share * to_vec3(model.current_world_m[vertex]);
+  const Vec3 previous_m = to_vec3(model.previous_world_m[vertex]), current_m = to_vec3(model.current_world_m[vertex]);
+  return share >= 1.0 ? current_m : Vec3(previous_m + share * (current_m - previous_m));
 }
 
 bool all_finite(const std::array<double, 9>& matrix) {

@@ -33,7 +33,7 @@ void NearSurface::begin_tick(const MovingSurface& surface, const messages::Local
 /// At the beginning of the tick; the motion of the tick itself is added when they are used.
 void NearSurface::enclose_triangles() noexcept {
   const MovingSurface& surface = *surface_;
-  double largest_m = 0.0;
+  stand_off_m_ = 0.0;
   for (int i = 0; i < surface.triangle_count(); ++i) {
     const Vec3 a = surface.corner_m(i, 0, 0.0);
     const Vec3 b = surface.corner_m(i, 1, 0.0);
@@ -44,11 +44,11 @@ void NearSurface::enclose_triangles() noexcept {
     sphere_z_m_[at(i)] = centre_m.z();
     sphere_radius_m_[at(i)] =
         std::sqrt(std::max({(a - centre_m).squaredNorm(), (b - centre_m).squaredNorm(), (c - centre_m).squaredNorm()}));
-    largest_m = std::max(largest_m, sphere_radius_m_[at(i)]);
+    const double longest_m = 2.0 * sphere_radius_m_[at(i)];  // no edge is longer
+    stand_offs_m_[at(i)] =
+        longest_m > stand_off_.shortest_m ? std::min(stand_off_.highest_m, stand_off_.of_edge * longest_m) : 0.0;
+    stand_off_m_ = std::max(stand_off_m_, stand_offs_m_[at(i)]);
   }
-  const double longest_m = 2.0 * largest_m;  // no edge is longer
-  stand_off_m_ =
-      longest_m > stand_off_.shortest_m ? std::min(stand_off_.highest_m, stand_off_.of_edge * longest_m) : 0.0;
   enclosed_model_ = surface.adopted_count();
   moved_m_ = surface.largest_motion_m();
 }
@@ -56,13 +56,13 @@ void NearSurface::enclose_triangles() noexcept {
 void NearSurface::collect(const Vec3& p_m, double travel_m) noexcept {
   travel_left_m_ = travel_m;
   linearised_at_ = -1.0;
-  const double reach_m = radius_m_ + travel_m + moved_m_ + stand_off_m_;
+  const double reach_m = radius_m_ + travel_m + moved_m_;
   candidate_count_ = 0;
   for (int i = 0; i < surface_->triangle_count(); ++i) {
     const double x = sphere_x_m_[at(i)] - p_m.x();
     const double y = sphere_y_m_[at(i)] - p_m.y();
     const double z = sphere_z_m_[at(i)] - p_m.z();
-    const double far_m = sphere_radius_m_[at(i)] + reach_m;
+    const double far_m = sphere_radius_m_[at(i)] + stand_offs_m_[at(i)] + reach_m;
     candidates_[at(candidate_count_)] = static_cast<std::int16_t>(i);
     candidate_count_ += x * x + y * y + z * z <= far_m * far_m ? 1 : 0;
   }
@@ -74,7 +74,7 @@ double NearSurface::linearise(const Vec3& p_m, double fraction) noexcept {
   if ((is_still ? linearised_at_ >= 0.0 : fraction == linearised_at_) && p_m == linearised_m_) return clearance_m_;
   linearised_at_ = fraction;
   linearised_m_ = p_m;
-  const double far_m = radius_m_ + travel_left_m_ + surface.largest_motion_m() + stand_off_m_;
+  const double far_m = radius_m_ + travel_left_m_ + surface.largest_motion_m();
   near_count_ = 0;
   nearest_ = -1;
   clearance_m_ = far_m;
@@ -85,7 +85,8 @@ double NearSurface::linearise(const Vec3& p_m, double fraction) noexcept {
                                             surface.corner_m(local, 1, fraction), surface.corner_m(local, 2, fraction));
     const Vec3 away_m = p_m - nearest.position_m;
     const double distance_m = away_m.norm();
-    if (!(distance_m <= far_m)) continue;  // also what a triangle without area may give: not a number
+    if (!(distance_m <= far_m + stand_offs_m_[at(local)]))
+      continue;  // also what a triangle without area may give: not a number
     if (nearest_ < 0 || distance_m < clearance_m_) nearest_ = near_count_;
     clearance_m_ = std::min(clearance_m_, distance_m);
     half_spaces_[at(near_count_)].normal =

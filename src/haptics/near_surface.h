@@ -27,7 +27,7 @@ struct NearestPoint {
 class NearSurface {
  public:
   /// `stand_off`: what stands on the triangles (a smooth skin) is within the way when it comes as near as they do; at
-  /// most `highest_m` and `of_edge` of the longest edge, and nothing where no edge is longer than `shortest_m`.
+  /// most `highest_m` and `of_edge` of a triangle's longest edge, and nothing where that is below `shortest_m`.
   struct StandOff {
     double highest_m = 0.0;
     double of_edge = 0.0;
@@ -51,7 +51,8 @@ class NearSurface {
 
   double clearance_m() const noexcept { return clearance_m_; }
   double travel_left_m() const noexcept { return travel_left_m_; }
-  double stand_off_m() const noexcept { return stand_off_m_; }
+  double stand_off_m() const noexcept { return stand_off_m_; }  // of all triangles, at most
+  double stand_off_m(int local) const noexcept { return stand_offs_m_[static_cast<std::size_t>(local)]; }
   /// How far the corners of those triangles move in the tick, at most, relative to something that is carried.
   double relative_motion_m(const Vec3& carried_m) const noexcept;
   int count() const noexcept { return near_count_; }
@@ -81,7 +82,7 @@ class NearSurface {
   // Spheres round the model's triangles where they were when computed.
   std::uint64_t enclosed_model_ = 0;
   double moved_m_ = 0.0;  // since then, at most
-  std::array<double, kMost> sphere_x_m_{}, sphere_y_m_{}, sphere_z_m_{}, sphere_radius_m_{};
+  std::array<double, kMost> sphere_x_m_{}, sphere_y_m_{}, sphere_z_m_{}, sphere_radius_m_{}, stand_offs_m_{};
 
   std::array<std::int16_t, kMost> candidates_{};
   int candidate_count_ = 0;

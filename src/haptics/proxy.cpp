@@ -32,6 +32,8 @@ constexpr double kConverged_m = 1e-7;
 /// Tests of the sphere against triangles in a tick before it stops short. Parts of the tick that keep
 /// the proxy outside are never left out.
 constexpr int kTestBudget = 2000;
+/// The next move would be less than a tenth of this one (depth over radius of curvature): not worth its look.
+constexpr double kSettled_m = 1e-6;
 /// A stuck sphere may be off its anchor by this share of the radius (normal travel over a curved surface) before the
 /// anchor is renewed: the anchor is what keeps it from creeping, so it is kept as long as it makes sense.
 constexpr double kAnchorSlack = 0.05;
@@ -207,11 +209,11 @@ void Proxy::seek_goal(Tick& tick) noexcept {
     held = press(tick);
     Vec3 move_m = (held.active_count == 0 ? free_target_m(tick) : slide(held, tick)) - p_m_;
     const double length_m = move_m.norm();
-    settled = length_m < kConverged_m;
+    settled = length_m < kSettled_m;
     const double safe_m = 0.5 * near_.clearance_m();  // so far nothing can be crossed
     if (length_m > safe_m) move_m *= safe_m / length_m;
     move_towards(p_m_ + move_m);
-    if (settled) break;
+    if (length_m < kConverged_m) break;
     if (near_.linearise(p_m_, 1.0) < settings_.radius_m) move_towards(near_.project(p_m_).point_m);
     allow_more(tick, 1.0);
   }
@@ -234,10 +236,10 @@ void Proxy::find_touching() noexcept {
   touching_count_ = 0;
   felt_clearance_m_ = clearance_m;
   if (near_.nearest() < 0 || clearance_m > kTouching * settings_.radius_m + near_.stand_off_m()) return;
-  const double stand_off_m = is_squeezed ? 0.0 : near_.stand_off_m();
   const auto look_at = [&](int i) {
     const NearestPoint& near = near_.near(i);
     const double bound_m = felt_clearance_m_ + kTogether_m;
+    const double stand_off_m = is_squeezed ? 0.0 : near_.stand_off_m(near.local);
     if (near.distance_m > bound_m + stand_off_m || count == kMaxTouching) return;
     const bool is_curved = stand_off_m > 0.0;
     if (is_curved && near.distance_m > bound_m + skin_.height_m(near.local)) return;
