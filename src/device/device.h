@@ -16,8 +16,9 @@ struct DeviceProfile {
   double inertia_kg = 0.07;  // felt at the stylus
   double viscous_Ns_m = 0.05;
   double coulomb_N = 0.1;
-  double resolution_m = 20e-6;  // of the encoder, at the stylus
-  int delay_ticks = 0;          // from reading a position to the force that answers it
+  double resolution_m = 20e-6;    // of the encoder, at the stylus
+  bool shows_force_only = false;  // nothing moves the hand, as of a mouse: no speed of it is dangerous
+  int delay_ticks = 0;            // from reading a position to the force that answers it
 };
 
 /// One force-feedback device. open() and close() belong to the thread that owns the device; read() and write() to the

@@ -13,6 +13,7 @@ constexpr double kLag_s = 0.03;
 
 MouseDevice::MouseDevice(const Vec3& start_world_m) : position_m_(start_world_m) {
   pointer_.position_world_m = to_array(start_world_m);
+  profile_.shows_force_only = true;
   profile_.resolution_m = 0.0;                          // the lag makes positions continuous
   profile_.continuous_force_N = profile_.peak_force_N;  // no motor that could grow hot
 }

@@ -77,6 +77,7 @@ Vec3 ForceGate::watch_device(const GateInput& input, double elapsed_s) noexcept 
   if (!knows_position_) return Vec3::Zero();
   const Vec3 moved_m = known ? Vec3(input.device_position_m - last_position_m_) : Vec3::Zero();
   last_position_m_ = input.device_position_m;
+  if (profile_.shows_force_only) return moved_m;
   const double speed_m_s = moved_m.norm() / std::max(elapsed_s, kShortestTick_s);
   if (!(speed_m_s <= kFasterThanAnyHand_m_s)) {
     faults_ |= bit(Fault::DeviceJumped);

@@ -170,7 +170,7 @@ TickRecord record_of(const haptics::HapticTick& tick) {
 }
 
 std::string recording_header(const Scene& scene, std::uint64_t seed, const device::DeviceProfile& profile) {
-  nlohmann::json device = {{"delay_ticks", profile.delay_ticks}};
+  nlohmann::json device = {{"delay_ticks", profile.delay_ticks}, {"shows_force_only", profile.shows_force_only}};
   for (const ProfileKey& key : kProfileKeys) device[key.name] = profile.*key.value;
   const nlohmann::json header = {{"schema", 1},
                                  {"seed", seed},
@@ -188,6 +188,7 @@ device::DeviceProfile device_of_recording(const nlohmann::json& header, const st
   JsonObject numbers(*device);
   for (const ProfileKey& key : kProfileKeys) profile.*key.value = numbers.at(key.name).number_between(0.0, kMostOfAll);
   profile.delay_ticks = numbers.at("delay_ticks").integer_between(0, 1000);
+  profile.shows_force_only = numbers.at("shows_force_only").boolean();
   numbers.finish();
   return profile;
 }

@@ -72,6 +72,20 @@ TEST(GateSafety, BelowTheCutOffNothingIsCut) {
   EXPECT_EQ(rig.gate.state(), GateState::On);
 }
 
+TEST(GateSafety, AMouseMayBeAsFastAsItLikes) {
+  device::DeviceProfile mouse = cool_motors();
+  mouse.shows_force_only = true;
+  Rig rig(full_share(), mouse);
+  rig.open();
+  Vec3 position_m = Vec3::Zero();
+  for (int i = 0; i < 50; ++i) {
+    position_m.y() += i == 25 ? 0.3 : 3e-3;  // a flick of the wrist, and a pointer that is set somewhere else
+    rig.tick(Vec3(0.5, 0, 0), position_m);
+    EXPECT_FALSE(raised(rig, Fault::TooFast) || raised(rig, Fault::DeviceJumped));
+  }
+  EXPECT_EQ(rig.gate.state(), GateState::On);
+}
+
 TEST(GateSafety, ALateTickIsJudgedByItsOwnTime) {
   Rig rig;
   rig.open();
