@@ -195,7 +195,8 @@ TEST(SurfaceTouch, TheProxysPartOfATickAllocatesNothing) {
   const support::AllocationGuard guard;
   for (int tick = 2; tick < 300; ++tick) {
     const double angle = 2e-3 * tick;
-    touch.tick({0.026 * Vec3(std::sin(angle), 0.0, std::cos(angle)), Vec3::Zero()}, 1'000'000ULL * tick);
+    touch.tick({0.026 * Vec3(std::sin(angle), 0.0, std::cos(angle)), Vec3::Zero()},
+               1'000'000ULL * static_cast<std::uint64_t>(tick));
   }
   EXPECT_EQ(guard.allocations(), 0u);
 }
