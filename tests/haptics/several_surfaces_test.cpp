@@ -1,0 +1,122 @@
+// A tool between three surfaces at once: a table that stands, a box that comes from the side and a ball that swells
+// above.
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "geometry/closest_point.h"
+#include "haptics/proxy.h"
+#include "surfaces.h"
+
+namespace myotact::haptics {
+namespace {
+
+constexpr std::uint64_t kTick_ns = 1'000'000;
+constexpr int kTicksAStep = 10;
+
+/// Three meshes in one list of vertices and triangles; `surface` tells which one a triangle is of.
+struct Room {
+  TestMesh mesh;
+  std::size_t table = 0, box = 0;  // vertices of each
+  std::size_t table_triangles = 0, box_triangles = 0;
+
+  void add(const TestMesh& part) {
+    const int first = static_cast<int>(mesh.vertices_m.size());
+    mesh.vertices_m.insert(mesh.vertices_m.end(), part.vertices_m.begin(), part.vertices_m.end());
+    for (const auto& [a, b, c] : part.triangles) mesh.triangles.push_back({a + first, b + first, c + first});
+  }
+  /// Box and ball, which have an inside.
+  TestMesh solids() const {
+    return {{}, {mesh.triangles.begin() + static_cast<std::ptrdiff_t>(table_triangles), mesh.triangles.end()}};
+  }
+  int surface_of(int triangle) const {
+    const auto t = static_cast<std::size_t>(triangle);
+    return t < table_triangles ? 0 : (t < table_triangles + box_triangles ? 1 : 2);
+  }
+};
+
+Room make_room() {
+  Room room;
+  const TestMesh table = make_plane(0.06, 8), box = make_box(Vec3(0.01, 0.02, 0.01), 3), ball = make_sphere(0.01, 2);
+  room.table = table.vertices_m.size();
+  room.box = box.vertices_m.size();
+  room.table_triangles = table.triangles.size();
+  room.box_triangles = box.triangles.size();
+  for (const TestMesh& part : {table, box, ball}) room.add(part);
+  return room;
+}
+
+/// The box turns and goes to and fro beside the tool, the ball swells and shrinks over it.
+std::vector<Vec3> room_at(const Room& room, int step) {
+  std::vector<Vec3> vertices_m = room.mesh.vertices_m;
+  const double phase = 2.0 * std::numbers::pi * 0.01 * step;  // 1 Hz
+  const Vec3 place_m(0.014 + 0.004 * std::cos(phase), 0.0, 0.0065);
+  const Eigen::AngleAxisd turn(0.5 * std::sin(phase), Vec3::UnitZ());
+  for (std::size_t i = room.table; i < room.table + room.box; ++i) vertices_m[i] = turn * vertices_m[i] + place_m;
+  const double size = 1.0 + 0.15 * std::sin(2.0 * phase);
+  for (std::size_t i = room.table + room.box; i < vertices_m.size(); ++i) {
+    vertices_m[i] = size * vertices_m[i] + Vec3(-0.006, 0.0, 0.02);
+  }
+  return vertices_m;
+}
+
+double distance_to_any_m(const MovingSurface& surface, const Vec3& p_m) {
+  double nearest_m = 1.0;
+  for (int i = 0; i < surface.triangle_count(); ++i) {
+    const geometry::TrianglePoint place = geometry::closest_point_on_triangle(
+        p_m, surface.corner_m(i, 0, 1.0), surface.corner_m(i, 1, 1.0), surface.corner_m(i, 2, 1.0));
+    nearest_m = std::min(nearest_m, (place.position_m - p_m).norm());
+  }
+  return nearest_m;
+}
+
+TEST(SeveralSurfaces, NoneIsEverEntered) {
+  const Room room = make_room();
+  ContactSettings settings;
+  settings.radius_m = 2e-3;
+  Proxy proxy(settings);
+  MovingSurface surface;
+  auto model = std::make_unique<messages::LocalModel>();
+  std::array<bool, 3> touched{};
+  double nearest_m = 1.0;
+  for (int tick = 0; tick < 6000; ++tick) {
+    const std::uint64_t now_ns = static_cast<std::uint64_t>(tick + 1) * kTick_ns;
+    const double t = 1e-3 * tick;
+    // The hand goes round in the corner of table and box and up into the ball, 2 to 6 mm too far everywhere.
+    const Vec3 hand_m(0.012 * std::cos(3.0 * t) + 0.002, 0.004 * std::sin(2.0 * t), 0.006 + 0.009 * std::sin(1.7 * t));
+    const bool is_new = tick % kTicksAStep == 0;
+    if (is_new) {
+      const int step = tick / kTicksAStep;
+      write_patch(room.mesh, room_at(room, step), room_at(room, step + 1), tick == 0 ? hand_m : proxy.position_m(),
+                  *model);
+      for (int i = 0; i < model->triangle_count; ++i) {
+        messages::LocalModel::Triangle& triangle = model->triangles[static_cast<std::size_t>(i)];
+        triangle.surface = room.surface_of(triangle.triangle);
+      }
+      ++model->sequence;
+      model->published_at_ns = now_ns;
+      model->dt_ns = kTicksAStep * kTick_ns;
+    }
+    surface.begin_tick(*model, now_ns, is_new);
+    proxy.tick(surface, *model, {hand_m, Vec3::Zero()}, 1e-3);
+    if (proxy.contact().active) touched[static_cast<std::size_t>(proxy.contact().surface)] = true;
+    nearest_m = std::min(nearest_m, distance_to_any_m(surface, proxy.position_m()));
+    ASSERT_GT(proxy.position_m().z(), 0.0) << tick;
+    if (tick % kTicksAStep == kTicksAStep - 1) {  // the surfaces stand where the step ends
+      const std::vector<Vec3> now_m = room_at(room, tick / kTicksAStep + 1);
+      ASSERT_LT(winding_number(room.solids(), now_m, proxy.position_m()), 0.5) << tick;
+    }
+  }
+  EXPECT_TRUE(touched[0] && touched[1] && touched[2]);
+  EXPECT_EQ(proxy.counters().rescues, 0u);
+  // Where box and ball leave less room than the sphere needs it is squeezed, never to nothing.
+  EXPECT_GT(nearest_m, 0.5e-3);
+}
+
+}  // namespace
+}  // namespace myotact::haptics
