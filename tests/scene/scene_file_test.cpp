@@ -56,6 +56,16 @@ TEST_F(SceneFile, FillsDefaultsAndResolvesNames) {
   EXPECT_DOUBLE_EQ(scene.activations[static_cast<std::size_t>(anatomy::find_muscle(scene.specimen, "extensor"))], 0.25);
 }
 
+TEST_F(SceneFile, AToolsForcesAreBounded) {
+  const auto tool = [](const std::string& key) { return R"(, "tools": [{"device": "simulated", )" + key + "}]"; };
+  EXPECT_EQ(parse("").tools.front().force_limit, 0.5);
+  EXPECT_EQ(parse("").tools.front().line_snap_N, 0.0);
+  EXPECT_EQ(parse(tool(R"("line_snap_N": 0.1)")).tools.front().line_snap_N, 0.1);
+  EXPECT_EQ(parse(tool(R"("force_limit": 1)")).tools.front().force_limit, 1.0);
+  EXPECT_THAT(complaint(tool(R"("line_snap_N": 2)")), HasSubstr("/tools/0/line_snap_N"));
+  EXPECT_THAT(complaint(tool(R"("force_limit": 1.5)")), HasSubstr("/tools/0/force_limit"));
+}
+
 TEST_F(SceneFile, TakesOneTissueModelForAllAndOneForAMuscle) {
   const Scene scene = parse(R"(, "tissue": {"default": "mass_spring", "muscles": {"extensor": "fem"}})");
   const auto model = [&](const char* key) {
