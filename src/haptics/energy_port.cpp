@@ -20,7 +20,9 @@ Vec3 EnergyPort::admit(const PortTick& tick) noexcept {
   const double slow_W = slow_force_N_.dot(slow_environment_m_s_);
   const double kept = std::exp(-tick.dt_s / settings_.leak_s);
   swing_J_ = kept * (swing_J_ + sent_N_.dot(tick.environment_moved_m) - tick.dt_s * slow_W);
-  energy_J_ -= sent_N_.dot(tick.hand_moved_m - tick.environment_moved_m);
+  const double gave_J = sent_N_.dot(tick.hand_moved_m);
+  const double stepped_J = std::clamp(gave_J - tick.spring_gave_J, 0.0, tick.friction_J);
+  energy_J_ += sent_N_.dot(tick.environment_moved_m) - (gave_J - stepped_J);
   const double surplus_J = energy_J_ - tick.stored_J;
   if (surplus_J > 0.0) energy_J_ = tick.stored_J + kept * std::min(surplus_J, tick.opens ? 0.0 : settings_.store_J);
   if (!std::isfinite(energy_J_) || !std::isfinite(swing_J_)) reset();

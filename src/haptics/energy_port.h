@@ -17,6 +17,8 @@ struct PortTick {
   Vec3 hand_moved_m = Vec3::Zero();         // since the last tick
   Vec3 environment_moved_m = Vec3::Zero();  // of the port's other end by itself: tissue, point of a bone
   double stored_J = 0.0;                    // in the port's springs: what it may give back at any time, >= 0
+  double spring_gave_J = 0.0;               // by their own potential, to the hand's motion; < 0: they took
+  double friction_J = 0.0;                  // that the device's own friction took from that motion, >= 0
   bool opens = false;                       // lets go of what it stores: nothing of it may be spent later
   double most_damping_Ns_m = 0.0;           // that the device bears
   double dt_s = 1e-3;                       // > 0
@@ -32,6 +34,11 @@ struct PortTick {
 ///   swing     S += F . dx_environment - F_slow . v_slow dt   must stay below 2 mJ; it leaks
 ///
 /// What is missing is taken back by damping, missing / (T v^2), no more than the device bears.
+///
+/// A force held for a tick gives more on the way back than its spring holds, |dF dx| / 2 a tick, and so it seems, at
+/// any speed, with a position that moves by whole counts of an encoder. As far as friction of the device itself takes
+/// that in the same tick (the bound of Abbott and Okamura 2005) it never reaches the hand and is not missing: a spring
+/// whose port tells its potential is then left alone. What friction leaves of it counts.
 ///
 /// A muscle that shortens does real work on the hand, and that must not be taken for instability, nor may a budget for
 /// it hide one. The two differ in their rate: limbs and tissue move of their own below some 5 Hz, a loop that goes

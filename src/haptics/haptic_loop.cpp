@@ -56,7 +56,7 @@ HapticLoop::HapticLoop(device::Device& device, const HapticSettings& settings)
       line_(settings_.line),
       snap_(settings_.snap),
       bone_(settings_.bone),
-      ports_(device.profile().inertia_kg, device.profile().delay_ticks),
+      ports_(device.profile()),
       buzz_(device.profile().resolution_m),
       notice_(settings.limit_stiffness ? stiffness_notice(device.profile(), settings.contact.stiffness_N_m) : ""),
       gate_(device.profile(), settings_.gate) {}

@@ -22,6 +22,11 @@ double spring_energy_J(double force_N, double stiffness_N_m, double stretch_m) {
   return force_N * (std::max(stretch_m, linear_m) - 0.5 * linear_m);
 }
 
+/// What the device's own friction takes from a motion [J].
+double friction_J(const device::DeviceProfile& profile, double moved_m, double dt_s) {
+  return (profile.coulomb_N + profile.viscous_Ns_m * moved_m / dt_s) * moved_m;
+}
+
 }  // namespace
 
 double string_energy_J(const messages::LocalLine& line, const Vec3& hand_m) noexcept {
@@ -37,9 +42,9 @@ double string_energy_J(const messages::LocalLine& line, const Vec3& hand_m) noex
   return 0.5 * k * taut_m * taut_m;
 }
 
-HapticPorts::HapticPorts(double inertia_kg, int delay_ticks, const PortSettings& settings)
-    : inertia_kg_(inertia_kg),
-      damping_share_(kDampingShare / (1 + std::max(0, delay_ticks))),
+HapticPorts::HapticPorts(const device::DeviceProfile& profile, const PortSettings& settings)
+    : profile_(profile),
+      damping_share_(kDampingShare / (1 + std::max(0, profile.delay_ticks))),
       contact_(settings),
       texture_(settings),
       line_(settings),
@@ -86,11 +91,16 @@ PortTick HapticPorts::line_tick(const PortsTick& tick) noexcept {
   const double now_J = string_energy_J(now, tick.hand_m);
   find(line_, std::max(0.0, tick.line_gain - line_gain_) * before_J);
   port.opens = tick.line_gain < line_gain_;
-  const double force_N = port.wanted_N.norm();
-  if (same && force_N > kNoForce_N) {
-    port.environment_moved_m = port.wanted_N * (tick.line_gain * (now_J - before_J) / (force_N * force_N));
+  const double held_N2 = line_wanted_N_.squaredNorm();
+  if (same) {
+    port.spring_gave_J = line_stored_J_ - line_gain_ * before_J;
+    port.friction_J = friction_J(profile_, moved_m_.norm(), tick.dt_s);
   }
-  port.stored_J = tick.line_gain * now_J;
+  if (same && held_N2 > kNoForce_N * kNoForce_N) {
+    port.environment_moved_m = line_wanted_N_ * (tick.line_gain * (now_J - before_J) / held_N2);
+  }
+  line_wanted_N_ = port.wanted_N;
+  line_stored_J_ = port.stored_J = tick.line_gain * now_J;
   line_gain_ = tick.line_gain;
   if (tick.line != nullptr) held_line_ = *tick.line;
   return port;
@@ -129,7 +139,7 @@ PortForces HapticPorts::admit(const PortsTick& tick) noexcept {
   moved_m_ = knows_hand_ ? Vec3(tick.hand_m - hand_m_) : Vec3::Zero();
   hand_m_ = tick.hand_m;
   knows_hand_ = true;
-  damping_left_Ns_m_ = damping_share_ * inertia_kg_ / tick.dt_s;
+  damping_left_Ns_m_ = damping_share_ * profile_.inertia_kg / tick.dt_s;
   PortForces asked;
   asked.contact_N = admit(contact_, contact_tick(tick), tick);
   asked.texture_N = admit(texture_, texture_tick(tick), tick);

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "core/vector.h"
+#include "device/device.h"
 #include "haptics/energy_port.h"
 #include "messages/local_model.h"
 
@@ -38,14 +39,14 @@ struct PortsTick {
 ///
 ///   contact  spring between hand and proxy, carried by the tissue
 ///   texture  relief, vibration and knock on the tissue
-///   line     string to the ends of a muscle line; the muscle changes its tension
+///   line     string to the ends of a muscle line; the muscle changes its tension. By its potential: no bound on its
+///            stiffness has used up the device's friction yet, as those of contact and bone have
 ///   bone     spring between hand and a point of a bone, which moves
 ///
 /// Together they damp no more than the device bears. Real-time safe; one thread.
 class HapticPorts {
  public:
-  /// `inertia_kg` of the device; `delay_ticks` as in its profile.
-  HapticPorts(double inertia_kg, int delay_ticks, const PortSettings& settings = {});
+  explicit HapticPorts(const device::DeviceProfile& profile, const PortSettings& settings = {});
 
   /// The forces to ask the gate for.
   PortForces admit(const PortsTick& tick) noexcept;
@@ -68,7 +69,7 @@ class HapticPorts {
   PortTick bone_tick(const PortsTick& tick) noexcept;
   Vec3 admit(EnergyPort& port, PortTick tick, const PortsTick& all) noexcept;
 
-  double inertia_kg_;
+  device::DeviceProfile profile_;
   double damping_share_;
   EnergyPort contact_, texture_, line_, bone_;
   double texture_held_J_ = 0.0;
@@ -80,6 +81,8 @@ class HapticPorts {
   Vec3 asked_N_ = Vec3::Zero();
   messages::LocalLine held_line_;  // of the last tick; muscle -1: none
   double line_gain_ = 0.0;
+  double line_stored_J_ = 0.0;  // of the last tick
+  Vec3 line_wanted_N_ = Vec3::Zero();
   std::int32_t body_ = -1;
   Vec3 body_point_m_ = Vec3::Zero();
   double body_stiffness_N_m_ = 0.0;

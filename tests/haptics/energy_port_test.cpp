@@ -79,6 +79,32 @@ TEST(EnergyPort, ASpringThatWasHeldForLongIsLeftAlone) {
   for (int i = 0; i < 399; ++i) go(-1e-5);
 }
 
+/// Energy that is missing after a spring of 400 N/m was pressed and let go in 10 steps of 0.1 mm each way.
+double missing_after_steps_J(double friction_J) {
+  EnergyPort port;
+  const double k = 400.0;
+  double x_m = 0.0;
+  for (int i = 0; i <= 20; ++i) {
+    const double moved_m = i == 0 ? 0.0 : i <= 10 ? 1e-4 : -1e-4;
+    PortTick tick = along_x(-k * (x_m + moved_m), moved_m, 0.5 * k * (x_m + moved_m) * (x_m + moved_m));
+    tick.spring_gave_J = 0.5 * k * x_m * x_m - tick.stored_J;
+    tick.friction_J = friction_J;
+    tick.most_damping_Ns_m = 0.0;
+    x_m += moved_m;
+    port.admit(tick);
+    port.book(1.0);
+  }
+  return port.missing_J();
+}
+
+// A held force gives k dx^2 / 2 a tick: 2 uJ, 20 times.
+TEST(EnergyPort, WhatAHeldForceGivesIsMissingAsFarAsTheDevicesFrictionLeavesIt) {
+  EXPECT_NEAR(missing_after_steps_J(0.0), 40e-6, 1e-12);
+  EXPECT_NEAR(missing_after_steps_J(1.5e-6), 10e-6, 1e-12);
+  EXPECT_NEAR(missing_after_steps_J(2e-6), 0.0, 1e-12);
+  EXPECT_NEAR(missing_after_steps_J(1.0), 0.0, 1e-12);  // and no more than that
+}
+
 TEST(EnergyPort, WhatFrictionTookIsForgottenAndNeverMoreThanTheStore) {
   const PortSettings settings;
   EnergyPort port(settings);
@@ -154,8 +180,54 @@ TEST(StringEnergy, IsTheWorkOfItsForceOnTheHand) {
   }
 }
 
+/// Largest difference between wanted and asked while a line is drawn 50 mm aside and let back, 20 times, slowly, by an
+/// encoder of 20 um.
+double largest_change_N(double coulomb_N, double gives_away) {
+  device::DeviceProfile profile;
+  profile.coulomb_N = coulomb_N;
+  profile.viscous_Ns_m = 0.0;
+  HapticPorts ports(profile);
+  messages::LocalLine line;
+  line.muscle = 0;
+  line.proximal_point_world_m = {-0.1, 0, 0};
+  line.distal_point_world_m = {0.1, 0, 0};
+  line.length_m = 0.2;
+  line.stiffness_N_m = 600.0;
+  line.tension_N = 20.0;
+  double largest_N = 0.0;
+  for (int i = 0; i < 80'000; ++i) {
+    const double aside_m = 0.025 * (1.0 - std::cos(2.0 * std::numbers::pi * i / 4000.0));
+    PortsTick tick;
+    tick.hand_m.z() = 20e-6 * std::round(aside_m / 20e-6);
+    tick.line = &line;
+    tick.line_gain = 0.02;
+    const double half_m = std::hypot(0.1, tick.hand_m.z());
+    const bool back = i % 4000 >= 2000;
+    const double tension_N = (20.0 + 600.0 * (2.0 * half_m - 0.2)) * (back ? 1.0 + gives_away : 1.0);
+    tick.wanted.line_N.z() = -0.02 * 2.0 * tension_N * tick.hand_m.z() / half_m;
+    const PortForces asked = ports.admit(tick);
+    largest_N = std::max(largest_N, (asked.line_N - tick.wanted.line_N).norm());
+    ports.book(asked.sum_N());
+  }
+  return largest_N;
+}
+
+// Without friction of the device the same counts read as energy that came from nothing, as far as anyone here can tell.
+TEST(HapticPorts, AnEncodersCountsAreNoEnergyOfALineInHand) {
+  EXPECT_LT(largest_change_N(0.1, 0.0), 1e-3);
+  EXPECT_GT(largest_change_N(0.0, 0.0), 1e-2);
+}
+
+// A string that pulls harder on the way back than on the way out by more than friction holds back is no string.
+TEST(HapticPorts, ALineThatGivesMoreThanItTookIsDamped) {
+  EXPECT_GT(largest_change_N(0.01, 0.1), 1e-2);
+}
+
 TEST(HapticPorts, TogetherTheyDampNoMoreThanTheDeviceBears) {
-  HapticPorts ports(0.07, 1);
+  device::DeviceProfile profile;
+  profile.inertia_kg = 0.07;
+  profile.delay_ticks = 1;
+  HapticPorts ports(profile);
   PortsTick tick;
   tick.dt_s = kTick_s;
   for (int i = 0; i < 200; ++i) {  // all effects push along the motion
