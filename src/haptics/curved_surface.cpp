@@ -26,23 +26,23 @@ std::size_t at(int index) {
 }  // namespace
 
 void CurvedSurface::begin_tick(const MovingSurface& surface) noexcept {
-  const bool is_linked = surface_ == &surface && linked_model_ == surface.adopted_count();
+  const bool is_linked = surface_ == &surface && linked_list_ == surface.list_count();
   surface_ = &surface;
   if (!is_linked || surface.largest_motion_m() > 0.0) ++version_;
 }
 
 /// Which triangles each vertex belongs to.
 void CurvedSurface::link_vertices() noexcept {
-  first_corner_.fill(0);
-  const int corners = 3 * surface_->triangle_count();
-  const auto vertex_of = [&](int corner) { return at(surface_->triangle(corner / 3).vertices[at(corner % 3)]); };
-  for (int corner = 0; corner < corners; ++corner) ++first_corner_[vertex_of(corner) + 1];
-  for (std::size_t i = 1; i < first_corner_.size(); ++i)
-    first_corner_[i] = static_cast<std::int16_t>(first_corner_[i] + first_corner_[i - 1]);
-  std::array<std::int16_t, messages::kMaxLocalVertices + 1> next = first_corner_;
-  for (int corner = 0; corner < corners; ++corner)
-    corners_[at(next[vertex_of(corner)]++)] = static_cast<std::int16_t>(corner);
-  linked_model_ = surface_->adopted_count();
+  first_corner_.fill(-1);
+  for (int local = surface_->triangle_count() - 1; local >= 0; --local) {
+    for (int i = 2; i >= 0; --i) {
+      std::int16_t& first = first_corner_[at(surface_->triangle(local).vertices[at(i)])];
+      const int corner = 3 * local + i;
+      next_corner_[at(corner)] = first;
+      first = static_cast<std::int16_t>(corner);
+    }
+  }
+  linked_list_ = surface_->list_count();
 }
 
 /// Normals weighted by area. Smooth: the triangles close round the vertex and none stands far off the mean.
@@ -54,10 +54,10 @@ const CurvedSurface::Vertex& CurvedSurface::vertex(int index) noexcept {
   constexpr int kMost = 24;
   std::array<Vec3, kMost> areas;
   std::array<std::int32_t, kMost> after{}, before{};
-  const int first = first_corner_[at(index)], count = first_corner_[at(index) + 1] - first;
-  result.is_smooth = count >= 3 && count <= kMost;
-  for (int i = 0; i < count && result.is_smooth; ++i) {
-    const int local = corners_[at(first + i)] / 3, corner = corners_[at(first + i)] % 3;
+  int count = 0;
+  int next = first_corner_[at(index)];
+  for (; next >= 0 && count < kMost; next = next_corner_[at(next)]) {
+    const int local = next / 3, corner = next % 3, i = count++;
     const Vec3 tip_m = surface_->corner_m(local, corner, 1.0);
     areas[at(i)] = (surface_->corner_m(local, (corner + 1) % 3, 1.0) - tip_m)
                        .cross(surface_->corner_m(local, (corner + 2) % 3, 1.0) - tip_m);
@@ -66,7 +66,7 @@ const CurvedSurface::Vertex& CurvedSurface::vertex(int index) noexcept {
     sum += areas[at(i)];
   }
   const double length = sum.norm();
-  result.is_smooth = result.is_smooth && length > 0.0;
+  result.is_smooth = count >= 3 && next < 0 && length > 0.0;  // a fan of more than kMost is none
   if (!result.is_smooth) return result;
   result.normal = sum / length;
   for (int i = 0; i < count; ++i) {
@@ -79,7 +79,7 @@ const CurvedSurface::Vertex& CurvedSurface::vertex(int index) noexcept {
 }
 
 const CurvedSurface::Patch& CurvedSurface::patch(int local) noexcept {
-  if (linked_model_ != surface_->adopted_count()) link_vertices();
+  if (linked_list_ != surface_->list_count()) link_vertices();
   Patch& result = patches_[at(local)];
   if (patch_version_[at(local)] == version_) return result;
   patch_version_[at(local)] = version_;

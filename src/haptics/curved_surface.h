@@ -59,10 +59,11 @@ class CurvedSurface {
 
   double shortest_m_;
   const MovingSurface* surface_ = nullptr;
-  std::uint64_t linked_model_ = 0;
-  std::uint64_t version_ = 1;                                                 // of the places of the vertices
-  std::array<std::int16_t, messages::kMaxLocalVertices + 1> first_corner_{};  // of each vertex, into corners_
-  std::array<std::int16_t, kCorners> corners_{};                              // 3 * triangle + corner
+  std::uint64_t linked_list_ = 0;
+  std::uint64_t version_ = 1;  // of the places of the vertices
+  // Corners (3 * triangle + corner) that meet in a vertex, ascending: its first one, and the next after each, -1: none.
+  std::array<std::int16_t, messages::kMaxLocalVertices> first_corner_{};
+  std::array<std::int16_t, kCorners> next_corner_{};
   std::array<std::uint64_t, messages::kMaxLocalVertices> vertex_version_{};
   std::array<Vertex, messages::kMaxLocalVertices> vertices_{};
   std::array<std::uint64_t, messages::kMaxLocalTriangles> patch_version_{};

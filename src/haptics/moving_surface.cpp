@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include <Eigen/Geometry>
 
 namespace myotact::haptics {
 
 namespace {
+
+std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
 
 constexpr double kLargest_m = 1000.0;  // nothing of the scene is farther; squares stay far from overflow
 
@@ -21,14 +26,42 @@ double played(const messages::LocalModel& model, std::uint64_t now_ns) {
   return age_ns >= model.dt_ns ? 1.0 : static_cast<double>(age_ns) / static_cast<double>(model.dt_ns);
 }
 
-/// A vertex when this share of its way is played. One that rests rests to the bit, so that what was computed holds.
-Vec3 place_m(const messages::LocalModel& model, std::size_t vertex, double share) {
-  const Vec3 previous_m = to_vec3(model.previous_world_m[vertex]), current_m = to_vec3(model.current_world_m[vertex]);
+using Frame = Eigen::Map<const Eigen::Matrix<double, 3, Eigen::Dynamic>>;  // a column a vertex
+
+Frame frame_m(const std::array<std::array<double, 3>, messages::kMaxLocalVertices>& positions_m, int count) {
+  return {positions_m.front().data(), 3, count};
+}
+
+/// When this share of its way is played. What rests then rests to the bit, so that what was computed holds.
+Vec3 place_m(const Vec3& previous_m, const Vec3& current_m, double share) {
   return share >= 1.0 ? current_m : Vec3(previous_m + share * (current_m - previous_m));
+}
+
+/// Order of the triangles in a model.
+std::int64_t key_of(std::int32_t surface, std::int32_t triangle) {
+  return (std::int64_t{surface} << 32) + triangle;
+}
+
+std::int64_t key_of(const messages::LocalModel::Triangle& triangle) {
+  return key_of(triangle.surface, triangle.triangle);
 }
 
 bool all_finite(const std::array<double, 9>& matrix) {
   return std::all_of(matrix.begin(), matrix.end(), [](double x) { return std::isfinite(x); });
+}
+
+/// Without a way out at the first wrong one, which would cost more than it saves: models are right.
+bool are_places(const Frame& positions_m) {
+  return ((positions_m.array().abs() < kLargest_m).count()) == positions_m.size();
+}
+
+bool is_sound(const messages::LocalModel::Triangle& triangle, int vertex_count) {
+  for (const std::int32_t vertex : triangle.vertices) {
+    if (vertex < 0 || vertex >= vertex_count) return false;
+  }
+  const messages::TriangleTissue& tissue = triangle.tissue;
+  return tissue.tissue >= messages::Tissue::Muscle && tissue.tissue <= messages::Tissue::Skin &&
+         std::isfinite(tissue.fibre_edges[0]) && std::isfinite(tissue.fibre_edges[1]);
 }
 
 bool is_sound(const messages::LocalGrip& grip) {
@@ -43,20 +76,14 @@ bool is_sound(const messages::LocalGrip& grip) {
 bool is_sound(const messages::LocalModel& model) noexcept {
   if (model.vertex_count < 0 || model.vertex_count > messages::kMaxLocalVertices) return false;
   if (model.triangle_count < 0 || model.triangle_count > messages::kMaxLocalTriangles) return false;
-  for (int i = 0; i < model.vertex_count; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    if (!is_place(model.previous_world_m[at]) || !is_place(model.current_world_m[at])) return false;
+  if (!are_places(frame_m(model.previous_world_m, model.vertex_count))) return false;
+  if (!are_places(frame_m(model.current_world_m, model.vertex_count))) return false;
+  for (int i = 0; i < model.triangle_count; ++i) {
+    const messages::LocalModel::Triangle& triangle = model.triangles[at(i)];
+    if (i > 0 && !(key_of(model.triangles[at(i - 1)]) < key_of(triangle))) return false;
+    if (!is_sound(triangle, model.vertex_count)) return false;
   }
   const auto is_finite = [](double x) { return std::isfinite(x); };
-  for (int i = 0; i < model.triangle_count; ++i) {
-    const messages::LocalModel::Triangle& triangle = model.triangles[static_cast<std::size_t>(i)];
-    for (const std::int32_t vertex : triangle.vertices) {
-      if (vertex < 0 || vertex >= model.vertex_count) return false;
-    }
-    if (triangle.tissue.tissue < messages::Tissue::Muscle || triangle.tissue.tissue > messages::Tissue::Skin)
-      return false;
-    if (!is_finite(triangle.tissue.fibre_edges[0]) || !is_finite(triangle.tissue.fibre_edges[1])) return false;
-  }
   const messages::LocalContact& contact = model.contact;
   if (!all_finite(contact.compliance_m_N) || !to_vec3(contact.force_world_N).allFinite()) return false;
   if (!is_sound(model.grip)) return false;
@@ -68,74 +95,65 @@ bool is_sound(const messages::LocalModel& model) noexcept {
 }
 
 void MovingSurface::begin_tick(const messages::LocalModel& model, std::uint64_t now_ns, bool is_new) noexcept {
-  if (is_new || model_ == nullptr) {
-    adopt(model);
+  if ((is_new || model_ == nullptr) && !has_list_of(model)) {
+    adopt_list(model);
   } else {
-    from_m_ = to_m_;
+    from_m_.leftCols(vertex_count_) = to_m_.leftCols(vertex_count_);
   }
+  model_ = &model;
   const double s = played(model, now_ns);
+  const Frame previous_m = frame_m(model.previous_world_m, vertex_count_);
+  const Frame current_m = frame_m(model.current_world_m, vertex_count_);
   double largest_squared_m2 = 0.0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(model.vertex_count); ++i) {
-    to_m_[i] = place_m(model, i, s);
-    largest_squared_m2 = std::max(largest_squared_m2, (to_m_[i] - from_m_[i]).squaredNorm());
+  for (int i = 0; i < vertex_count_; ++i) {
+    to_m_.col(i) = place_m(previous_m.col(i), current_m.col(i), s);
+    largest_squared_m2 = std::max(largest_squared_m2, (to_m_.col(i) - from_m_.col(i)).squaredNorm());
   }
   largest_motion_m_ = std::sqrt(largest_squared_m2);
   last_ns_ = now_ns;
 }
 
-std::size_t MovingSurface::slot_of(std::int32_t surface, std::int32_t triangle) noexcept {
-  const auto mixed =
-      static_cast<std::uint32_t>(surface) * 73856093u ^ static_cast<std::uint32_t>(triangle) * 2654435761u;
-  return (mixed >> 8) % kSlots;
-}
-
 int MovingSurface::find(std::int32_t surface, std::int32_t triangle) const noexcept {
-  for (std::size_t slot = slot_of(surface, triangle); slots_[slot] != 0; slot = (slot + 1) % kSlots) {
-    const int local = slots_[slot] - 1;
-    const messages::LocalModel::Triangle& found = triangles_[static_cast<std::size_t>(local)];
-    if (found.surface == surface && found.triangle == triangle) return local;
-  }
-  return -1;
+  const auto begin = triangles_.begin(), end = begin + known_count_;
+  const std::int64_t key = key_of(surface, triangle);
+  const auto found =
+      std::lower_bound(begin, end, key, [](const auto& t, std::int64_t wanted) { return key_of(t) < wanted; });
+  return found != end && key_of(*found) == key ? static_cast<int>(found - begin) : -1;
 }
 
-void MovingSurface::adopt(const messages::LocalModel& model) noexcept {
-  const Vertices old_m = to_m_;
-  const double s = played(model, last_ns_);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(model.vertex_count); ++i) {
-    from_m_[i] = place_m(model, i, s);
+/// Whether the model holds the same triangles on the same vertices as the last one.
+bool MovingSurface::has_list_of(const messages::LocalModel& model) const noexcept {
+  static_assert(sizeof(messages::LocalModel::Triangle) == 8 * 4);  // nothing between the members
+  const auto bytes = sizeof(messages::LocalModel::Triangle) * static_cast<std::size_t>(known_count_);
+  return model.triangle_count == known_count_ && model.vertex_count == vertex_count_ &&
+         std::memcmp(model.triangles.data(), triangles_.data(), bytes) == 0;
+}
+
+void MovingSurface::adopt_list(const messages::LocalModel& model) noexcept {
+  std::array<std::int32_t, messages::kMaxLocalVertices> before;  // the same vertices in the old model
+  before.fill(-1);
+  // Both lists ascend: one walk along both meets every triangle that both hold.
+  for (int fresh = 0, old = 0; fresh < model.triangle_count; ++fresh) {
+    const messages::LocalModel::Triangle& triangle = model.triangles[at(fresh)];
+    while (old < known_count_ && key_of(triangles_[at(old)]) < key_of(triangle)) ++old;
+    const bool is_known = old < known_count_ && key_of(triangles_[at(old)]) == key_of(triangle);
+    places_before_[at(fresh)] = static_cast<std::int16_t>(is_known ? old : -1);
+    if (!is_known) continue;
+    for (std::size_t i = 0; i < 3; ++i) before[at(triangle.vertices[i])] = triangles_[at(old)].vertices[i];
   }
-  // The old triangles are still in place while the new ones look for themselves among them; most are where they were.
-  const auto same = [&](int i, const messages::LocalModel::Triangle& fresh) {
-    const messages::LocalModel::Triangle& old = triangles_[static_cast<std::size_t>(i)];
-    return i < known_count_ && old.surface == fresh.surface && old.triangle == fresh.triangle;
-  };
-  bool is_same_list = model.triangle_count == known_count_;
-  for (int i = 0; i < model.triangle_count; ++i) {
-    const messages::LocalModel::Triangle& fresh = model.triangles[static_cast<std::size_t>(i)];
-    const bool is_here = same(i, fresh);
-    is_same_list = is_same_list && is_here;
-    const int old = is_here ? i : find(fresh.surface, fresh.triangle);
-    if (old < 0) continue;
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      from_m_[static_cast<std::size_t>(fresh.vertices[corner])] =
-          old_m[static_cast<std::size_t>(triangles_[static_cast<std::size_t>(old)].vertices[corner])];
-    }
+  const double s = played(model, last_ns_);
+  const Frame previous_m = frame_m(model.previous_world_m, model.vertex_count);
+  const Frame current_m = frame_m(model.current_world_m, model.vertex_count);
+  for (int i = 0; i < model.vertex_count; ++i) {
+    if (before[at(i)] >= 0)
+      from_m_.col(i) = to_m_.col(before[at(i)]);
+    else
+      from_m_.col(i) = place_m(previous_m.col(i), current_m.col(i), s);
   }
   std::copy_n(model.triangles.begin(), model.triangle_count, triangles_.begin());
   known_count_ = model.triangle_count;
-  if (!is_same_list) number_triangles();
-  model_ = &model;
-  ++adopted_count_;
-}
-
-void MovingSurface::number_triangles() noexcept {
-  slots_.fill(0);
-  for (int i = 0; i < known_count_; ++i) {
-    const messages::LocalModel::Triangle& triangle = triangles_[static_cast<std::size_t>(i)];
-    std::size_t slot = slot_of(triangle.surface, triangle.triangle);
-    while (slots_[slot] != 0) slot = (slot + 1) % kSlots;
-    slots_[slot] = static_cast<std::int16_t>(i + 1);
-  }
+  vertex_count_ = model.vertex_count;
+  ++list_count_;
 }
 
 Vec3 MovingSurface::motion_m(int local, const std::array<double, 3>& barycentric) const noexcept {

@@ -9,7 +9,8 @@
 
 namespace myotact::haptics {
 
-/// Whether a model can be used: counts, indices and tissues in range, numbers finite and below 1 km. Real-time safe.
+/// Whether a model can be used: counts, indices and tissues in range, triangles in order, numbers finite and places
+/// within 1 km. Real-time safe.
 bool is_sound(const messages::LocalModel& model) noexcept;
 
 /// The surface near the tool during one tick, which runs from `fraction` 0 (end of the last tick) to 1 (now).
@@ -32,12 +33,12 @@ class MovingSurface {
   }
   /// Corner 0 .. 2 of a triangle at a fraction of the tick.
   Vec3 corner_m(int local, int corner, double fraction) const noexcept {
-    const auto vertex = static_cast<std::size_t>(triangle(local).vertices[static_cast<std::size_t>(corner)]);
-    return from_m_[vertex] + fraction * (to_m_[vertex] - from_m_[vertex]);
+    const std::int32_t vertex = triangle(local).vertices[static_cast<std::size_t>(corner)];
+    return from_m_.col(vertex) + fraction * (to_m_.col(vertex) - from_m_.col(vertex));
   }
   Vec3 corner_motion_m(int local, int corner) const noexcept {
-    const auto vertex = static_cast<std::size_t>(triangle(local).vertices[static_cast<std::size_t>(corner)]);
-    return to_m_[vertex] - from_m_[vertex];
+    const std::int32_t vertex = triangle(local).vertices[static_cast<std::size_t>(corner)];
+    return to_m_.col(vertex) - from_m_.col(vertex);
   }
   /// What a point of a triangle moves by over the whole tick.
   Vec3 motion_m(int local, const std::array<double, 3>& barycentric) const noexcept;
@@ -48,28 +49,30 @@ class MovingSurface {
   Vec3 fibre_W(int local) const noexcept;
   /// The farthest that any vertex moves in the tick.
   double largest_motion_m() const noexcept { return largest_motion_m_; }
-  /// How many models were taken so far: with another one, places in the model mean other triangles.
-  std::uint64_t adopted_count() const noexcept { return adopted_count_; }
+  /// How many lists of triangles there were so far: with another one, places in the model mean other triangles. Models
+  /// with the same triangles, as a hand that hardly moves gets them, count once.
+  std::uint64_t list_count() const noexcept { return list_count_; }
+  /// The place of a triangle in the list before this one, -1: it was not there.
+  int place_before(int local) const noexcept { return places_before_[static_cast<std::size_t>(local)]; }
   /// Place of a triangle in the model, by its numbers in the scene; -1: not in it.
   int find(std::int32_t surface, std::int32_t triangle) const noexcept;
 
  private:
-  static constexpr std::size_t kSlots = 1024;  // four times the triangles: short chains
-  static std::size_t slot_of(std::int32_t surface, std::int32_t triangle) noexcept;
-  void adopt(const messages::LocalModel& model) noexcept;
-  void number_triangles() noexcept;
+  using Vertices = Eigen::Matrix<double, 3, messages::kMaxLocalVertices>;
 
-  using Vertices = std::array<Vec3, messages::kMaxLocalVertices>;
+  bool has_list_of(const messages::LocalModel& model) const noexcept;
+  void adopt_list(const messages::LocalModel& model) noexcept;
 
   const messages::LocalModel* model_ = nullptr;
   std::array<messages::LocalModel::Triangle, messages::kMaxLocalTriangles> triangles_{};
-  int known_count_ = 0;                       // of triangles_
-  std::array<std::int16_t, kSlots> slots_{};  // 1 + place of a triangle, 0: free
-  Vertices from_m_{};
-  Vertices to_m_{};
+  std::array<std::int16_t, messages::kMaxLocalTriangles> places_before_{};
+  int known_count_ = 0;   // of triangles_
+  int vertex_count_ = 0;  // of the places
+  Vertices from_m_ = Vertices::Zero();
+  Vertices to_m_ = Vertices::Zero();
   double largest_motion_m_ = 0.0;
   std::uint64_t last_ns_ = 0;  // end of the last tick
-  std::uint64_t adopted_count_ = 0;
+  std::uint64_t list_count_ = 0;
 };
 
 }  // namespace myotact::haptics

@@ -27,30 +27,37 @@ void NearSurface::begin_tick(const MovingSurface& surface, const messages::Local
   tests_ = 0;
   linearised_at_ = -1.0;
   moved_m_ += surface.largest_motion_m();
-  if (enclosed_model_ != surface.adopted_count() || moved_m_ > kMostGrowth * radius_m_) enclose_triangles();
+  const bool is_grown = moved_m_ > kMostGrowth * radius_m_;
+  if (is_grown || enclosed_list_ != surface.list_count())
+    enclose_triangles(!is_grown && enclosed_list_ + 1 == surface.list_count());
 }
 
-/// At the beginning of the tick; the motion of the tick itself is added when they are used.
-void NearSurface::enclose_triangles() noexcept {
-  const MovingSurface& surface = *surface_;
+/// At the beginning of the tick; the motion of the tick itself is added when they are used. `keeps_known`: triangles
+/// that were in the list before keep their spheres.
+void NearSurface::enclose_triangles(bool keeps_known) noexcept {
+  const std::array<Sphere, kMost> before = spheres_;
   stand_off_m_ = 0.0;
-  for (int i = 0; i < surface.triangle_count(); ++i) {
-    const Vec3 a = surface.corner_m(i, 0, 0.0);
-    const Vec3 b = surface.corner_m(i, 1, 0.0);
-    const Vec3 c = surface.corner_m(i, 2, 0.0);
-    const Vec3 centre_m = (a + b + c) / 3.0;
-    sphere_x_m_[at(i)] = centre_m.x();
-    sphere_y_m_[at(i)] = centre_m.y();
-    sphere_z_m_[at(i)] = centre_m.z();
-    sphere_radius_m_[at(i)] =
-        std::sqrt(std::max({(a - centre_m).squaredNorm(), (b - centre_m).squaredNorm(), (c - centre_m).squaredNorm()}));
-    const double longest_m = 2.0 * sphere_radius_m_[at(i)];  // no edge is longer
-    stand_offs_m_[at(i)] =
-        longest_m > stand_off_.shortest_m ? std::min(stand_off_.highest_m, stand_off_.of_edge * longest_m) : 0.0;
-    stand_off_m_ = std::max(stand_off_m_, stand_offs_m_[at(i)]);
+  for (int i = 0; i < surface_->triangle_count(); ++i) {
+    const int place = keeps_known ? surface_->place_before(i) : -1;
+    spheres_[at(i)] = place >= 0 ? before[at(place)] : enclosed(i);
+    stand_off_m_ = std::max(stand_off_m_, sphere(i).stand_off_m);
   }
-  enclosed_model_ = surface.adopted_count();
-  moved_m_ = surface.largest_motion_m();
+  enclosed_list_ = surface_->list_count();
+  if (!keeps_known) moved_m_ = surface_->largest_motion_m();
+}
+
+NearSurface::Sphere NearSurface::enclosed(int local) const noexcept {
+  const Vec3 a = surface_->corner_m(local, 0, 0.0);
+  const Vec3 b = surface_->corner_m(local, 1, 0.0);
+  const Vec3 c = surface_->corner_m(local, 2, 0.0);
+  Sphere sphere;
+  sphere.centre_m = (a + b + c) / 3.0;
+  sphere.radius_m = std::sqrt(std::max(
+      {(a - sphere.centre_m).squaredNorm(), (b - sphere.centre_m).squaredNorm(), (c - sphere.centre_m).squaredNorm()}));
+  const double longest_m = 2.0 * sphere.radius_m;  // no edge is longer
+  if (longest_m > stand_off_.shortest_m)
+    sphere.stand_off_m = std::min(stand_off_.highest_m, stand_off_.of_edge * longest_m);
+  return sphere;
 }
 
 void NearSurface::collect(const Vec3& p_m, double travel_m) noexcept {
@@ -59,12 +66,9 @@ void NearSurface::collect(const Vec3& p_m, double travel_m) noexcept {
   const double reach_m = radius_m_ + travel_m + moved_m_;
   candidate_count_ = 0;
   for (int i = 0; i < surface_->triangle_count(); ++i) {
-    const double x = sphere_x_m_[at(i)] - p_m.x();
-    const double y = sphere_y_m_[at(i)] - p_m.y();
-    const double z = sphere_z_m_[at(i)] - p_m.z();
-    const double far_m = sphere_radius_m_[at(i)] + stand_offs_m_[at(i)] + reach_m;
+    const double far_m = sphere(i).radius_m + sphere(i).stand_off_m + reach_m;
     candidates_[at(candidate_count_)] = static_cast<std::int16_t>(i);
-    candidate_count_ += x * x + y * y + z * z <= far_m * far_m ? 1 : 0;
+    candidate_count_ += (sphere(i).centre_m - p_m).squaredNorm() <= far_m * far_m ? 1 : 0;
   }
 }
 
@@ -85,7 +89,7 @@ double NearSurface::linearise(const Vec3& p_m, double fraction) noexcept {
                                             surface.corner_m(local, 1, fraction), surface.corner_m(local, 2, fraction));
     const Vec3 away_m = p_m - nearest.position_m;
     const double distance_m = away_m.norm();
-    if (!(distance_m <= far_m + stand_offs_m_[at(local)]))
+    if (!(distance_m <= far_m + stand_off_m(local)))
       continue;  // also what a triangle without area may give: not a number
     if (nearest_ < 0 || distance_m < clearance_m_) nearest_ = near_count_;
     clearance_m_ = std::min(clearance_m_, distance_m);

@@ -21,7 +21,7 @@ struct NearestPoint {
 
 /// The triangles that a sphere may meet in a tick, and the half-spaces that keep it off them.
 ///
-/// Most of a model's triangles are out of reach: spheres round them, computed once a model and grown by the motion
+/// Most of a model's triangles are out of reach: spheres round them, computed when they come and grown by the motion
 /// since, leave those out that the way allowed (`travel`) does not reach. A way that turns out longer is allowed by
 /// collecting anew from where the first one ended. Real-time safe; one thread.
 class NearSurface {
@@ -52,7 +52,7 @@ class NearSurface {
   double clearance_m() const noexcept { return clearance_m_; }
   double travel_left_m() const noexcept { return travel_left_m_; }
   double stand_off_m() const noexcept { return stand_off_m_; }  // of all triangles, at most
-  double stand_off_m(int local) const noexcept { return stand_offs_m_[static_cast<std::size_t>(local)]; }
+  double stand_off_m(int local) const noexcept { return sphere(local).stand_off_m; }
   /// How far the corners of those triangles move in the tick, at most, relative to something that is carried.
   double relative_motion_m(const Vec3& carried_m) const noexcept;
   int count() const noexcept { return near_count_; }
@@ -64,7 +64,15 @@ class NearSurface {
   int tests() const noexcept { return tests_; }
 
  private:
-  void enclose_triangles() noexcept;
+  struct Sphere {
+    Vec3 centre_m = Vec3::Zero();
+    double radius_m = 0.0;
+    double stand_off_m = 0.0;  // of what stands on the triangle
+  };
+
+  void enclose_triangles(bool keeps_known) noexcept;
+  Sphere enclosed(int local) const noexcept;
+  const Sphere& sphere(int local) const noexcept { return spheres_[static_cast<std::size_t>(local)]; }
   void drop_far_candidates() noexcept;
   Projection project_at(const Vec3& goal_m, double radius_m) noexcept;
 
@@ -80,9 +88,9 @@ class NearSurface {
   int tests_ = 0;
 
   // Spheres round the model's triangles where they were when computed.
-  std::uint64_t enclosed_model_ = 0;
+  std::uint64_t enclosed_list_ = 0;
   double moved_m_ = 0.0;  // since then, at most
-  std::array<double, kMost> sphere_x_m_{}, sphere_y_m_{}, sphere_z_m_{}, sphere_radius_m_{}, stand_offs_m_{};
+  std::array<Sphere, kMost> spheres_{};
 
   std::array<std::int16_t, kMost> candidates_{};
   int candidate_count_ = 0;

@@ -92,6 +92,7 @@ struct LocalModel {
   std::int32_t triangle_count = 0;
   std::array<std::array<double, 3>, kMaxLocalVertices> previous_world_m{};  // at published_at - dt
   std::array<std::array<double, 3>, kMaxLocalVertices> current_world_m{};   // at published_at
+  /// Ascending by surface, then by triangle: what two models share is found in one walk along both.
   std::array<Triangle, kMaxLocalTriangles> triangles{};
   LocalContact contact{};
   LocalLine line{};

@@ -78,12 +78,32 @@ struct Frames {
   std::span<const Vec3> previous_m, current_m;
 };
 
-/// Adds a triangle and its new vertices, or returns false when the vertices would not fit.
-bool add_triangle(const Candidate& candidate, const std::array<int, 3>& triangle, const Frames& frames,
-                  VertexNumbers& numbers, messages::LocalModel& model) {
+/// Gives the triangle's vertices numbers. Returns how many had none.
+int number_vertices(int surface, const std::array<int, 3>& triangle, int next, VertexNumbers& numbers) {
   int fresh = 0;
-  for (const int vertex : triangle) fresh += numbers.number(numbers.place(candidate.surface, vertex)) < 0 ? 1 : 0;
-  if (model.vertex_count + fresh > messages::kMaxLocalVertices) return false;
+  for (const int vertex : triangle) {
+    const std::size_t place = numbers.place(surface, vertex);
+    if (numbers.number(place) < 0) numbers.set(place, surface, vertex, next + fresh++);
+  }
+  return fresh;
+}
+
+/// How many of the nearest triangles a model holds: as many as there is room for, and for their vertices.
+template <typename Corners>
+std::size_t fitting_count(std::span<const Candidate> nearest_first, const Corners& corners) {
+  const std::size_t most = std::min(nearest_first.size(), at(messages::kMaxLocalTriangles));
+  VertexNumbers numbers;
+  int vertices = 0;
+  for (std::size_t i = 0; i < most; ++i) {
+    vertices += number_vertices(nearest_first[i].surface, corners(nearest_first[i]), vertices, numbers);
+    if (vertices > messages::kMaxLocalVertices) return i;
+  }
+  return most;
+}
+
+/// Adds a triangle and its new vertices, which fit.
+void add_triangle(const Candidate& candidate, const std::array<int, 3>& triangle, const Frames& frames,
+                  VertexNumbers& numbers, messages::LocalModel& model) {
   messages::LocalModel::Triangle& out = model.triangles[at(model.triangle_count++)];
   out.surface = candidate.surface;
   out.triangle = candidate.triangle;
@@ -98,7 +118,6 @@ bool add_triangle(const Candidate& candidate, const std::array<int, 3>& triangle
     }
     out.vertices[corner] = numbers.number(place);
   }
-  return true;
 }
 
 /// Walks from the place along the line until the string is long enough: +1 towards the insertion, -1 to the origin.
@@ -134,7 +153,7 @@ class LocalPatch::NearestTriangles {
     std::push_heap(heap_.begin(), heap_.begin() + static_cast<std::ptrdiff_t>(count_));
   }
 
-  std::span<const Candidate> sorted() {
+  std::span<Candidate> sorted() {
     std::sort_heap(heap_.begin(), heap_.begin() + static_cast<std::ptrdiff_t>(count_));
     return {heap_.data(), count_};
   }
@@ -184,19 +203,23 @@ void LocalPatch::write(const Vec3& centre_m, messages::LocalModel& model) const 
     collect(centre_m, nearest);
     if (nearest.full()) break;
   }
+  const std::span<Candidate> sorted = nearest.sorted();
+  const auto corners = [&](const Candidate& candidate) -> const std::array<int, 3>& {
+    return surfaces_[at(candidate.surface)].tree.triangle(candidate.triangle);
+  };
+  const std::span<Candidate> kept = sorted.first(fitting_count(sorted, corners));
+  model.coverage_centre_world_m = to_array(centre_m);
+  model.coverage_radius_m = kept.size() < sorted.size() ? sorted[kept.size()].reach_m : kSearchRadius_m;
+  std::sort(kept.begin(), kept.end(), [](const Candidate& a, const Candidate& b) {
+    return std::tie(a.surface, a.triangle) < std::tie(b.surface, b.triangle);
+  });
   VertexNumbers numbers;
   model.vertex_count = 0;
   model.triangle_count = 0;
-  model.coverage_centre_world_m = to_array(centre_m);
-  model.coverage_radius_m = kSearchRadius_m;
-  for (const Candidate& candidate : nearest.sorted()) {
+  for (const Candidate& candidate : kept) {
     const Surface& surface = surfaces_[at(candidate.surface)];
-    const bool room = model.triangle_count < messages::kMaxLocalTriangles;
     const Frames frames{surface.previous_m, surface.current_m};
-    if (!room || !add_triangle(candidate, surface.tree.triangle(candidate.triangle), frames, numbers, model)) {
-      model.coverage_radius_m = candidate.reach_m;
-      return;
-    }
+    add_triangle(candidate, corners(candidate), frames, numbers, model);
     model.triangles[at(model.triangle_count - 1)].tissue = surface.tissue[at(candidate.triangle)];
   }
 }

@@ -32,6 +32,7 @@ class LocalPatch {
   void update_surface(int surface, std::span<const Vec3> previous_m, std::span<const Vec3> current_m) noexcept;
 
   /// Fills triangles, vertices, counts and coverage of `model` with the triangles nearest to `centre_m` (the proxy).
+  /// The same triangles come in the same order on the same vertices, wherever the centre is.
   /// A triangle counts as near as it may come while its vertices move from the previous to the current frame.
   /// Deterministic; allocates nothing.
   void write(const Vec3& centre_m, messages::LocalModel& model) const noexcept;

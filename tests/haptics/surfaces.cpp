@@ -125,7 +125,7 @@ void write_patch(const TestMesh& mesh, const std::vector<Vec3>& previous_m, cons
                       model.vertex_count + static_cast<int>(fresh) <= messages::kMaxLocalVertices;
     if (!fits) {
       model.coverage_radius_m = std::max(0.0, distances_m[static_cast<std::size_t>(t)]);
-      return;
+      break;
     }
     messages::LocalModel::Triangle& out = model.triangles[static_cast<std::size_t>(model.triangle_count++)];
     out.surface = 0;
@@ -140,6 +140,8 @@ void write_patch(const TestMesh& mesh, const std::vector<Vec3>& previous_m, cons
       out.vertices[corner] = local[v];
     }
   }
+  std::sort(model.triangles.begin(), model.triangles.begin() + model.triangle_count,
+            [](const auto& a, const auto& b) { return a.triangle < b.triangle; });
 }
 
 double winding_number(const TestMesh& mesh, const std::vector<Vec3>& vertices_m, const Vec3& point_m) {
