@@ -255,7 +255,12 @@ void Proxy::find_touching() noexcept {
   }
   if (felt_clearance_m_ > kTouching * settings_.radius_m) return;
   if (first >= 0) std::swap(points[0], points[at(first)]), std::swap(touching_[0], touching_[at(first)]);
-  for (int i = 0; i < count; ++i) {
+  keep_off(std::span(points.data(), at(count)), radius_m);
+}
+
+/// The half-spaces of those of the touching points that are as near as the nearest, which comes first.
+void Proxy::keep_off(std::span<const NearestPoint> points, double radius_m) noexcept {
+  for (int i = 0; at(i) < points.size(); ++i) {
     if (points[at(i)].distance_m > felt_clearance_m_ + kTogether_m) continue;
     HalfSpace half;
     half.normal = points[at(i)].distance_m > 0.0 ? Vec3((p_m_ - points[at(i)].point_m) / points[at(i)].distance_m)

@@ -104,6 +104,7 @@ class Proxy {
   void put_outside(Tick& tick, double fraction) noexcept;
   void seek_goal(Tick& tick) noexcept;
   void find_touching() noexcept;
+  void keep_off(std::span<const NearestPoint> points, double radius_m) noexcept;
   Projection press(Tick& tick) noexcept;
   Vec3 free_target_m(const Tick& tick) const noexcept;
   Vec3 slide(const Projection& held, Tick& tick) noexcept;

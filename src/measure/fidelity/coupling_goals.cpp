@@ -53,18 +53,19 @@ struct Press {
   Vec3 force_N = Vec3::Zero(), device_m = Vec3::Zero();  // means of the second half
 };
 
-Press press(const PointTissue& tissue, double stiffness_N_m, const device::DeviceProfile& profile,
-            const device::HandProfile& hand, double force_N, double seconds) {
-  PointPress press(tissue, coupled_by(stiffness_N_m), profile, hand);
+/// By a loose hand.
+Press press(const PointTissue& tissue, double stiffness_N_m, const device::DeviceProfile& profile, double force_N,
+            double seconds) {
+  PointPress press(tissue, coupled_by(stiffness_N_m), profile, kLooseHand);
   std::array<Jitter, 3> jitter;
   Press result;
-  const auto ticks = std::lround(seconds / kTick_s);
-  for (long tick = 0; tick < ticks; ++tick) {
-    press.tick(pressing_m(press, hand, tissue.normal, force_N, tissue.stiffness_N_m));
-    if (2 * tick < ticks) continue;
+  const long counted = std::lround(0.5 * seconds / kTick_s);
+  for (long tick = 0; tick < 2 * counted; ++tick) {
+    press.tick(pressing_m(press, kLooseHand, tissue.normal, force_N, tissue.stiffness_N_m));
+    if (tick < counted) continue;
     for (std::size_t k = 0; k < 3; ++k) jitter[k].add(press.force_N()[static_cast<Eigen::Index>(k)]);
-    result.force_N += press.force_N() / static_cast<double>(ticks - ticks / 2);
-    result.device_m += press.device_m() / static_cast<double>(ticks - ticks / 2);
+    result.force_N += press.force_N() / static_cast<double>(counted);
+    result.device_m += press.device_m() / static_cast<double>(counted);
   }
   result.jitter_N = std::hypot(jitter[0].rms(), jitter[1].rms(), jitter[2].rms());
   return result;
@@ -72,9 +73,7 @@ Press press(const PointTissue& tissue, double stiffness_N_m, const device::Devic
 
 /// Slope of force over device position between two presses, along the normal.
 double felt_stiffness_N_m(const PointTissue& tissue, double coupling_N_m, double seconds) {
-  const auto at_force = [&](double force_N) {
-    return press(tissue, coupling_N_m, smooth_device(), kLooseHand, force_N, seconds);
-  };
+  const auto at_force = [&](double force_N) { return press(tissue, coupling_N_m, smooth_device(), force_N, seconds); };
   const Press light = at_force(0.5), firm = at_force(2.0);
   return (firm.force_N - light.force_N).dot(tissue.normal) / -(firm.device_m - light.device_m).dot(tissue.normal);
 }
@@ -124,8 +123,7 @@ GoalFigures measure_multirate_stability(Effort effort) {
     for (const int late : {1, 0}) {
       for (const Vec3& normal : {kLevel, kTilted}) {
         const PointTissue tissue{.dt_s = dt_s, .late_steps = late, .normal = normal};
-        if (press(tissue, coupling_N_m, smooth_device(), kLooseHand, 1.5, full ? 10.0 : 4.0).jitter_N > kCalm_N)
-          return false;
+        if (press(tissue, coupling_N_m, smooth_device(), 1.5, full ? 10.0 : 4.0).jitter_N > kCalm_N) return false;
       }
     }
     return true;
@@ -154,11 +152,10 @@ GoalFigures measure_press_jitter(Effort effort) {
   for (const double tissue_N_m : {300.0, 1500.0}) {
     for (const double rate_hz : kRates_hz) {
       const PointTissue tissue{.stiffness_N_m = tissue_N_m, .dt_s = 1.0 / rate_hz, .normal = kTilted};
-      const double jitter_N = press(tissue, 800.0, least_friction, kLooseHand, 1.0, seconds).jitter_N;
+      const double jitter_N = press(tissue, 800.0, least_friction, 1.0, seconds).jitter_N;
       result.figures.push_back(
           {fmt::format("tissue of {} N/m, {} Hz, above 20 Hz", tissue_N_m, rate_hz), 1e3 * jitter_N, "mN", 10.0});
-      without_friction_N =
-          std::max(without_friction_N, press(tissue, 800.0, smooth_device(), kLooseHand, 1.0, seconds).jitter_N);
+      without_friction_N = std::max(without_friction_N, press(tissue, 800.0, smooth_device(), 1.0, seconds).jitter_N);
     }
   }
   result.note = fmt::format(
