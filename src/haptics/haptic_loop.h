@@ -87,7 +87,6 @@ class HapticLoop {
   const HapticTick& last_tick() const noexcept { return last_; }
   const messages::ToolState& tool_state() const noexcept { return last_.tool; }
   GateState gate_state() const noexcept { return gate_.state(); }
-  const ProxyCounters& proxy_counters() const noexcept { return proxy_.counters(); }
   const HapticPorts& ports() const noexcept { return ports_; }
 
  private:

@@ -27,7 +27,7 @@ struct PortsTick {
   Vec3 proxy_m = Vec3::Zero();                // of the contact
   Vec3 tissue_moved_m = Vec3::Zero();         // under it, in this tick
   double contact_stiffness_N_m = 0.0;         // felt; 0: none
-  double texture_held_J = 0.0;                // the most that the relief may give back
+  double texture_held_J = 0.0;                // the most that relief and passed lines may give back
   const messages::LocalLine* line = nullptr;  // in hand, as the newest model has it; null: none
   double line_gain = 0.0;                     // force scale times how far the hand has closed
   std::int32_t body = -1;                     // in hand
@@ -38,7 +38,7 @@ struct PortsTick {
 /// One observer of energy for each effect, side by side: none can spend what another took.
 ///
 ///   contact  spring between hand and proxy, carried by the tissue
-///   texture  relief, vibration and knock on the tissue
+///   texture  relief, vibration and knock on the tissue, and the lines that an open hand passes over
 ///   line     string to the ends of a muscle line; the muscle changes its tension. By its potential: no bound on its
 ///            stiffness has used up the device's friction yet, as those of contact and bone have
 ///   bone     spring between hand and a point of a bone, which moves
@@ -56,10 +56,7 @@ class HapticPorts {
   double damping_Ns_m() const noexcept;                 // added in the last tick, all ports
   double found_J() const noexcept { return found_J_; }  // stored in lines and grips when the hand closed, so far
   double missing_J() const noexcept;                    // what came out and should not have, in the worst port
-  const EnergyPort& contact() const noexcept { return contact_; }
   const EnergyPort& texture() const noexcept { return texture_; }
-  const EnergyPort& line() const noexcept { return line_; }
-  const EnergyPort& bone() const noexcept { return bone_; }
 
  private:
   void find(EnergyPort& port, double energy_J) noexcept;

@@ -37,7 +37,6 @@ struct ProxyContact {
 struct ProxyCounters {
   std::uint64_t rescues = 0;      // found inside and put outside
   std::uint64_t over_budget = 0;  // ticks that stopped short of the goal
-  std::uint64_t short_steps = 0;  // ticks whose surface moved farther than 16 safe steps cover
 };
 
 /// A sphere that stands for the tool and stays outside of the moving tissue while the device goes in.
