@@ -17,6 +17,16 @@ double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
   return 2.0 * std::atan2(a.dot(b.cross(c)), height);
 }
 
+double winding_number(const TriangleMesh& surface, std::span<const Vec3> positions_m, const Vec3& p) {
+  double angle_sr = 0.0;
+  for (const auto& t : surface.triangles) {
+    angle_sr +=
+        solid_angle(positions_m[static_cast<std::size_t>(t[0])] - p, positions_m[static_cast<std::size_t>(t[1])] - p,
+                    positions_m[static_cast<std::size_t>(t[2])] - p);
+  }
+  return angle_sr / (4.0 * std::numbers::pi);
+}
+
 double depth_inside_m(const TriangleMesh& surface, const Vec3& p) {
   Eigen::AlignedBox3d box;
   for (const Vec3& vertex : surface.positions_m) box.extend(vertex);

@@ -22,11 +22,11 @@ struct Swelling {
 };
 
 /// A bumpy ball of 25 mm whose radius follows a triangle wave of the given amplitude and speed.
-SurfacePlayer::Shape swelling_shape(const TestMesh& ball, const Swelling& swelling) {
+SurfacePlayer::Shape swelling_shape(const geometry::TriangleMesh& ball, const Swelling& swelling) {
   return [&ball, swelling](double t) {
     const double cycle = swelling.speed_m_s * t / (4.0 * swelling.amplitude_m) + swelling.phase;
     const double wave = 4.0 * std::abs(cycle - std::floor(cycle + 0.5)) - 1.0;
-    std::vector<Vec3> vertices_m = ball.vertices_m;
+    std::vector<Vec3> vertices_m = ball.positions_m;
     for (Vec3& v : vertices_m) {
       const Vec3 way = v.normalized();
       const double bump_m =
@@ -52,7 +52,8 @@ Vec3 random_direction(std::mt19937_64& random) {
 }
 
 /// One approach: from outside towards a place inside, then along and out again, at up to 1 m/s.
-void approach(const TestMesh& ball, std::mt19937_64& random, Tally& tally, realtime::PeriodHistogram& durations) {
+void approach(const geometry::TriangleMesh& ball, std::mt19937_64& random, Tally& tally,
+              realtime::PeriodHistogram& durations) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   const Swelling swelling{5e-3, 5e-3 * std::pow(100.0, unit(random)), unit(random)};
   ContactSettings settings;
@@ -70,7 +71,7 @@ void approach(const TestMesh& ball, std::mt19937_64& random, Tally& tally, realt
     player.tick(goal);
     durations.add(player.tick_duration_ns);
     ++tally.ticks;
-    if (tick % 10 == 9 && winding_number(ball, player.surface_now_m(), player.proxy.position_m()) > 0.5) {
+    if (tick % 10 == 9 && geometry::winding_number(ball, player.surface_now_m(), player.proxy.position_m()) > 0.5) {
       ++tally.inside;
       break;
     }
@@ -80,7 +81,7 @@ void approach(const TestMesh& ball, std::mt19937_64& random, Tally& tally, realt
 }
 
 TEST(ProxyApproach, NeverFallsThroughASwellingSurface) {
-  const TestMesh ball = make_sphere(0.025, 3);
+  const geometry::TriangleMesh ball = geometry::make_ball(0.025, 3);
   std::mt19937_64 random(20261121);
   Tally tally;
   realtime::PeriodHistogram durations;

@@ -16,8 +16,8 @@ namespace {
 
 /// The surface of one model at rest.
 struct Still {
-  Still(const TestMesh& mesh, const Vec3& centre_m) {
-    write_patch(mesh, mesh.vertices_m, mesh.vertices_m, centre_m, model);
+  Still(const geometry::TriangleMesh& mesh, const Vec3& centre_m) {
+    write_patch(mesh, mesh.positions_m, mesh.positions_m, centre_m, model);
     model.dt_ns = 10'000'000;
     surface.begin_tick(model, 0, true);
   }
@@ -52,7 +52,7 @@ std::vector<Vec3> places_above(double distance_m) {
 
 TEST(CurvedSurface, IsNearerToTheBallThanItsTriangles) {
   const double radius_m = 0.025;
-  const Still still(make_sphere(radius_m, 3), Vec3(0, 0, radius_m));
+  const Still still(geometry::make_ball(radius_m, 3), Vec3(0, 0, radius_m));
   CurvedSurface skin(1e-3);
   skin.begin_tick(still.surface);
   double worst_m = 0.0, worst_flat_m = 0.0;
@@ -69,7 +69,7 @@ TEST(CurvedSurface, IsNearerToTheBallThanItsTriangles) {
 }
 
 TEST(CurvedSurface, ItsNormalTurnsAsTheBallsDoes) {
-  const Still still(make_sphere(0.025, 3), Vec3(0, 0, 0.025));
+  const Still still(geometry::make_ball(0.025, 3), Vec3(0, 0, 0.025));
   CurvedSurface skin(1e-3);
   skin.begin_tick(still.surface);
   for (const Vec3& p_m : places_above(0.028)) {
@@ -79,14 +79,14 @@ TEST(CurvedSurface, ItsNormalTurnsAsTheBallsDoes) {
 }
 
 TEST(CurvedSurface, RidgesStayRidges) {
-  const Still still(make_box(Vec3(0.02, 0.02, 0.02), 4), Vec3(0.009, 0, 0.01));
+  const Still still(geometry::make_box(Vec3(0.02, 0.02, 0.02), 4), Vec3(0.009, 0, 0.01));
   CurvedSurface skin(1e-3);
   skin.begin_tick(still.surface);
   for (int local = 0; local < still.surface.triangle_count(); ++local) EXPECT_EQ(skin.height_m(local), 0.0);
 }
 
 TEST(CurvedSurface, TrianglesWithoutAreaDoNoHarm) {
-  TestMesh mesh = make_sphere(0.025, 2);
+  geometry::TriangleMesh mesh = geometry::make_ball(0.025, 2);
   for (std::size_t t = 0; t < mesh.triangles.size(); t += 4) mesh.triangles[t][1] = mesh.triangles[t][0];
   const Still still(mesh, Vec3(0, 0, 0.025));
   CurvedSurface skin(1e-3);
@@ -100,13 +100,13 @@ TEST(CurvedSurface, TrianglesWithoutAreaDoNoHarm) {
 
 /// Goes round a closed way without friction, 4 mm deep with a sphere of 1 mm, and adds up what the hand gains.
 TEST(CurvedSurface, GivesNoEnergyOnAClosedWay) {
-  const TestMesh ball = make_sphere(0.025, 2);
+  const geometry::TriangleMesh ball = geometry::make_ball(0.025, 2);
   ContactSettings settings;
   settings.radius_m = 1e-3;
   settings.static_friction = settings.dynamic_friction = 0.0;
   settings.damping_Ns_m = 0.0;
   SurfacePlayer player(
-      ball, [&](double) { return ball.vertices_m; }, settings);
+      ball, [&](double) { return ball.positions_m; }, settings);
   const auto way_m = [](double turn) {
     const Vec3 out(0.35 * std::cos(turn), 0.35 * std::sin(turn), 1.0);
     return Vec3(out.normalized() * (0.0245 + 2e-4 * std::sin(3.0 * turn)));

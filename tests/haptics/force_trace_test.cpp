@@ -48,8 +48,8 @@ std::vector<messages::DeviceState> stroke() {
 }
 
 /// The ball swells by 0.1 mm a step and shrinks again.
-std::vector<Vec3> swollen(const TestMesh& ball, int step) {
-  std::vector<Vec3> vertices_m = ball.vertices_m;
+std::vector<Vec3> swollen(const geometry::TriangleMesh& ball, int step) {
+  std::vector<Vec3> vertices_m = ball.positions_m;
   const int phase = step % 20;
   const double swelling_m = 1e-4 * (phase < 10 ? phase : 20 - phase);
   for (Vec3& v : vertices_m) v *= 1.0 + swelling_m / 0.025;
@@ -57,7 +57,7 @@ std::vector<Vec3> swollen(const TestMesh& ball, int step) {
 }
 
 std::vector<Vec3> felt_forces_N() {
-  const TestMesh ball = make_sphere(0.025, 3);
+  const geometry::TriangleMesh ball = geometry::make_ball(0.025, 3);
   device::ReplayDevice device(stroke(), {});
   HapticSettings settings;
   settings.contact.static_friction = 0.4;

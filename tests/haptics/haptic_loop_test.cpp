@@ -40,10 +40,10 @@ class Scene {
   }
 
   void publish() {
-    for (std::size_t i = 0; i < plane_.vertices_m.size(); ++i) previous_m_[i] = current_m_[i];
+    for (std::size_t i = 0; i < plane_.positions_m.size(); ++i) previous_m_[i] = current_m_[i];
     const double height_m = swing_m_ * std::sin(3e-9 * static_cast<double>(now_ns_));
-    for (std::size_t i = 0; i < plane_.vertices_m.size(); ++i)
-      current_m_[i] = plane_.vertices_m[i] + Vec3(0, 0, height_m);
+    for (std::size_t i = 0; i < plane_.positions_m.size(); ++i)
+      current_m_[i] = plane_.positions_m[i] + Vec3(0, 0, height_m);
     messages::LocalModel& model = loop.models().back();
     write_patch(plane_, previous_m_, current_m_, to_vec3(loop.tool_state().proxy_position_world_m), model);
     model.sequence = ++sequence_;
@@ -78,8 +78,8 @@ class Scene {
   std::uint64_t older_ns = 0;  // by which the models' content is older than the step
 
  private:
-  TestMesh plane_ = make_plane(0.06, 10);
-  std::vector<Vec3> previous_m_ = plane_.vertices_m, current_m_ = plane_.vertices_m;
+  geometry::TriangleMesh plane_ = geometry::make_plane(0.06, 10);
+  std::vector<Vec3> previous_m_ = plane_.positions_m, current_m_ = plane_.positions_m;
   double swing_m_;
   std::uint64_t now_ns_ = 0;
   std::uint64_t sequence_ = 0;

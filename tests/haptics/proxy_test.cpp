@@ -20,11 +20,11 @@ ContactSettings settings_with(double friction) {
 
 /// A plane that moves as a whole by `offset(t)`.
 SurfacePlayer plane_player(const ContactSettings& settings, std::function<Vec3(double)> offset) {
-  const TestMesh plane = make_plane(0.06, 12);
+  const geometry::TriangleMesh plane = geometry::make_plane(0.06, 12);
   return SurfacePlayer(
       plane,
       [plane, offset](double t) {
-        std::vector<Vec3> vertices_m = plane.vertices_m;
+        std::vector<Vec3> vertices_m = plane.positions_m;
         for (Vec3& v : vertices_m) v += offset(t);
         return vertices_m;
       },
@@ -122,7 +122,7 @@ TEST(Proxy, SticksToMovingTissueWithoutDrift) {
     const Vec3 tremor_m(0.2e-3 * std::sin(2 * std::numbers::pi * 9.0 * player.time_s()), 0, 0);
     player.tick({swing(player.time_s() + 1e-3) + tremor_m, Vec3::Zero()});
     const Vec3 relative_m =
-        player.proxy.position_m() - (player.surface_now_m()[84] - make_plane(0.06, 12).vertices_m[84]);
+        player.proxy.position_m() - (player.surface_now_m()[84] - geometry::make_plane(0.06, 12).positions_m[84]);
     if (tick == 30) first_m = relative_m;
     if (tick < 30) continue;
     ASSERT_LT((relative_m - first_m).norm(), 20e-6) << "tick " << tick;
@@ -142,8 +142,8 @@ TEST(Proxy, ARisingSurfaceHitsAProxyThatRestsOnItsGoal) {
 }
 
 TEST(Proxy, ADeviceThatStartsInsideIsPutOutside) {
-  const TestMesh box = make_box(Vec3(0.04, 0.04, 0.04), 4);
-  SurfacePlayer player(box, [&](double) { return box.vertices_m; }, {});
+  const geometry::TriangleMesh box = geometry::make_box(Vec3(0.04, 0.04, 0.04), 4);
+  SurfacePlayer player(box, [&](double) { return box.positions_m; }, {});
   for (int tick = 0; tick < 30; ++tick) player.tick({Vec3(0, 0, 0.015), Vec3::Zero()});
   EXPECT_NEAR(player.proxy.position_m().z(), 0.02 + ContactSettings{}.radius_m, 1e-6);
 }
@@ -158,12 +158,12 @@ TEST(Proxy, StaysWithinWhatTheModelCovers) {
 
 TEST(Proxy, AThinSheetStopsAFastPlunge) {
   const double thickness_m = 0.2e-3;
-  const TestMesh sheet = make_box(Vec3(0.04, 0.04, thickness_m), 6);
+  const geometry::TriangleMesh sheet = geometry::make_box(Vec3(0.04, 0.04, thickness_m), 6);
   for (const double speed_m_s : {0.1, 0.5, 2.0}) {
     ContactSettings settings = settings_with(0.2);
     settings.radius_m = 1e-3;
     SurfacePlayer player(
-        sheet, [&](double) { return sheet.vertices_m; }, settings);
+        sheet, [&](double) { return sheet.positions_m; }, settings);
     for (int tick = 0; tick < 250; ++tick) {
       const double height_m = std::max(0.01 - 1e-3 * speed_m_s * tick, -0.012);
       player.tick({Vec3(1e-3, 1.7e-3, height_m), Vec3(0, 0, -speed_m_s)});
@@ -178,11 +178,11 @@ TEST(Proxy, AThinSheetStopsAFastPlunge) {
 
 TEST(Proxy, RestsInAGrooveOnBothSides) {
   const double half_angle_rad = 5.0 * std::numbers::pi / 180.0;
-  const TestMesh groove = make_groove(half_angle_rad, 0.08, 16);
+  const geometry::TriangleMesh groove = geometry::make_groove(2.0 * half_angle_rad, 0.08, 16);
   ContactSettings settings = settings_with(0.0);
   settings.radius_m = 1e-3;
   SurfacePlayer player(
-      groove, [&](double) { return groove.vertices_m; }, settings);
+      groove, [&](double) { return groove.positions_m; }, settings);
   for (int tick = 0; tick < 200; ++tick) player.tick({Vec3(0, 0, 0.03 - 2e-4 * tick), Vec3::Zero()});
   EXPECT_NEAR(player.proxy.position_m().z(), settings.radius_m / std::sin(half_angle_rad), 2e-5);
   EXPECT_NEAR(player.proxy.position_m().x(), 0.0, 1e-6);

@@ -21,17 +21,17 @@ constexpr int kTicksAStep = 10;
 
 /// Three meshes in one list of vertices and triangles; `surface` tells which one a triangle is of.
 struct Room {
-  TestMesh mesh;
+  geometry::TriangleMesh mesh;
   std::size_t table = 0, box = 0;  // vertices of each
   std::size_t table_triangles = 0, box_triangles = 0;
 
-  void add(const TestMesh& part) {
-    const int first = static_cast<int>(mesh.vertices_m.size());
-    mesh.vertices_m.insert(mesh.vertices_m.end(), part.vertices_m.begin(), part.vertices_m.end());
+  void add(const geometry::TriangleMesh& part) {
+    const int first = static_cast<int>(mesh.positions_m.size());
+    mesh.positions_m.insert(mesh.positions_m.end(), part.positions_m.begin(), part.positions_m.end());
     for (const auto& [a, b, c] : part.triangles) mesh.triangles.push_back({a + first, b + first, c + first});
   }
   /// Box and ball, which have an inside.
-  TestMesh solids() const {
+  geometry::TriangleMesh solids() const {
     return {{}, {mesh.triangles.begin() + static_cast<std::ptrdiff_t>(table_triangles), mesh.triangles.end()}};
   }
   int surface_of(int triangle) const {
@@ -42,18 +42,19 @@ struct Room {
 
 Room make_room() {
   Room room;
-  const TestMesh table = make_plane(0.06, 8), box = make_box(Vec3(0.01, 0.02, 0.01), 3), ball = make_sphere(0.01, 2);
-  room.table = table.vertices_m.size();
-  room.box = box.vertices_m.size();
+  const geometry::TriangleMesh table = geometry::make_plane(0.06, 8),
+                               box = geometry::make_box(Vec3(0.01, 0.02, 0.01), 3), ball = geometry::make_ball(0.01, 2);
+  room.table = table.positions_m.size();
+  room.box = box.positions_m.size();
   room.table_triangles = table.triangles.size();
   room.box_triangles = box.triangles.size();
-  for (const TestMesh& part : {table, box, ball}) room.add(part);
+  for (const geometry::TriangleMesh& part : {table, box, ball}) room.add(part);
   return room;
 }
 
 /// The box turns and goes to and fro beside the tool, the ball swells and shrinks over it.
 std::vector<Vec3> room_at(const Room& room, int step) {
-  std::vector<Vec3> vertices_m = room.mesh.vertices_m;
+  std::vector<Vec3> vertices_m = room.mesh.positions_m;
   const double phase = 2.0 * std::numbers::pi * 0.01 * step;  // 1 Hz
   const Vec3 place_m(0.014 + 0.004 * std::cos(phase), 0.0, 0.0065);
   const Eigen::AngleAxisd turn(0.5 * std::sin(phase), Vec3::UnitZ());
@@ -109,7 +110,7 @@ TEST(SeveralSurfaces, NoneIsEverEntered) {
     ASSERT_GT(proxy.position_m().z(), 0.0) << tick;
     if (tick % kTicksAStep == kTicksAStep - 1) {  // the surfaces stand where the step ends
       const std::vector<Vec3> now_m = room_at(room, tick / kTicksAStep + 1);
-      ASSERT_LT(winding_number(room.solids(), now_m, proxy.position_m()), 0.5) << tick;
+      ASSERT_LT(geometry::winding_number(room.solids(), now_m, proxy.position_m()), 0.5) << tick;
     }
   }
   EXPECT_TRUE(touched[0] && touched[1] && touched[2]);

@@ -15,7 +15,8 @@ class SurfacePlayer {
   using Shape = std::function<std::vector<Vec3>(double time_s)>;
   static constexpr std::uint64_t kTick_ns = 1'000'000;
 
-  SurfacePlayer(const TestMesh& mesh, Shape shape, const ContactSettings& settings, std::uint64_t step_ns = 10'000'000)
+  SurfacePlayer(const geometry::TriangleMesh& mesh, Shape shape, const ContactSettings& settings,
+                std::uint64_t step_ns = 10'000'000)
       : proxy(settings), mesh_(mesh), shape_(std::move(shape)), step_ns_(step_ns) {}
 
   /// One tick of the proxy towards `goal`.
@@ -38,7 +39,7 @@ class SurfacePlayer {
     return now_m;
   }
   double time_s() const { return 1e-9 * static_cast<double>(now_ns_); }
-  const TestMesh& mesh() const { return mesh_; }
+  const geometry::TriangleMesh& mesh() const { return mesh_; }
   const messages::LocalModel& model() const { return model_; }
 
   Proxy proxy;
@@ -56,7 +57,7 @@ class SurfacePlayer {
     started_ = true;
   }
 
-  TestMesh mesh_;
+  geometry::TriangleMesh mesh_;
   Shape shape_;
   std::uint64_t step_ns_;
   std::uint64_t now_ns_ = 0;

@@ -10,7 +10,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "geometry/depth_inside.h"
 #include "geometry/mesh_files.h"
+#include "geometry/plain_surfaces.h"
 #include "measure/fidelity/shapes.h"
 #include "measure/probe/csv_rows.h"
 #include "measure/probe/surface_side.h"
@@ -67,7 +69,7 @@ ProbeInput input_of(const geometry::TriangleMesh& surface, ProbePath path) {
 }
 
 TEST(Probe, PressingAPlaneGivesStiffnessTimesDepth) {
-  const geometry::TriangleMesh plane = make_plane(0.1, 20);
+  const geometry::TriangleMesh plane = geometry::make_plane(0.1, 20);
   const ProbeInput input = input_of(plane, {{0.0, 0.1, 0.2}, {Vec3(0, 0, 0.01), Vec3(0, 0, 0.001), Vec3(0, 0, 0.001)}});
   const ProbeAnswer answer = run_probe(input, go_on);
   const std::vector<Row> rows = rows_of(answer.csv);
@@ -79,7 +81,7 @@ TEST(Probe, PressingAPlaneGivesStiffnessTimesDepth) {
 }
 
 TEST(Probe, RadiusZeroIsAPointOfATenthOfAMillimetre) {
-  const geometry::TriangleMesh plane = make_plane(0.1, 20);
+  const geometry::TriangleMesh plane = geometry::make_plane(0.1, 20);
   ProbeInput input = input_of(plane, {{0.0, 0.1}, {Vec3(0, 0, 0.005), Vec3(0, 0, -0.001)}});
   input.contact.radius_m = 0.0;
   const std::vector<Row> rows = rows_of(run_probe(input, go_on).csv);
@@ -88,7 +90,7 @@ TEST(Probe, RadiusZeroIsAPointOfATenthOfAMillimetre) {
 
 TEST(Probe, EveryRowTellsTheSurfaceAtItsOwnTime) {
   const TemporaryFolder folder;
-  geometry::TriangleMesh plane = make_plane(0.04, 8);
+  geometry::TriangleMesh plane = geometry::make_plane(0.04, 8);
   std::ofstream times(folder / "times.csv");
   times << "file, t_s\n";
   for (int frame = 0; frame < 3; ++frame) {  // z = 0, 2 mm, 1 mm at 0, 37, 80 ms
@@ -111,7 +113,8 @@ TEST(Probe, EveryRowTellsTheSurfaceAtItsOwnTime) {
 }
 
 TEST(Probe, AFineSurfaceIsFollowedWithoutLag) {
-  const geometry::TriangleMesh ball = make_ball(0.025, 7);  // 327,680 triangles of 0.2 mm: a patch reaches 1.6 mm
+  const geometry::TriangleMesh ball =
+      geometry::make_ball(0.025, 7);  // 327,680 triangles of 0.2 mm: a patch reaches 1.6 mm
   ProbePath path;
   for (int i = 0; i <= 60; ++i) {
     const double angle = 0.02 * i;  // 0.5 m/s
@@ -124,7 +127,7 @@ TEST(Probe, AFineSurfaceIsFollowedWithoutLag) {
 }
 
 TEST(Probe, TheSameInputGivesTheSameRows) {
-  const geometry::TriangleMesh ball = make_ball(0.02, 3);
+  const geometry::TriangleMesh ball = geometry::make_ball(0.02, 3);
   const ProbeInput input =
       input_of(ball, {{0.0, 0.1, 0.3}, {Vec3(0, 0, 0.03), Vec3(0, 0, 0.02), Vec3(0.01, 0, 0.018)}});
   const std::vector<Row> first = rows_of(run_probe(input, go_on).csv), second = rows_of(run_probe(input, go_on).csv);
@@ -135,7 +138,7 @@ TEST(Probe, TheSameInputGivesTheSameRows) {
 }
 
 TEST(Probe, DegenerateAndTangledSurfacesGiveFiniteForces) {
-  geometry::TriangleMesh mesh = make_ball(0.02, 2);
+  geometry::TriangleMesh mesh = geometry::make_ball(0.02, 2);
   for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) mesh.triangles[t][2] = mesh.triangles[t][0];  // no area
   mesh.triangles.insert(mesh.triangles.end(), {{0, 1, 2}, {0, 2, 1}, {0, 1, 2}, {5, 5, 5}});
   const SurfaceDefects defects = find_defects(mesh);
@@ -152,7 +155,7 @@ TEST(Probe, DegenerateAndTangledSurfacesGiveFiniteForces) {
 }
 
 TEST(Probe, AForceBeyondTheLimitIsCutAndCounted) {
-  const geometry::TriangleMesh plane = make_plane(0.1, 20);
+  const geometry::TriangleMesh plane = geometry::make_plane(0.1, 20);
   ProbeInput input = input_of(plane, {{0.0, 0.1}, {Vec3(0, 0, 0.01), Vec3(0, 0, -0.1)}});
   input.contact.stiffness_N_m = 10'000.0;
   const ProbeAnswer answer = run_probe(input, go_on);
@@ -161,7 +164,7 @@ TEST(Probe, AForceBeyondTheLimitIsCutAndCounted) {
 }
 
 TEST(ProbeSide, AgreesWithTheWindingNumber) {
-  geometry::TriangleMesh ball = make_ball(0.02, 3);
+  geometry::TriangleMesh ball = geometry::make_ball(0.02, 3);
   std::vector<Vec3> positions_m = ball.positions_m;
   swell(ball, {2e-3, 0.1, 0.3, 1.5e-3}, 0.1, positions_m);
   SurfaceSide side(ball);
@@ -171,7 +174,7 @@ TEST(ProbeSide, AgreesWithTheWindingNumber) {
   for (int i = 0; i < 2000; ++i) {
     const double u = 0.001 * i;
     const Vec3 p = 0.023 * std::cos(1.7 * u) * Vec3(std::sin(11.0 * u), std::cos(11.0 * u), std::sin(7.0 * u));
-    const bool wound = winding_number(ball, positions_m, p) > 0.5;
+    const bool wound = geometry::winding_number(ball, positions_m, p) > 0.5;
     EXPECT_EQ(side.inside(p, positions_m), wound);
     inside += wound ? 1 : 0;
   }
@@ -180,7 +183,7 @@ TEST(ProbeSide, AgreesWithTheWindingNumber) {
 }
 
 TEST(ProbeSide, OfAnOpenSurfaceIsBehindItButNotBeyondItsBorder) {
-  const geometry::TriangleMesh plane = make_plane(0.02, 4);
+  const geometry::TriangleMesh plane = geometry::make_plane(0.02, 4);
   const SurfaceSide side(plane);
   EXPECT_FALSE(side.closed());
   EXPECT_TRUE(side.inside(Vec3(1e-3, 2e-3, -1e-4), plane.positions_m));
@@ -189,7 +192,7 @@ TEST(ProbeSide, OfAnOpenSurfaceIsBehindItButNotBeyondItsBorder) {
 }
 
 TEST(SurfaceTouch, TheProxysPartOfATickAllocatesNothing) {
-  const geometry::TriangleMesh ball = make_ball(0.025, 4);
+  const geometry::TriangleMesh ball = geometry::make_ball(0.025, 4);
   SurfaceTouch touch(ball, {});
   touch.tick({Vec3(0, 0, 0.03), Vec3::Zero()}, 1'000'000);
   const support::AllocationGuard guard;
@@ -237,14 +240,14 @@ TEST(ProbePath, WrongPathsNameLineValueRangeAndRemedy) {
 }
 
 TEST(ProbePath, ATooLongOneIsRefusedBeforeItRuns) {
-  const geometry::TriangleMesh plane = make_plane(0.1, 2);
+  const geometry::TriangleMesh plane = geometry::make_plane(0.1, 2);
   const ProbeInput input = input_of(plane, {{0.0, 1e9}, {Vec3(0, 0, 0.01), Vec3(0, 0, 0.01)}});
   EXPECT_THAT(complaint(ExitStatus::BadData, [&] { run_probe(input, go_on); }), HasSubstr("must be at most 2000000"));
 }
 
 TEST(ProbeFrames, WrongFramesAreRefused) {
   const TemporaryFolder folder;
-  const geometry::TriangleMesh plane = make_plane(0.04, 4), finer = make_plane(0.04, 5);
+  const geometry::TriangleMesh plane = geometry::make_plane(0.04, 4), finer = geometry::make_plane(0.04, 5);
   geometry::write_ply(plane, folder / "0000.ply");
   geometry::write_ply(finer, folder / "0001.ply");
   geometry::TriangleMesh turned = plane;
@@ -270,7 +273,7 @@ TEST(ProbeFrames, WrongFramesAreRefused) {
 
 TEST(ProbeSurface, OneInMillimetresIsNoticed) {
   const TemporaryFolder folder;
-  geometry::TriangleMesh ball = make_ball(40.0, 2);
+  geometry::TriangleMesh ball = geometry::make_ball(40.0, 2);
   geometry::write_ply(ball, folder / "ball.ply");
   std::vector<std::string> notes;
   load_probe_surface(folder / "ball.ply", notes);
@@ -280,7 +283,7 @@ TEST(ProbeSurface, OneInMillimetresIsNoticed) {
 
 TEST(ProbeFuzz, BrokenTablesAreReadOrRefused) {
   const TemporaryFolder folder;
-  geometry::write_ply(make_plane(0.04, 2), folder / "0000.ply");
+  geometry::write_ply(geometry::make_plane(0.04, 2), folder / "0000.ply");
   testing::Mutator mutator;
   int refused = 0;
   for (int round = 0; round < 1500; ++round) {

@@ -12,6 +12,7 @@
 
 #include "anatomy/specimen.h"
 #include "core/data_folder.h"
+#include "geometry/depth_inside.h"
 #include "haptics/proxy.h"
 #include "simulation/simulation.h"
 
@@ -19,18 +20,6 @@ namespace myotact::scene {
 namespace {
 
 constexpr std::uint64_t kTick_ns = 1'000'000, kStep_ns = 10 * kTick_ns;
-
-double winding_number(const geometry::TriangleMesh& mesh, std::span<const Vec3> positions_m, const Vec3& point_m) {
-  double solid_angle = 0.0;
-  for (const auto& t : mesh.triangles) {
-    const Vec3 a = positions_m[static_cast<std::size_t>(t[0])] - point_m;
-    const Vec3 b = positions_m[static_cast<std::size_t>(t[1])] - point_m;
-    const Vec3 c = positions_m[static_cast<std::size_t>(t[2])] - point_m;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    solid_angle += 2.0 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-  }
-  return solid_angle / (4.0 * std::numbers::pi);
-}
 
 class Triceps {
  public:
@@ -162,7 +151,7 @@ TEST(TouchTissue, TenThousandApproachesNeverFallThroughTheMovingTriceps) {
       }
       now_ns += kStep_ns;
       for (std::size_t h = 0; h < hands.size(); ++h) {
-        if (winding_number(triceps.skin(), triceps.skin_m(), hands[h]->proxy.position_m()) > 0.5) fell[h] = 1;
+        if (geometry::winding_number(triceps.skin(), triceps.skin_m(), hands[h]->proxy.position_m()) > 0.5) fell[h] = 1;
       }
     }
     for (std::size_t h = 0; h < hands.size(); ++h) {

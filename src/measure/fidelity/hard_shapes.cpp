@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "geometry/plain_surfaces.h"
 #include "measure/fidelity/proxy_goals.h"
 #include "measure/fidelity/shapes.h"
 #include "measure/probe/surface_touch.h"
@@ -65,7 +66,8 @@ void plunge_sheets(std::uint64_t ticks, Tally& tally) {
   while (tally.ticks - before.ticks < ticks) {
     const double radius_m = between(random, 0.0, 1.0) < 0.3 ? 0.0 : between(random, 0.5e-3, 5e-3);
     const double half_m = 0.5 * std::array{2.0 * radius_m + 1e-4, 1e-3, 0.2e-3, 0.02e-3}[random() % 4];
-    const geometry::TriangleMesh sheet = make_box(Vec3(0.06, 0.06, 2.0 * half_m), static_cast<int>(4 + random() % 20));
+    const geometry::TriangleMesh sheet =
+        geometry::make_box(Vec3(0.06, 0.06, 2.0 * half_m), static_cast<int>(4 + random() % 20));
     SurfaceTouch touch(sheet, contact_of(radius_m, between(random, 0.0, 0.6)));
     for (int plunge = 0; plunge < 20; ++plunge) {
       const double speed_m_s = 0.1 * std::pow(20.0, between(random, 0.0, 1.0));
@@ -89,7 +91,8 @@ void poke_grooves(double opening_rad, std::uint64_t ticks, Tally& tally) {
   const double slope = std::tan(0.5 * opening_rad);
   const Tally before = tally;
   while (tally.ticks - before.ticks < ticks) {
-    const geometry::TriangleMesh groove = make_groove(opening_rad, depth_m, static_cast<int>(3 + random() % 30));
+    const geometry::TriangleMesh groove =
+        geometry::make_groove(opening_rad, depth_m, static_cast<int>(3 + random() % 30));
     const double radius_m = between(random, 0.0, 1.0) < 0.3 ? 0.0 : between(random, 0.2e-3, 3e-3);
     SurfaceTouch touch(groove, contact_of(radius_m, between(random, 0.0, 0.5)));
     for (int poke = 0; poke < 20; ++poke) {
@@ -115,7 +118,8 @@ void slide_over_edges(std::uint64_t ticks, Tally& tally) {
   const double half_m = 0.01;
   const Tally before = tally;
   while (tally.ticks - before.ticks < ticks) {
-    const geometry::TriangleMesh cube = make_box(Vec3::Constant(2.0 * half_m), static_cast<int>(1 + random() % 12));
+    const geometry::TriangleMesh cube =
+        geometry::make_box(Vec3::Constant(2.0 * half_m), static_cast<int>(1 + random() % 12));
     const double radius_m = between(random, 0.0, 1.0) < 0.2 ? 0.0 : between(random, 0.3e-3, 5e-3);
     SurfaceTouch touch(cube, contact_of(radius_m, between(random, 0.0, 0.6)));
     for (int round = 0; round < 10; ++round) {

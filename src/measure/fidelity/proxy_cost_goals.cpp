@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "geometry/plain_surfaces.h"
 #include "measure/fidelity/shapes.h"
 #include "measure/probe/surface_touch.h"
 #include "realtime/period_histogram.h"
@@ -31,13 +32,13 @@ struct Sized {
 std::vector<Sized> sized_shapes() {
   const std::vector<NamedShape> canine = canine_shapes();
   if (canine.size() < 2) {
-    return {{{"ball", make_ball(0.03, 3)}, 2.0, 10.0},
-            {{"ball", make_ball(0.03, 5)}, 3.0, 15.0},
-            {{"ball", make_ball(0.03, 6)}, 6.0, 25.0}};
+    return {{{"ball", geometry::make_ball(0.03, 3)}, 2.0, 10.0},
+            {{"ball", geometry::make_ball(0.03, 5)}, 3.0, 15.0},
+            {{"ball", geometry::make_ball(0.03, 6)}, 6.0, 25.0}};
   }
   return {{canine[1], 2.0, 10.0},
-          {{canine[0].name + " x16", refined(canine[0].mesh, 2)}, 3.0, 15.0},
-          {{canine[1].name + " x64", refined(canine[1].mesh, 3)}, 6.0, 25.0}};
+          {{canine[0].name + " x16", geometry::refined(canine[0].mesh, 2)}, 3.0, 15.0},
+          {{canine[1].name + " x64", geometry::refined(canine[1].mesh, 3)}, 6.0, 25.0}};
 }
 
 /// A device that follows a helix round the longest axis of a surface, kDeep_m below it.
@@ -117,7 +118,7 @@ GoalFigures measure_surface_update(Effort effort) {
   const int rounds = effort == Effort::Full ? 300 : 20;
   for (const auto& [levels, goal_ms] :
        {std::pair{4, 0.3 * 5120 / 1e4}, {5, 0.3 * 20480 / 1e4}, {6, 2.5 * 81920 / 1e5}}) {
-    const geometry::TriangleMesh ball = make_ball(0.025, levels);
+    const geometry::TriangleMesh ball = geometry::make_ball(0.025, levels);
     const auto touch = std::make_unique<SurfaceTouch>(ball, haptics::ContactSettings{});
     realtime::PeriodHistogram refits, taking, resting;
     std::vector<Vec3> moved_m = ball.positions_m;

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "geometry/plain_surfaces.h"
 #include "geometry/triangle_tree.h"
 #include "measure/fidelity/shapes.h"
 #include "measure/probe/surface_touch.h"
@@ -30,7 +31,7 @@ struct Slide {
 
 /// The largest change of the force within a tick on great circles round a ball, with the device at a fixed depth.
 double largest_step_N(const Slide& slide, int ticks) {
-  const geometry::TriangleMesh ball = make_ball(kBall_m, slide.levels);
+  const geometry::TriangleMesh ball = geometry::make_ball(kBall_m, slide.levels);
   haptics::ContactSettings contact;
   contact.radius_m = slide.radius_m;
   contact.static_friction = contact.dynamic_friction = slide.friction;
@@ -63,8 +64,8 @@ double largest_step_N(const Slide& slide, int ticks) {
 
 /// Presses at random places of a bumpy ball, sliding.
 double deepest_sphere(int presses) {
-  geometry::TriangleMesh bumpy = make_ball(kBall_m, 4);
-  swell(make_ball(kBall_m, 4), {}, 0.0, bumpy.positions_m);
+  geometry::TriangleMesh bumpy = geometry::make_ball(kBall_m, 4);
+  swell(geometry::make_ball(kBall_m, 4), {}, 0.0, bumpy.positions_m);
   const geometry::TriangleTree tree(bumpy);
   std::mt19937_64 random(14);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -91,7 +92,7 @@ double deepest_sphere(int presses) {
 
 /// On a plane the device's depth is force over stiffness. The largest share that it is off.
 double worst_depth() {
-  const geometry::TriangleMesh plane = make_plane(0.06, 13);
+  const geometry::TriangleMesh plane = geometry::make_plane(0.06, 13);
   double worst = 0.0;
   for (const double radius_m : {0.5e-3, 3e-3, 5e-3}) {
     for (const double depth_m : {0.2e-3, 1e-3, 5e-3}) {

@@ -11,6 +11,8 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "geometry/depth_inside.h"
+#include "geometry/plain_surfaces.h"
 #include "measure/fidelity/shapes.h"
 #include "measure/probe/surface_touch.h"
 
@@ -54,7 +56,8 @@ struct Tally {
 
 /// A ball of one fineness, with the touch that is restarted for each trial.
 struct Ball {
-  explicit Ball(int levels) : mesh(make_ball(kBall_m, levels)), positions_m(mesh.positions_m), touch(mesh, {}) {}
+  explicit Ball(int levels)
+      : mesh(geometry::make_ball(kBall_m, levels)), positions_m(mesh.positions_m), touch(mesh, {}) {}
 
   geometry::TriangleMesh mesh;
   std::vector<Vec3> positions_m;
@@ -111,7 +114,7 @@ void run_approach(const Approach& approach, Ball& ball, std::uint64_t& now_ns, T
                now_ns);
     ++tally.ticks;
     if (tick % kCheckEvery != 0) continue;
-    if (winding_number(ball.mesh, touch.positions_m(), touch.proxy().position_m()) > 0.5) {
+    if (geometry::winding_number(ball.mesh, touch.positions_m(), touch.proxy().position_m()) > 0.5) {
       ++tally.inside;
       break;
     }
@@ -175,7 +178,7 @@ bool has_room(const geometry::TriangleMesh& mesh, const std::vector<Vec3>& moved
   Vec3 point_m = Vec3::Zero();
   for (std::size_t k = 0; k < 3; ++k) point_m += contact.barycentric[k] * corner(k);
   for (const double share : {0.01, 0.5, 1.0}) {
-    if (winding_number(mesh, moved_m, point_m + share * radius_m * normal) > 0.5) return false;
+    if (geometry::winding_number(mesh, moved_m, point_m + share * radius_m * normal) > 0.5) return false;
   }
   return true;
 }
@@ -193,7 +196,7 @@ void run_frame(SurfaceTouch& touch, const geometry::TriangleMesh& mesh, const st
   touch.tick({place.point_m + (radius_m + 1e-3) * place.normal, Vec3::Zero()}, now_ns += kTick_ns);
   for (int tick = 0; tick < kSettle; ++tick) touch.tick(pressed, now_ns += kTick_ns);
   const haptics::ProxyContact contact = touch.proxy().contact();
-  if (!contact.active || winding_number(mesh, mesh.positions_m, touch.proxy().position_m()) > 0.5) return;
+  if (!contact.active || geometry::winding_number(mesh, mesh.positions_m, touch.proxy().position_m()) > 0.5) return;
   if (!has_room(mesh, moved_m, contact, radius_m)) {
     ++tally.without_room;
     return;
@@ -202,7 +205,7 @@ void run_frame(SurfaceTouch& touch, const geometry::TriangleMesh& mesh, const st
   for (int tick = 0; tick < kAfter; ++tick) touch.tick(pressed, now_ns += kTick_ns);
   ++tally.trials;
   tally.ticks += kSettle + kAfter;
-  tally.inside += winding_number(mesh, touch.positions_m(), touch.proxy().position_m()) > 0.5 ? 1 : 0;
+  tally.inside += geometry::winding_number(mesh, touch.positions_m(), touch.proxy().position_m()) > 0.5 ? 1 : 0;
   tally.count(touch);
 }
 
@@ -235,8 +238,8 @@ GoalFigures measure_deforming_contact(Effort effort) {
       {fmt::format("inside, of {} approaches", approaches.trials), static_cast<double>(approaches.inside), "", 0.0});
   result.figures.push_back({"rescues a tick of them", approaches.rescue_share(), "", 1e-4});
   std::vector<NamedShape> shapes = canine_shapes();
-  geometry::TriangleMesh bumpy = make_ball(kBall_m, 3);
-  swell(make_ball(kBall_m, 3), {}, 0.0, bumpy.positions_m);
+  geometry::TriangleMesh bumpy = geometry::make_ball(kBall_m, 3);
+  swell(geometry::make_ball(kBall_m, 3), {}, 0.0, bumpy.positions_m);
   shapes.push_back({"bumpy ball", std::move(bumpy)});
   std::uint64_t rescues = 0;
   for (const NamedShape& shape : shapes) {

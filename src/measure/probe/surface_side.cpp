@@ -29,14 +29,6 @@ struct Edge {
   bool operator<(const Edge& other) const { return low != other.low ? low < other.low : high < other.high; }
 };
 
-double winding(const geometry::TriangleMesh& mesh, const std::vector<Vec3>& x_m, const Vec3& p) {
-  double angle_sr = 0.0;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    angle_sr += geometry::solid_angle(x_m[at(a)] - p, x_m[at(b)] - p, x_m[at(c)] - p);
-  }
-  return angle_sr / (4.0 * std::numbers::pi);
-}
-
 /// Calls visit(edge, triangles on it, whether it is one between two triangles that face the same way).
 template <class Visit>
 void for_each_edge(const geometry::TriangleMesh& mesh, Visit&& visit) {
@@ -125,7 +117,7 @@ bool SurfaceSide::inside(const Vec3& p, const std::vector<Vec3>& positions_m) co
   const geometry::SurfacePlace place = tree_.nearest(p, positions_m);
   if (place.triangle < 0) return false;
   const bool behind = outward(place, positions_m).dot(p - place.point.position_m) < 0.0;
-  return behind && (!closed_ || winding(mesh_, positions_m, p) > 0.5);
+  return behind && (!closed_ || geometry::winding_number(mesh_, positions_m, p) > 0.5);
 }
 
 }  // namespace myotact::measure
