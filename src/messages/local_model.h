@@ -33,6 +33,23 @@ struct LocalContact {
   std::array<double, 9> compliance_m_N{};  // of the material point, its joints and inertia included, spring left out
 };
 
+inline constexpr int kMaxReportedContacts = 4;
+
+/// One contact of the tool's body as an engine's own collision detection found it.
+struct ReportedContact {
+  std::int32_t surface = -1;  // of the body that is touched, as in LocalModel::Triangle
+  std::array<double, 3> point_world_m{};
+  std::array<double, 3> normal_world{};  // unit, out of that body
+  double penetration_m = 0.0;            // of the tool's surface below that body's, >= 0
+};
+
+/// What an engine's collision detection said of the tool after a step: for the force methods that go by it.
+struct ReportedContacts {
+  std::array<double, 3> tool_world_m{};  // where the tool's middle was then
+  std::int32_t count = 0;                // the deepest first
+  std::array<ReportedContact, kMaxReportedContacts> contacts{};
+};
+
 /// The joint of the scene reduced to one degree of freedom.
 struct LocalJoint {
   double angle_rad = 0.0;
@@ -95,6 +112,7 @@ struct LocalModel {
   /// Ascending by surface, then by triangle: what two models share is found in one walk along both.
   std::array<Triangle, kMaxLocalTriangles> triangles{};
   LocalContact contact{};
+  ReportedContacts reported{};
   LocalLine line{};
   LocalGrip grip{};
   LocalJoint joint{};

@@ -29,11 +29,12 @@ const std::map<std::string, Folders> kMayInclude = {
     {"haptics", {"realtime", "messages", "geometry", "device"}},
     {"simulation", {"realtime", "messages", "geometry", "anatomy"}},
     {"view", {"messages", "geometry", "anatomy"}},
-    {"scene", {"simulation", "haptics", "device", "anatomy", "realtime", "messages", "geometry"}},
-    {"measure", {"scene", "simulation", "haptics", "device", "anatomy", "realtime", "messages", "geometry"}},
+    {"layer", {"simulation", "haptics", "device", "anatomy", "realtime", "messages", "geometry"}},
+    {"scene", {"layer", "simulation", "haptics", "device", "anatomy", "realtime", "messages", "geometry"}},
+    {"measure", {"scene", "layer", "simulation", "haptics", "device", "anatomy", "realtime", "messages", "geometry"}},
     {"app",
-     {"measure", "scene", "simulation", "haptics", "device", "anatomy", "realtime", "messages", "geometry", "view",
-      "net"}},
+     {"measure", "scene", "layer", "simulation", "haptics", "device", "anatomy", "realtime", "messages", "geometry",
+      "view", "net"}},
 };
 
 /// The paths between quotes after #include; system headers stand between angle brackets.
