@@ -30,7 +30,8 @@ Vec3 EnergyPort::admit(const PortTick& tick) noexcept {
 
   damping_Ns_m_ = 0.0;
   const Vec3 velocity_m_s = tick.hand_moved_m / tick.dt_s;
-  if (missing_J_ > 0.0 && velocity_m_s.norm() >= kRest_m_s) {
+  const double moved_m = tick.hand_moved_m.norm();
+  if (missing_J_ > 0.0 && moved_m >= kRest_m_s * tick.dt_s && moved_m > tick.unclear_m) {
     damping_Ns_m_ = std::min(missing_J_ / (tick.dt_s * velocity_m_s.squaredNorm()), tick.most_damping_Ns_m);
   }
   asked_N_ = tick.wanted_N - damping_Ns_m_ * velocity_m_s;

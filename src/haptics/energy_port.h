@@ -21,6 +21,7 @@ struct PortTick {
   double friction_J = 0.0;                  // that the device's own friction took from that motion, >= 0
   bool opens = false;                       // lets go of what it stores: nothing of it may be spent later
   double most_damping_Ns_m = 0.0;           // that the device bears
+  double unclear_m = 0.0;                   // so short a way in a tick may be the encoder's rounding and no motion
   double dt_s = 1e-3;                       // > 0
 };
 
@@ -33,7 +34,8 @@ struct PortTick {
 ///             above `stored` it is what friction took: at most store_J, and it leaks
 ///   swing     S += F . dx_environment - F_slow . v_slow dt   must stay below 2 mJ; it leaks
 ///
-/// What is missing is taken back by damping, missing / (T v^2), no more than the device bears.
+/// What is missing is taken back by damping, missing / (T v^2), no more than the device bears, in ticks whose way is
+/// longer than the encoder's rounding.
 ///
 /// A force held for a tick gives more on the way back than its spring holds, |dF dx| / 2 a tick, and so it seems, at
 /// any speed, with a position that moves by whole counts of an encoder. As far as friction of the device itself takes

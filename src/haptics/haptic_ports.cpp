@@ -13,6 +13,10 @@ constexpr double kDampingShare = 0.4;
 /// much (0.3 N at 0.1 m/s: 30 mW), which is where a real vibration has it from.
 constexpr double kTextureGives_W = 3e-4;
 constexpr double kNoForce_N = 1e-6;
+/// A hand at rest between two counts of the encoder is read as moving by one of them on each axis, sqrt(3) at most: at
+/// 20 um a count that is 35 mm/s, whose damping would be a force of its own. Not more: with two counts an hour of
+/// poking gave a hand 2.7 mJ in one touch, with this 0.3 mJ.
+constexpr double kUnclearCounts = 1.75;
 
 /// Energy of a spring of stiffness k that is stretched by `stretch_m` and gives `force_N`; beyond F / k its force was
 /// cut, and comes back over that way as it went.
@@ -130,6 +134,7 @@ Vec3 HapticPorts::admit(EnergyPort& port, PortTick tick, const PortsTick& all) n
   tick.hand_moved_m = moved_m_;
   tick.dt_s = all.dt_s;
   tick.most_damping_Ns_m = damping_left_Ns_m_;
+  tick.unclear_m = kUnclearCounts * profile_.resolution_m;
   const Vec3 asked_N = port.admit(tick);
   damping_left_Ns_m_ -= port.damping_Ns_m();
   return asked_N;

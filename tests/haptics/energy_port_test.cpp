@@ -227,6 +227,7 @@ TEST(HapticPorts, TogetherTheyDampNoMoreThanTheDeviceBears) {
   device::DeviceProfile profile;
   profile.inertia_kg = 0.07;
   profile.delay_ticks = 1;
+  profile.resolution_m = 1e-6;
   HapticPorts ports(profile);
   PortsTick tick;
   tick.dt_s = kTick_s;
@@ -237,6 +238,26 @@ TEST(HapticPorts, TogetherTheyDampNoMoreThanTheDeviceBears) {
     EXPECT_LE(ports.damping_Ns_m(), 0.4 / 2 * 0.07 / kTick_s + 1e-9);
     ports.book(asked.sum_N());
   }
+  EXPECT_GT(ports.damping_Ns_m(), 0.0);
+}
+
+TEST(HapticPorts, RoundingOfTheEncoderIsNoMotionToDamp) {
+  device::DeviceProfile profile;
+  profile.coulomb_N = profile.viscous_Ns_m = 0.0;
+  HapticPorts ports(profile);
+  PortsTick tick;
+  tick.dt_s = kTick_s;
+  const auto push_along = [&](double way_m, int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      tick.hand_m += Vec3::Constant(way_m);
+      tick.wanted.contact_N = Vec3(5, 0, 0);
+      ports.book(ports.admit(tick).sum_N());
+    }
+  };
+  push_along(profile.resolution_m, 50);  // one count on each axis
+  EXPECT_GT(ports.missing_J(), 1e-3);
+  EXPECT_EQ(ports.damping_Ns_m(), 0.0);
+  push_along(2.0 * profile.resolution_m, 1);
   EXPECT_GT(ports.damping_Ns_m(), 0.0);
 }
 
