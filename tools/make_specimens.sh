@@ -1,9 +1,9 @@
 #!/bin/sh
-# Makes the embedded limbs anew from the figures in assets/canine: the whole fore- and hindlimb as far as one elliptical
-# centreline describes their muscles. The same machine gives the same bytes. meshes/canine_elbow was made before
-# neighbouring muscles were parted; tests and figures rest on it. Its lines are those that `loft elbow.json` gives today.
-# Tetrahedra and lines of meshes/canine_forelimb are of an earlier rule.
-# Usage: tools/make_specimens.sh [BUILD_FOLDER [OUTPUT]]      (build myotact-prepare first; default: build meshes)
+# Makes the embedded specimens anew: plane and plate; and from the figures in assets/canine the whole fore- and hindlimb
+# as far as one elliptical centreline describes their muscles. The same machine gives the same bytes. meshes/canine_elbow
+# was made before neighbouring muscles were parted; tests and figures rest on it. Its lines are those that
+# `loft elbow.json` gives today. Tetrahedra and lines of meshes/canine_forelimb are of an earlier rule.
+# Usage: tools/make_specimens.sh [BUILD_FOLDER [OUTPUT]]      (build all first; default: build meshes)
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 build=${1:-$root/build}
@@ -19,3 +19,4 @@ loft() {
 }
 loft forelimb
 loft hindlimb
+"$build/tools/plain_specimens/myotact-plain-specimens" "$output"

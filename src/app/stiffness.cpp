@@ -90,6 +90,9 @@ Shard shard_of(const std::string& text) {
 /// The scene with the co-contraction of the joint that is asked for.
 scene::Scene scene_to_sweep(const Options& options) {
   scene::Scene scene = scene_of(options);
+  if (scene.specimen.muscles.empty()) {
+    throw bad_data(scene.name, "/specimen", "has no muscles that could stiffen a joint; name a limb, such as elbow");
+  }
   if (options.joint) scene.co_contraction = scene::co_contraction_of(scene, *options.joint);
   if (!scene.co_contraction) {
     throw bad_data(scene.name, "/co_contraction",

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <Eigen/Geometry>
+
 #include "scene/turned_torques.h"
 
 namespace myotact::scene {
@@ -11,9 +13,20 @@ namespace {
 
 /// The hand starts beside the limb, out of reach of every muscle, so that the first touch is an approach.
 constexpr double kStartAside_m = 0.15;
+constexpr double kStartAbove_m = 0.05;  // where there are no muscles: a hand's breadth
 constexpr double kSliderGlide_s = 0.1;  // a slider's jump is spread over this
 /// Settles that mend what the table's interpolation leaves over: from 0.06 N m to below 1e-4 on the canine stifle.
 constexpr int kStartCorrections = 2;
+
+/// Where nothing is beside anything: above the middle of all bones, or over the origin where there are none.
+Vec3 above_bones(const anatomy::Specimen& specimen) {
+  Eigen::AlignedBox3d box(Vec3::Zero());
+  if (!specimen.bones.empty()) box.setEmpty();
+  for (const anatomy::Bone& bone : specimen.bones) {
+    for (const Vec3& x : bone.surface.positions_m) box.extend(x);
+  }
+  return {box.center().x(), box.center().y(), box.max().z() + kStartAbove_m};
+}
 
 std::vector<double> start_angles(const Scene& scene) {
   std::vector<double> angles;
@@ -24,6 +37,7 @@ std::vector<double> start_angles(const Scene& scene) {
 }  // namespace
 
 Vec3 start_of_hand(const anatomy::Specimen& specimen) {
+  if (specimen.muscles.empty()) return above_bones(specimen);
   Vec3 sum = Vec3::Zero();
   for (const auto& muscle : specimen.muscles) sum += muscle.skin.positions_m.front();
   const double side = specimen.side == "right" ? -1.0 : 1.0;

@@ -67,7 +67,6 @@ void draw_sliders(ViewControls& controls) {
   }
   ImGui::Checkbox("hold posture", &controls.hold_posture);
   ImGui::SameLine();
-  ImGui::Checkbox("gravity", &controls.gravity);
 }
 
 void draw_muscles(const anatomy::Specimen& specimen, const messages::SceneFrame& frame) {
@@ -157,16 +156,22 @@ void draw_panels(const anatomy::Specimen& specimen, const messages::SceneFrame& 
   draw_play(stopped, controls);
   if (stopped) draw_wrapped("FORCES STOPPED. Enter, or the button, turns them on again.", kWarning);
   ImGui::Separator();
-  draw_sliders(controls);
+  const bool has_muscles = !specimen.muscles.empty();
+  if (has_muscles) draw_sliders(controls);
+  ImGui::Checkbox("gravity", &controls.gravity);
   if (!frame.notice.empty()) draw_wrapped(frame.notice, kWarning);
   ImGui::Separator();
-  draw_muscles(specimen, frame);
-  draw_legend();
-  ImGui::Separator();
-  state.angle.draw(kPlotHeight);
-  state.stiffness.draw(kPlotHeight);
+  if (has_muscles) {
+    draw_muscles(specimen, frame);
+    draw_legend();
+    ImGui::Separator();
+  }
   const auto joint = static_cast<std::size_t>(state.joint);
-  if (joint < frame.joints.size()) draw_joint(frame.joints[joint], state.readings, controls);
+  if (joint < frame.joints.size()) {
+    state.angle.draw(kPlotHeight);
+    state.stiffness.draw(kPlotHeight);
+  }
+  if (has_muscles && joint < frame.joints.size()) draw_joint(frame.joints[joint], state.readings, controls);
   if (joint < frame.joints.size() && frame.joints[joint].preview) {
     ImGui::Text("joint stiffness: %s", messages::kPreviewMark);
   }
