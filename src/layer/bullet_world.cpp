@@ -1,0 +1,290 @@
+#include "layer/bullet_world.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace myotact::layer {
+namespace {
+
+/// Bullet adds its margin of 40 mm around hulls and meshes unless told otherwise: more than a tool is wide.
+constexpr double kMargin_m = 0.0;
+/// Of the constraints in a substep; ten are Bullet's own choice, five times that keeps a chain of hinges together.
+constexpr int kSolverIterations = 50;
+
+btVector3 to_bullet(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+Vec3 from_bullet(const btVector3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+btTransform to_bullet(const Pose& pose) {
+  const Mat3& r = pose.rotation;
+  const btMatrix3x3 basis(r(0, 0), r(0, 1), r(0, 2), r(1, 0), r(1, 1), r(1, 2), r(2, 0), r(2, 1), r(2, 2));
+  return btTransform(basis, to_bullet(pose.translation_m));
+}
+Pose from_bullet(const btTransform& t) {
+  Pose pose;
+  for (int row = 0; row < 3; ++row) pose.rotation.row(row) = from_bullet(t.getBasis().getRow(row)).transpose();
+  pose.translation_m = from_bullet(t.getOrigin());
+  return pose;
+}
+
+/// The body frame at rest: centre of mass and axes of inertia, right-handed. `inertia_kg_m2`: about these axes.
+Pose inertia_frame(const anatomy::Body& body, Vec3& inertia_kg_m2) {
+  const auto& [xx, yy, zz, xy, xz, yz] = body.inertia_kg_m2;
+  Mat3 inertia;
+  inertia << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(inertia);
+  inertia_kg_m2 = solver.eigenvalues();
+  Mat3 axes = solver.eigenvectors();
+  if (axes.determinant() < 0.0) axes.col(0) *= -1.0;
+  return {axes, body.com_m};
+}
+
+/// A frame at the joint whose z is its axis.
+btTransform joint_frame(const anatomy::Joint& joint) {
+  const Vec3 axis = joint.axes.empty() ? Vec3(Vec3::UnitZ()) : joint.axes[0];
+  return to_bullet(Pose{Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), axis).toRotationMatrix(), joint.centre_m});
+}
+
+/// Which bodies some hinge moves: those below one, and what is welded to them.
+std::vector<bool> moving_bodies(const anatomy::Specimen& specimen) {
+  std::vector<bool> moves(specimen.bodies.size(), false);
+  for (std::size_t pass = 0; pass < specimen.joints.size(); ++pass) {
+    for (const anatomy::Joint& joint : specimen.joints) {
+      const bool moved = joint.type != anatomy::JointType::Weld || moves[static_cast<std::size_t>(joint.parent)];
+      if (moved) moves[static_cast<std::size_t>(joint.child)] = true;
+    }
+  }
+  return moves;
+}
+
+/// Of a body about an axis through the joint's centre.
+double inertia_kg_m2(const btRigidBody& body, const btVector3& centre, const btVector3& axis) {
+  const btVector3 arm = (body.getCenterOfMassPosition() - centre).cross(axis);
+  return 1.0 / axis.dot(body.getInvInertiaTensorWorld() * axis) + arm.length2() / body.getInvMass();
+}
+
+/// Takes every point at which the tool's body is inside of another one.
+struct Collector : btCollisionWorld::ContactResultCallback {
+  explicit Collector(const btCollisionObject& tool) : tool(&tool) {}
+
+  btScalar addSingleResult(btManifoldPoint& point, const btCollisionObjectWrapper* a, int, int index_a,
+                           const btCollisionObjectWrapper* b, int, int index_b) override {
+    if (!(point.getDistance() <= 0.0)) return 0.0;
+    const bool tool_first = a->getCollisionObject() == tool;  // the normal points from b to a
+    messages::ReportedContact contact;
+    const btVector3 normal = tool_first ? point.m_normalWorldOnB : -point.m_normalWorldOnB;
+    const btVector3 place = tool_first ? point.getPositionWorldOnB() : point.getPositionWorldOnA();
+    contact.normal_world = to_array(from_bullet(normal));
+    contact.point_world_m = to_array(from_bullet(place));
+    contact.penetration_m = -point.getDistance();
+    found.push_back({contact, (tool_first ? b : a)->getCollisionObject(), tool_first ? index_b : index_a});
+    return 0.0;
+  }
+
+  struct Found {
+    messages::ReportedContact contact;
+    const btCollisionObject* touched;
+    int child;  // of a compound shape
+  };
+  const btCollisionObject* tool;
+  std::vector<Found> found;
+};
+
+}  // namespace
+
+BulletWorld::BulletWorld(const anatomy::Specimen& specimen, const Vec3& gravity_m_s2) : joints_(specimen.joints) {
+  for (const anatomy::Joint& joint : joints_) {
+    if (joint.type == anatomy::JointType::Hinge || joint.type == anatomy::JointType::Weld) continue;
+    throw bad_data(specimen.name, "",
+                   fmt::format("joint {}: is neither hinge nor weld; divide it into hinges", joint.key));
+  }
+  world_ = std::make_unique<btDiscreteDynamicsWorld>(&dispatcher_, &broadphase_, &solver_, &configuration_);
+  world_->setGravity(to_bullet(gravity_m_s2));
+  world_->getSolverInfo().m_numIterations = kSolverIterations;
+  bodies_.resize(specimen.bodies.size());
+  const std::vector<bool> moves = moving_bodies(specimen);
+  for (int b = 0; b < static_cast<int>(bodies_.size()); ++b) {
+    if (moves[index(b)]) add_moving_body(specimen, b);
+  }
+  for (int b = 0; b < static_cast<int>(specimen.bones.size()); ++b) {
+    if (!moves[index(specimen.bones[index(b)].body)]) add_fixed_bone(specimen, b);
+  }
+  for (const anatomy::Joint& joint : joints_) add_joint(joint);
+}
+
+BulletWorld::~BulletWorld() {
+  for (const Hinge& hinge : hinges_) {
+    if (hinge.constraint) world_->removeConstraint(hinge.constraint.get());
+  }
+  for (const Body& body : bodies_) {
+    if (body.rigid) world_->removeRigidBody(body.rigid.get());
+  }
+}
+
+void BulletWorld::add_fixed_bone(const anatomy::Specimen& specimen, int bone) {
+  const geometry::TriangleMesh& surface = specimen.bones[index(bone)].surface;
+  auto mesh = std::make_unique<btTriangleMesh>();
+  for (const auto& [a, b, c] : surface.triangles) {
+    mesh->addTriangle(to_bullet(surface.positions_m[index(a)]), to_bullet(surface.positions_m[index(b)]),
+                      to_bullet(surface.positions_m[index(c)]));
+  }
+  auto shape = std::make_unique<btBvhTriangleMeshShape>(mesh.get(), true);
+  shape->setMargin(kMargin_m);
+  auto object = std::make_unique<btCollisionObject>();
+  object->setCollisionShape(shape.get());
+  object->setCollisionFlags(btCollisionObject::CF_STATIC_OBJECT);
+  object->setUserIndex(bone);
+  meshes_.push_back(std::move(mesh));
+  shapes_.push_back(std::move(shape));
+  fixed_.push_back(std::move(object));
+}
+
+void BulletWorld::add_moving_body(const anatomy::Specimen& specimen, int body) {
+  Body& made = bodies_[index(body)];
+  Vec3 inertia_kg_m2;
+  made.X_LB = inertia_frame(specimen.bodies[index(body)], inertia_kg_m2);
+  auto shape = std::make_unique<btCompoundShape>();
+  for (int b = 0; b < static_cast<int>(specimen.bones.size()); ++b) {
+    if (specimen.bones[index(b)].body != body) continue;
+    auto hull = std::make_unique<btConvexHullShape>();
+    for (const Vec3& x : specimen.bones[index(b)].surface.positions_m) {
+      hull->addPoint(to_bullet(made.X_LB.inverse() * x), false);
+    }
+    hull->recalcLocalAabb();
+    hull->setMargin(kMargin_m);
+    shape->addChildShape(btTransform::getIdentity(), hull.get());
+    shapes_.push_back(std::move(hull));
+    made.bones.push_back(b);
+  }
+  const btRigidBody::btRigidBodyConstructionInfo info(specimen.bodies[index(body)].mass_kg, nullptr, shape.get(),
+                                                      to_bullet(inertia_kg_m2));
+  made.rigid = std::make_unique<btRigidBody>(info);
+  made.rigid->setWorldTransform(to_bullet(made.X_LB));
+  made.rigid->setInterpolationWorldTransform(to_bullet(made.X_LB));
+  made.rigid->setActivationState(DISABLE_DEACTIVATION);  // what sleeps would not answer to a hand
+  made.rigid->setUserIndex(body);
+  world_->addRigidBody(made.rigid.get(), btBroadphaseProxy::DefaultFilter, 0);  // bones do not collide
+  shapes_.push_back(std::move(shape));
+}
+
+btTransform BulletWorld::frame_in_body(int body, const btTransform& X_LJ) const {
+  return moves(body) ? to_bullet(bodies_[index(body)].X_LB).inverse() * X_LJ : X_LJ;
+}
+
+void BulletWorld::add_joint(const anatomy::Joint& joint) {
+  Hinge hinge;
+  hinge.joint = &joint;
+  hinge.turns = joint.type == anatomy::JointType::Hinge;
+  if (moves(joint.child)) {
+    btRigidBody& child = *bodies_[index(joint.child)].rigid;
+    btRigidBody& parent = moves(joint.parent) ? *bodies_[index(joint.parent)].rigid : ground_;
+    const btTransform frame = joint_frame(joint);
+    const btTransform in_child = frame_in_body(joint.child, frame), in_parent = frame_in_body(joint.parent, frame);
+    if (hinge.turns) {
+      // The child is A: then Bullet's angle rises with ours.
+      auto constraint = std::make_unique<btHingeConstraint>(child, parent, in_child, in_parent);
+      constraint->setLimit(joint.range_rad[0].first, joint.range_rad[0].second);
+      hinge.constraint = std::move(constraint);
+    } else {
+      hinge.constraint = std::make_unique<btFixedConstraint>(parent, child, in_parent, in_child);
+    }
+    world_->addConstraint(hinge.constraint.get(), true);
+  }
+  hinges_.push_back(std::move(hinge));
+}
+
+Pose BulletWorld::body_pose(int body) const {
+  if (!moves(body)) return {};
+  const Body& here = bodies_[index(body)];
+  return from_bullet(here.rigid->getWorldTransform()) * here.X_LB.inverse();
+}
+
+Vec3 BulletWorld::point_velocity_m_s(int body, const Vec3& p_W) const {
+  if (!moves(body)) return Vec3::Zero();
+  const btRigidBody& rigid = *bodies_[index(body)].rigid;
+  return from_bullet(rigid.getVelocityInLocalPoint(to_bullet(p_W) - rigid.getCenterOfMassPosition()));
+}
+
+double BulletWorld::mobility_1_kg(int body, const Vec3& p_W, const Vec3& direction) const {
+  if (!moves(body)) return 0.0;
+  return bodies_[index(body)].rigid->computeImpulseDenominator(to_bullet(p_W), to_bullet(direction));
+}
+
+void BulletWorld::push(int body, const Vec3& p_W, const Vec3& force_N) {
+  if (!moves(body)) return;
+  btRigidBody& rigid = *bodies_[index(body)].rigid;
+  rigid.applyForce(to_bullet(force_N), to_bullet(p_W) - rigid.getCenterOfMassPosition());
+}
+
+double BulletWorld::angle_rad(int joint) const {
+  const Hinge& hinge = hinges_[index(joint)];
+  if (!hinge.turns) return 0.0;
+  const Mat3 turned = body_pose(hinge.joint->parent).rotation.transpose() * body_pose(hinge.joint->child).rotation;
+  const Eigen::Quaterniond q(turned);
+  return 2.0 * std::atan2(q.vec().dot(hinge.joint->axes[0]), q.w());
+}
+
+double BulletWorld::velocity_rad_s(int joint) const {
+  const Hinge& hinge = hinges_[index(joint)];
+  if (!hinge.turns) return 0.0;
+  Vec3 velocity_rad_s = from_bullet(bodies_[index(hinge.joint->child)].rigid->getAngularVelocity());
+  const Body& parent = bodies_[index(hinge.joint->parent)];
+  if (parent.rigid) velocity_rad_s -= from_bullet(parent.rigid->getAngularVelocity());
+  return velocity_rad_s.dot(body_pose(hinge.joint->parent).rotation * hinge.joint->axes[0]);
+}
+
+/// Spring and damper of the joints themselves: the damper implicitly, as if the child alone hung on the joint.
+void BulletWorld::push_joints(double h_s) {
+  for (int j = 0; j < static_cast<int>(hinges_.size()); ++j) {
+    const anatomy::Joint& joint = *hinges_[index(j)].joint;
+    if (!hinges_[index(j)].turns || (joint.stiffness_Nm_rad == 0.0 && joint.damping_Nms_rad == 0.0)) continue;
+    btRigidBody& child = *bodies_[index(joint.child)].rigid;
+    const Pose parent = body_pose(joint.parent);
+    const btVector3 axis = to_bullet(parent.rotation * joint.axes[0]);
+    const double damping_Nms_rad = joint.damping_Nms_rad + h_s * joint.stiffness_Nm_rad;
+    const double share = 1.0 + h_s * damping_Nms_rad / inertia_kg_m2(child, to_bullet(parent * joint.centre_m), axis);
+    const double torque_Nm = -joint.stiffness_Nm_rad * angle_rad(j) - damping_Nms_rad / share * velocity_rad_s(j);
+    child.applyTorque(torque_Nm * axis);
+    if (moves(joint.parent)) bodies_[index(joint.parent)].rigid->applyTorque(-torque_Nm * axis);
+  }
+}
+
+void BulletWorld::advance(double h_s) {
+  push_joints(h_s);
+  world_->stepSimulation(h_s, 0);  // 0: exactly one step of that length
+}
+
+std::vector<messages::ReportedContact> BulletWorld::contacts(btConvexShape& shape, const Vec3& middle_m) const {
+  btCollisionObject tool;
+  tool.setCollisionShape(&shape);
+  tool.setWorldTransform(to_bullet(Pose{Mat3::Identity(), middle_m}));
+  Collector collector(tool);
+  for (const auto& object : fixed_) world_->contactPairTest(&tool, object.get(), collector);
+  for (const Body& body : bodies_) {
+    if (body.rigid) world_->contactPairTest(&tool, body.rigid.get(), collector);
+  }
+  std::vector<messages::ReportedContact> contacts;
+  for (Collector::Found& found : collector.found) {
+    const bool is_fixed = btRigidBody::upcast(found.touched) == nullptr;
+    found.contact.surface = found.touched->getUserIndex();
+    if (!is_fixed) {
+      const Body& body = bodies_[index(found.touched->getUserIndex())];
+      found.contact.surface = body.bones[index(found.child)];
+    }
+    contacts.push_back(found.contact);
+  }
+  std::stable_sort(contacts.begin(), contacts.end(),
+                   [](const auto& a, const auto& b) { return a.penetration_m > b.penetration_m; });
+  return contacts;
+}
+
+}  // namespace myotact::layer
