@@ -76,6 +76,7 @@ double inertia_kg_m2(const btRigidBody& body, const btVector3& centre, const btV
 struct Collector : btCollisionWorld::ContactResultCallback {
   explicit Collector(const btCollisionObject& tool) : tool(&tool) {}
 
+  // NOLINTNEXTLINE(readability-function-size): the seven parameters are Bullet's
   btScalar addSingleResult(btManifoldPoint& point, const btCollisionObjectWrapper* a, int, int index_a,
                            const btCollisionObjectWrapper* b, int, int index_b) override {
     if (!(point.getDistance() <= 0.0)) return 0.0;

@@ -27,15 +27,21 @@ anatomy::Specimen empty_specimen(const char* name) {
   return specimen;
 }
 
+struct Box {
+  const char* key;
+  Vec3 size_m, middle_m;
+  double mass_kg;
+};
+
 /// A body of one box, and the box as its bone.
-void add_box(anatomy::Specimen& specimen, const char* key, const char* name, const Vec3& size_m, const Vec3& middle_m,
-             double mass_kg) {
+void add_box(anatomy::Specimen& specimen, const Box& box) {
+  const auto& [key, size_m, middle_m, mass_kg] = box;
   const double x2 = size_m.x() * size_m.x(), y2 = size_m.y() * size_m.y(), z2 = size_m.z() * size_m.z();
   const double share_kg = mass_kg / 12.0;  // of a solid box
   anatomy::Body body{key, mass_kg, middle_m, {}, false};
   body.inertia_kg_m2 = {share_kg * (y2 + z2), share_kg * (x2 + z2), share_kg * (x2 + y2), 0.0, 0.0, 0.0};
   specimen.bodies.push_back(body);
-  anatomy::Bone bone{key, name, name, static_cast<int>(specimen.bodies.size()) - 1, geometry::make_box(size_m, kCells)};
+  anatomy::Bone bone{key, key, key, static_cast<int>(specimen.bodies.size()) - 1, geometry::make_box(size_m, kCells)};
   for (Vec3& x : bone.surface.positions_m) x += middle_m;
   specimen.bones.push_back(std::move(bone));
 }
@@ -43,7 +49,7 @@ void add_box(anatomy::Specimen& specimen, const char* key, const char* name, con
 anatomy::Specimen plane() {
   anatomy::Specimen specimen = empty_specimen("plane");
   const Vec3 size_m{0.3, 0.3, 0.02};
-  add_box(specimen, "plane", "plane", size_m, {0.0, 0.0, -0.5 * size_m.z()}, 1.0);  // fixed: its mass is without effect
+  add_box(specimen, {"plane", size_m, {0.0, 0.0, -0.5 * size_m.z()}, 1.0});  // fixed: its mass is without effect
   return specimen;
 }
 
@@ -57,8 +63,8 @@ anatomy::Specimen plate() {
   anatomy::Specimen specimen = empty_specimen("plate");
   const Vec3 size_m{0.3, 0.2, 0.01};
   const Vec3 middle_m{0.0, 0.0, kGap_m + 0.5 * size_m.z()};
-  add_box(specimen, "ground", "ground", {0.4, 0.3, 0.02}, {0.0, 0.0, -0.01}, 1.0);  // fixed, likewise
-  add_box(specimen, "plate", "plate", size_m, middle_m, kMass_kg);
+  add_box(specimen, {"ground", {0.4, 0.3, 0.02}, {0.0, 0.0, -0.01}, 1.0});  // fixed, likewise
+  add_box(specimen, {"plate", size_m, middle_m, kMass_kg});
   anatomy::Joint hinge;
   hinge.key = "lift";
   hinge.parent = 0;
