@@ -56,6 +56,8 @@ HapticLoop::HapticLoop(device::Device& device, const HapticSettings& settings)
       line_(settings_.line),
       snap_(settings_.snap),
       bone_(settings_.bone),
+      plane_(settings_.contact.radius_m),
+      pulling_({settings_.bone.stiffness_N_m, settings_.force_scale}),
       ports_(device.profile()),
       buzz_(device.profile().resolution_m),
       notice_(settings.limit_stiffness ? stiffness_notice(device.profile(), settings.contact.stiffness_N_m) : ""),
@@ -91,16 +93,13 @@ void HapticLoop::tick(std::uint64_t now_ns) noexcept {
   if (device_is_sound) {
     const ProxyGoal goal{to_vec3(state.stylus_position_world_m), to_vec3(state.stylus_velocity_world_m_s)};
     soften(goal.position_m, now_ns);
-    felt.bone_N = bone_.tick(model_, is_new,
-                             {goal.position_m, goal.velocity_m_s, (state.buttons & messages::kGrabBoneButton) != 0,
-                              gate_.limit_N(), last_.tool.sequence + 1},
-                             dt_s_);
+    felt.bone_N = bone_force_N(goal, state.buttons, is_new);
     contact_N = contact_force_N(goal, now_ns, is_new);
     felt.contact_N = settings_.force_scale * contact_N;
     felt.texture_N = settings_.force_scale * texture_force_N(goal, contact_N);
     const messages::LocalLine nothing_near;
     const messages::LocalLine& line = model_ == nullptr ? nothing_near : model_->line;
-    const bool open = line_.gain() <= 0.0 && bone_.body() < 0;
+    const bool open = line_.gain() <= 0.0 && held_.body < 0;
     felt.texture_N += settings_.force_scale * snap_.tick(line, goal.position_m, open, dt_s_);
     const Vec3 line_N =
         line_.tick(line, {goal.position_m, goal.velocity_m_s, (state.buttons & messages::kGrabButton) != 0}, dt_s_);
@@ -131,13 +130,41 @@ bool HapticLoop::take_model(std::uint64_t now_ns) noexcept {
   return true;
 }
 
+Vec3 HapticLoop::bone_force_N(const ProxyGoal& goal, std::uint32_t buttons, bool is_new) noexcept {
+  const bool holds = (buttons & messages::kGrabBoneButton) != 0;
+  const auto held_by = [](const auto& method) {
+    return HeldBone{method.body(), method.point_rest_m(), method.gain(), method.stiffness_N_m(), method.target_m()};
+  };
+  Vec3 force_N;
+  if (settings_.method == ForceMethod::Pulling) {
+    force_N = pulling_.tick(model_, goal.position_m, holds, gate_.limit_N());
+    held_ = held_by(pulling_);
+  } else {
+    const std::uint64_t sequence = last_.tool.sequence + 1;
+    force_N = bone_.tick(model_, is_new, {goal.position_m, goal.velocity_m_s, holds, gate_.limit_N(), sequence}, dt_s_);
+    held_ = held_by(bone_);
+  }
+  return force_N;
+}
+
+bool HapticLoop::goes_by_reports() const noexcept {
+  return settings_.method == ForceMethod::Penetration || settings_.method == ForceMethod::Plane;
+}
+
 Vec3 HapticLoop::contact_force_N(const ProxyGoal& goal, std::uint64_t now_ns, bool is_new) noexcept {
-  const bool nothing_known = model_ == nullptr || (model_->triangle_count == 0 && !(model_->coverage_radius_m > 0.0));
   if (model_ != nullptr) surface_.begin_tick(*model_, now_ns, is_new);
+  Vec3 force_N = goes_by_reports() ? reported_force_N(goal.position_m, is_new) : proxy_force_N(goal, now_ns);
+  const double peak_N = gate_.limit_N() / settings_.force_scale;  // the tissue feels no more than the hand
+  if (force_N.norm() > peak_N) force_N *= peak_N / force_N.norm();
+  tissue_shift_m_ = compliance_.tissue_shift_m(force_N);
+  return force_N;
+}
+
+Vec3 HapticLoop::proxy_force_N(const ProxyGoal& goal, std::uint64_t now_ns) noexcept {
+  const bool nothing_known = model_ == nullptr || (model_->triangle_count == 0 && !(model_->coverage_radius_m > 0.0));
   if (nothing_known) {
     proxy_.follow(goal.position_m);
     compliance_.forget();
-    tissue_shift_m_.setZero();
     return Vec3::Zero();
   }
   const Vec3 unloaded_m = -compliance_.shift_m();
@@ -150,16 +177,32 @@ Vec3 HapticLoop::contact_force_N(const ProxyGoal& goal, std::uint64_t now_ns, bo
   const ProxyGoal played{goal.position_m + compliance_.shift_m(), goal.velocity_m_s};
   proxy_.couple(felt.stiffness_N_m, felt.damping_Ns_m);
   proxy_.tick(surface_, *model_, played, dt_s_);
-  Vec3 force_N = contact_share() > 0.0 ? coupling_force_N(proxy_, played, felt) : Vec3::Zero();
-  const double peak_N = gate_.limit_N() / settings_.force_scale;  // the tissue feels no more than the hand
-  if (force_N.norm() > peak_N) force_N *= peak_N / force_N.norm();
-  tissue_shift_m_ = compliance_.tissue_shift_m(force_N);
-  return force_N;
+  return contact_share() > 0.0 ? coupling_force_N(proxy_, played, felt) : Vec3::Zero();
+}
+
+WayOut HapticLoop::reported_way_out(const Vec3& tool_m) const noexcept {
+  return settings_.method == ForceMethod::Plane ? plane_.way_out(tool_m) : penetration_.way_out();
+}
+
+/// The proxy stands where the way out ends.
+Vec3 HapticLoop::reported_force_N(const Vec3& tool_m, bool is_new) noexcept {
+  penetration_.move(tool_m);
+  const Vec3 before_m = reported_way_out(tool_m).way_m;
+  if (is_new || model_ == nullptr) {
+    const messages::ReportedContacts nothing;
+    const messages::ReportedContacts& reported = model_ == nullptr ? nothing : model_->reported;
+    penetration_.take(reported);
+    plane_.take(reported);
+  }
+  way_out_ = reported_way_out(tool_m);
+  reported_moved_m_ = way_out_.way_m - before_m;
+  proxy_.follow(tool_m + way_out_.way_m);
+  return reported_stiffness_N_m() * way_out_.way_m;
 }
 
 /// A hand that holds the bone does not also press on it: two springs would be stiffer than the device stands.
 double HapticLoop::contact_share() const noexcept {
-  return (1.0 - bone_.gain()) * age_share_ * buzz_.stiffness_share();
+  return (1.0 - held_.gain) * age_share_ * buzz_.stiffness_share();
 }
 
 void HapticLoop::soften(const Vec3& device_m, std::uint64_t now_ns) noexcept {
@@ -187,12 +230,15 @@ PortForces HapticLoop::make_passive(const PortForces& felt, const ProxyGoal& goa
     tick.texture_held_J += settings_.force_scale * texture_.held_J();
     tick.tissue_moved_m = dt_s_ * proxy_.contact().velocity_m_s + unloaded_moved_m_;
     tick.contact_stiffness_N_m = settings_.force_scale * compliance_.felt_stiffness_N_m();
+  } else if (goes_by_reports()) {
+    tick.tissue_moved_m = reported_moved_m_;
+    if (way_out_.bearing >= 0) tick.contact_stiffness_N_m = settings_.force_scale * reported_stiffness_N_m();
   }
   if (model_ != nullptr && line_.muscle() >= 0 && model_->line.muscle == line_.muscle()) tick.line = &model_->line;
   tick.line_gain = settings_.force_scale * line_.gain();
-  tick.body = bone_.body();
-  tick.body_stiffness_N_m = settings_.force_scale * bone_.stiffness_N_m();
-  tick.body_point_m = bone_.target_m();
+  tick.body = held_.body;
+  tick.body_stiffness_N_m = settings_.force_scale * held_.stiffness_N_m;
+  tick.body_point_m = held_.target_m;
   if (tick.body_stiffness_N_m > 0.0) tick.body_point_m += felt.bone_N / tick.body_stiffness_N_m;
   const PortForces passive = ports_.admit(tick);
   if (ports_.missing_J() > kTold_J) faults_ |= bit(Fault::EnergyInjected);
@@ -233,7 +279,6 @@ std::uint32_t HapticLoop::proxy_faults() noexcept {
 }
 
 void HapticLoop::tell(const messages::DeviceState& state, const Vec3& sent_N, const Vec3& contact_N) noexcept {
-  const ProxyContact& contact = proxy_.contact();
   messages::ToolState& tool = last_.tool;
   ++tool.sequence;
   tool.time_ns = last_ns_;
@@ -242,17 +287,8 @@ void HapticLoop::tell(const messages::DeviceState& state, const Vec3& sent_N, co
   tool.proxy_position_world_m = to_array(proxy_.position_m() + tissue_shift_m_);
   tool.force_world_N = to_array(sent_N);
   tool.contact = {};
-  const double stiffness_N_m = compliance_.coupling_stiffness_N_m();
-  if (contact.active && contact_share() > 0.0 && (faults_ & bit(Fault::NonFiniteDevice)) == 0) {
-    // The spring pulls the material point with the opposite of what the hand feels, as long as the tissue is where it
-    // is believed to be; its rest place follows the device.
-    tool.contact = {contact.surface,
-                    contact.triangle,
-                    contact.barycentric,
-                    to_array(contact.normal),
-                    to_array(contact.point_m + tissue_shift_m_ - contact_N / stiffness_N_m),
-                    stiffness_N_m};
-  }
+  tool.touched_world_m = {};
+  if ((faults_ & bit(Fault::NonFiniteDevice)) == 0 && contact_share() > 0.0) tell_contact(contact_N, tool);
   tool.buttons = state.buttons;
   tool.faults = faults_;
   tell_grabs(tool);
@@ -264,14 +300,40 @@ void HapticLoop::tell(const messages::DeviceState& state, const Vec3& sent_N, co
   ticks_.push(last_);
 }
 
+/// The spring pulls the touched point with the opposite of what the hand feels, as long as the tissue is where it is
+/// believed to be; its rest place follows the device.
+void HapticLoop::tell_contact(const Vec3& contact_N, messages::ToolState& tool) const noexcept {
+  const ProxyContact& contact = proxy_.contact();
+  if (contact.active) {
+    const Vec3 touched_m = contact.point_m + tissue_shift_m_;
+    const double stiffness_N_m = compliance_.coupling_stiffness_N_m();
+    tool.contact = {contact.surface,
+                    contact.triangle,
+                    contact.barycentric,
+                    to_array(contact.normal),
+                    to_array(touched_m - contact_N / stiffness_N_m),
+                    stiffness_N_m};
+    tool.touched_world_m = to_array(touched_m);
+  } else if (goes_by_reports() && way_out_.bearing >= 0) {
+    const messages::ReportedContact& reported = model_->reported.contacts[static_cast<std::size_t>(way_out_.bearing)];
+    const Vec3 lowest_m =
+        to_vec3(tool.tool_position_world_m) - settings_.contact.radius_m * to_vec3(reported.normal_world);
+    const Vec3 touched_m = lowest_m + way_out_.depth_m * to_vec3(reported.normal_world);
+    const double stiffness_N_m = reported_stiffness_N_m();
+    tool.contact = {reported.surface, -1, {}, reported.normal_world, to_array(touched_m - contact_N / stiffness_N_m),
+                    stiffness_N_m};
+    tool.touched_world_m = to_array(touched_m);
+  }
+}
+
 void HapticLoop::tell_grabs(messages::ToolState& tool) const noexcept {
   tool.grabbed_line = line_.muscle();
   tool.grab_fraction = line_.fraction();
   tool.line_stiffness_N_m = line_.muscle() >= 0 ? line_.grab_stiffness_N_m() : 0.0;
-  tool.grabbed_body = bone_.body();
-  tool.body_point_rest_m = bone_.point_rest_m();
-  tool.body_target_world_m = to_array(bone_.target_m());
-  tool.body_stiffness_N_m = bone_.stiffness_N_m();
+  tool.grabbed_body = held_.body;
+  tool.body_point_rest_m = held_.point_rest_m;
+  tool.body_target_world_m = to_array(held_.target_m);
+  tool.body_stiffness_N_m = held_.stiffness_N_m;
 }
 
 }  // namespace myotact::haptics

@@ -11,6 +11,7 @@
 #include "haptics/contact_compliance.h"
 #include "haptics/contact_settings.h"
 #include "haptics/force_gate.h"
+#include "haptics/force_methods.h"
 #include "haptics/haptic_ports.h"
 #include "haptics/line_snap.h"
 #include "haptics/moving_surface.h"
@@ -27,6 +28,9 @@ namespace myotact::haptics {
 inline constexpr std::uint64_t kTickPeriod_ns = 1'000'000;
 
 struct HapticSettings {
+  /// Penetration and Plane have no friction, damping, texture or compliance; their stiffness is the contact's, and is
+  /// lowered to what the device may send over the way out of the contact.
+  ForceMethod method = ForceMethod::Proxy;
   ContactSettings contact;
   LineDragSettings line;
   LineSnapSettings snap;
@@ -92,6 +96,11 @@ class HapticLoop {
  private:
   bool take_model(std::uint64_t now_ns) noexcept;
   Vec3 contact_force_N(const ProxyGoal& goal, std::uint64_t now_ns, bool is_new) noexcept;
+  Vec3 proxy_force_N(const ProxyGoal& goal, std::uint64_t now_ns) noexcept;
+  Vec3 reported_force_N(const Vec3& tool_m, bool is_new) noexcept;
+  WayOut reported_way_out(const Vec3& tool_m) const noexcept;
+  bool goes_by_reports() const noexcept;
+  Vec3 bone_force_N(const ProxyGoal& goal, std::uint32_t buttons, bool is_new) noexcept;
   void soften(const Vec3& device_m, std::uint64_t now_ns) noexcept;
   double contact_share() const noexcept;
   PortForces make_passive(const PortForces& felt, const ProxyGoal& goal) noexcept;
@@ -99,7 +108,18 @@ class HapticLoop {
   Vec3 gate_and_write(const Vec3& wanted_N, const Vec3& position_m, std::uint64_t now_ns) noexcept;
   void tell(const messages::DeviceState& state, const Vec3& sent_N, const Vec3& contact_N) noexcept;
   void tell_grabs(messages::ToolState& tool) const noexcept;
+  void tell_contact(const Vec3& contact_N, messages::ToolState& tool) const noexcept;
+  double reported_stiffness_N_m() const noexcept { return contact_share() * settings_.contact.stiffness_N_m; }
   std::uint32_t proxy_faults() noexcept;
+
+  /// The bone in hand, whichever method holds it.
+  struct HeldBone {
+    std::int32_t body = -1;
+    std::array<double, 3> point_rest_m{};
+    double gain = 0.0;
+    double stiffness_N_m = 0.0;
+    Vec3 target_m = Vec3::Zero();
+  };
 
   device::Device& device_;
   HapticSettings settings_;
@@ -116,6 +136,12 @@ class HapticLoop {
   MuscleLineDrag line_;
   LineSnap snap_;
   BoneDrag bone_;
+  PenetrationMethod penetration_;
+  PlaneMethod plane_;
+  PullingMethod pulling_;
+  WayOut way_out_;                        // of the reported contacts; bears: a model is in use
+  Vec3 reported_moved_m_ = Vec3::Zero();  // the end of that way, by the report of this tick
+  HeldBone held_;
   HapticPorts ports_;
   BuzzDetector buzz_;
   double age_share_ = 1.0;  // of the contact's stiffness, that the age of the model leaves

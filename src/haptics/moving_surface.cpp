@@ -71,6 +71,17 @@ bool is_sound(const messages::LocalGrip& grip) {
          all_finite(grip.stiffness_1_s2) && all_finite(grip.damping_1_s);
 }
 
+bool is_sound(const messages::ReportedContacts& reported) {
+  if (reported.count < 0 || reported.count > messages::kMaxReportedContacts) return false;
+  for (int i = 0; i < reported.count; ++i) {
+    const messages::ReportedContact& contact = reported.contacts[at(i)];
+    const bool sound = is_place(contact.point_world_m) && to_vec3(contact.normal_world).allFinite() &&
+                       std::abs(contact.penetration_m) < kLargest_m;
+    if (!sound) return false;
+  }
+  return is_place(reported.tool_world_m);
+}
+
 }  // namespace
 
 bool is_sound(const messages::LocalModel& model) noexcept {
@@ -86,7 +97,7 @@ bool is_sound(const messages::LocalModel& model) noexcept {
   const auto is_finite = [](double x) { return std::isfinite(x); };
   const messages::LocalContact& contact = model.contact;
   if (!all_finite(contact.compliance_m_N) || !to_vec3(contact.force_world_N).allFinite()) return false;
-  if (!is_sound(model.grip)) return false;
+  if (!is_sound(model.grip) || !is_sound(model.reported)) return false;
   const messages::LocalLine& line = model.line;
   const bool line_is_finite = is_finite(line.tension_N) && is_finite(line.length_m) && is_finite(line.stiffness_N_m) &&
                               is_finite(line.damping_Ns_m) && is_place(line.proximal_point_world_m) &&

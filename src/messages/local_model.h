@@ -37,10 +37,10 @@ inline constexpr int kMaxReportedContacts = 4;
 
 /// One contact of the tool's body as an engine's own collision detection found it.
 struct ReportedContact {
-  std::int32_t surface = -1;  // of the body that is touched, as in LocalModel::Triangle
-  std::array<double, 3> point_world_m{};
-  std::array<double, 3> normal_world{};  // unit, out of that body
-  double penetration_m = 0.0;            // of the tool's surface below that body's, >= 0
+  std::int32_t surface = -1;              // of the body that is touched, as in LocalModel::Triangle
+  std::array<double, 3> point_world_m{};  // on that body's surface
+  std::array<double, 3> normal_world{};   // unit, out of that body
+  double penetration_m = 0.0;             // of the tool's surface below that body's, >= 0
 };
 
 /// What an engine's collision detection said of the tool after a step: for the force methods that go by it.

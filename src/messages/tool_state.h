@@ -6,10 +6,11 @@
 
 namespace myotact::messages {
 
-/// One contact of the tool, named by a material point of a surface so that it rides on the tissue.
+/// One contact of the tool, named by a material point of a surface so that it rides on the tissue; by its place alone
+/// where the hand knows the surface from an engine's reports only.
 struct ToolContact {
   std::int32_t surface = -1;   // index as in LocalModel::Triangle::surface
-  std::int32_t triangle = -1;  // triangle of that surface
+  std::int32_t triangle = -1;  // triangle of that surface; -1: not known, ToolState::touched_world_m is the place
   std::array<double, 3> barycentric{};
   std::array<double, 3> normal_world{};  // unit, out of the tissue
   /// Where the coupling spring pulls the material point: the tool's surface point under the device, friction included.
@@ -35,6 +36,7 @@ struct ToolState {
   std::array<double, 3> body_point_rest_m{};    // the body's point in hand, where it is at the specimen's pose
   std::array<double, 3> body_target_world_m{};  // where the grab spring pulls that point
   double body_stiffness_N_m = 0.0;              // of the grab spring between hand and body
+  std::array<double, 3> touched_world_m{};      // of the contact: where the touched point is believed to be now
 };
 
 static_assert(std::is_trivially_copyable_v<ToolState>);

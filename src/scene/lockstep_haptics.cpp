@@ -8,6 +8,7 @@ namespace myotact::scene {
 
 haptics::HapticSettings haptic_settings(const ToolSettings& tool) {
   haptics::HapticSettings settings;
+  settings.method = tool.method;
   settings.contact.radius_m = tool.radius_m;
   settings.contact.stiffness_N_m = tool.stiffness_N_m;
   settings.contact.static_friction = tool.static_friction;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstring>
 #include <optional>
 #include <string_view>
@@ -90,13 +91,23 @@ std::optional<Chunk> take_chunk(std::string_view& bytes) {
   return chunk;
 }
 
+/// Steps of earlier versions end before the touched place; a hash follows.
+messages::ToolState take_tool(Cursor& cursor) {
+  constexpr std::size_t kBefore = offsetof(messages::ToolState, touched_world_m);
+  if (cursor.rest.size() != kBefore + sizeof(StepRecord::state_hash)) return cursor.take<messages::ToolState>();
+  messages::ToolState tool;
+  std::memcpy(reinterpret_cast<char*>(&tool), cursor.rest.data(), kBefore);
+  cursor.rest.remove_prefix(kBefore);
+  return tool;
+}
+
 bool read_step(std::string_view payload, Recording& recording) {
   Cursor cursor{payload};
   StepRecord step;
   step.excitations = cursor.take_numbers();
   step.joint_torques_Nm = cursor.take_numbers();
   step.gravity_m_s2 = to_vec3(cursor.take<std::array<double, 3>>());
-  step.tool = cursor.take<messages::ToolState>();
+  step.tool = take_tool(cursor);
   step.state_hash = cursor.take<std::uint64_t>();
   if (cursor.ok) recording.steps.push_back(std::move(step));
   return cursor.ok;

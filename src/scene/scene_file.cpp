@@ -214,11 +214,20 @@ void read_friction(const JsonValue& value, ToolSettings& tool) {
   friction.finish();
 }
 
+haptics::ForceMethod force_method(const JsonValue& value) {
+  const std::string name = value.one_of({"proxy", "penetration", "plane", "pulling"});
+  if (name == "penetration") return haptics::ForceMethod::Penetration;
+  if (name == "plane") return haptics::ForceMethod::Plane;
+  if (name == "pulling") return haptics::ForceMethod::Pulling;
+  return haptics::ForceMethod::Proxy;
+}
+
 ToolSettings read_tool(const JsonValue& value) {
   JsonObject fields(value);
   ToolSettings tool;
   tool.device = fields.at("device").string();
   if (const auto hand = fields.find("hand")) tool.hand = hand->one_of({"left", "right"});
+  if (const auto method = fields.find("method")) tool.method = force_method(*method);
   if (const auto radius = fields.find("radius_m")) tool.radius_m = radius->number_between(1e-3, 1e-2);
   if (const auto scale = fields.find("force_scale")) tool.force_scale = scale->number_between(0.0, 1.0);
   if (const auto limit = fields.find("force_limit")) tool.force_limit = limit->number_between(0.0, 1.0);

@@ -9,6 +9,7 @@
 
 #include "anatomy/specimen.h"
 #include "core/vector.h"
+#include "haptics/force_methods.h"
 #include "haptics/texture_set.h"
 #include "scene/script.h"
 #include "simulation/simulation.h"
@@ -28,6 +29,7 @@ struct CoContraction {
 struct ToolSettings {
   std::string device = "simulated";
   std::string hand = "right";
+  haptics::ForceMethod method = haptics::ForceMethod::Proxy;
   double radius_m = 3e-3;
   double force_scale = 1.0;
   double force_limit = 0.5;  // share of the device's peak force that is ever sent

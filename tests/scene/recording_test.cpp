@@ -1,12 +1,14 @@
 #include "scene/recording.h"
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include "core/error.h"
 #include "core/file.h"
@@ -55,6 +57,41 @@ TEST(Recording, ReadsBackWhatWasWritten) {
   EXPECT_EQ(recording.steps[1].state_hash, 1002u);
   ASSERT_EQ(recording.ticks.size(), 2u);
   EXPECT_EQ(recording.ticks[0].model_sequence, 7u);
+}
+
+/// A chunk as the format has it: length, type, payload, checksum of the last two.
+void append_chunk(std::string& bytes, const std::string& type_and_payload) {
+  const auto length = static_cast<std::uint32_t>(type_and_payload.size() - sizeof(std::uint32_t));
+  const auto* data = reinterpret_cast<const Bytef*>(type_and_payload.data());
+  const auto sum = static_cast<std::uint32_t>(crc32(0L, data, static_cast<uInt>(type_and_payload.size())));
+  bytes.append(reinterpret_cast<const char*>(&length), sizeof length);
+  bytes.append(type_and_payload);
+  bytes.append(reinterpret_cast<const char*>(&sum), sizeof sum);
+}
+
+/// Steps were shorter once: the tool's last member was not there.
+TEST(Recording, ReadsStepsOfEarlierVersions) {
+  constexpr std::uint32_t kStep = 2;
+  const auto path = write_sample("earlier.rec");
+  const std::string now = read_file(path);
+  std::string earlier = now.substr(0, 8);
+  for (std::size_t at = 8; at < now.size();) {
+    std::uint32_t length = 0, type = 0;
+    std::memcpy(&length, now.data() + at, sizeof length);
+    std::memcpy(&type, now.data() + at + 4, sizeof type);
+    std::string chunk = now.substr(at + 4, 4 + length);
+    constexpr std::size_t kNew = sizeof(messages::ToolState::touched_world_m);
+    if (type == kStep) chunk.erase(chunk.size() - sizeof(std::uint64_t) - kNew, kNew);
+    append_chunk(earlier, chunk);
+    at += 12 + length;
+  }
+  std::ofstream(path, std::ios::binary) << earlier;
+  const Recording recording = read_recording(path);
+  std::filesystem::remove(path);
+  EXPECT_TRUE(recording.complete);
+  ASSERT_EQ(recording.steps.size(), 2u);
+  EXPECT_EQ(recording.steps[1].tool.sequence, 2u);
+  EXPECT_EQ(recording.steps[1].state_hash, 1002u);
 }
 
 TEST(Recording, CutAnywhereIsReadableUpToTheLastWholeChunk) {

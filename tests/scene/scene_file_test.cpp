@@ -66,6 +66,16 @@ TEST_F(SceneFile, AToolsForcesAreBounded) {
   EXPECT_THAT(complaint(tool(R"("force_limit": 1.5)")), HasSubstr("/tools/0/force_limit"));
 }
 
+TEST_F(SceneFile, AToolNamesItsForceMethod) {
+  const auto tool = [](const std::string& key) { return R"(, "tools": [{"device": "simulated", )" + key + "}]"; };
+  EXPECT_EQ(parse("").tools.front().method, haptics::ForceMethod::Proxy);
+  EXPECT_EQ(parse(tool(R"("method": "proxy")")).tools.front().method, haptics::ForceMethod::Proxy);
+  EXPECT_EQ(parse(tool(R"("method": "penetration")")).tools.front().method, haptics::ForceMethod::Penetration);
+  EXPECT_EQ(parse(tool(R"("method": "plane")")).tools.front().method, haptics::ForceMethod::Plane);
+  EXPECT_EQ(parse(tool(R"("method": "pulling")")).tools.front().method, haptics::ForceMethod::Pulling);
+  EXPECT_THAT(complaint(tool(R"("method": "planes")")), HasSubstr("plane"));
+}
+
 TEST_F(SceneFile, TakesOneTissueModelForAllAndOneForAMuscle) {
   const Scene scene = parse(R"(, "tissue": {"default": "mass_spring", "muscles": {"extensor": "fem"}})");
   const auto model = [&](const char* key) {

@@ -1,0 +1,106 @@
+#include "haptics/force_methods.h"
+
+#include <algorithm>
+
+namespace myotact::haptics {
+
+namespace {
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// One contact, or several at right angles, are right after the first sweep; for two whose normals differ by 20 degrees
+/// all but cos(20 deg)^64 = 2 % of the way is found after this many.
+constexpr int kMostSweeps = 32;
+/// Below this force scale the spring in the simulation grows no stiffer: it takes no spring above 1 MN/m.
+constexpr double kSmallestScale = 1e-3;
+
+int sound_count(const messages::ReportedContacts& reported) {
+  return std::clamp(reported.count, 0, messages::kMaxReportedContacts);
+}
+
+}  // namespace
+
+void PressedContacts::add(const PressedContact& contact) noexcept {
+  if (count_ < messages::kMaxReportedContacts) contacts_[at(count_++)] = contact;
+}
+
+/// Coordinate by coordinate: w_i is put where its own condition holds while the others stay. From w = 0 on, so that
+/// what comes out depends on the contacts alone, and changes as little as they do.
+WayOut PressedContacts::way_out() const noexcept {
+  std::array<double, messages::kMaxReportedContacts> w_m{};
+  WayOut out;
+  bool moves = true;
+  for (int sweep = 0; moves && sweep < kMostSweeps; ++sweep) {
+    moves = false;
+    for (int i = 0; i < count_; ++i) {
+      const PressedContact& contact = contacts_[at(i)];
+      const double others_m = contact.normal_W.dot(out.way_m) - w_m[at(i)];
+      const double own_m = std::clamp(contact.depth_m - others_m, 0.0, std::max(0.0, contact.depth_m));
+      moves = moves || own_m != w_m[at(i)];
+      out.way_m += (own_m - w_m[at(i)]) * contact.normal_W;
+      w_m[at(i)] = own_m;
+    }
+  }
+  const auto most = std::max_element(w_m.begin(), w_m.begin() + count_);
+  if (most == w_m.begin() + count_ || !(*most > 0.0)) return {};
+  out.bearing = static_cast<int>(most - w_m.begin());
+  out.depth_m = contacts_[at(out.bearing)].depth_m;
+  return out;
+}
+
+void PenetrationMethod::move(const Vec3& tool_m) noexcept {
+  for (int i = 0; i < pressed_.count(); ++i) pressed_[i].depth_m -= pressed_[i].normal_W.dot(tool_m - tool_m_);
+  tool_m_ = tool_m;
+}
+
+void PenetrationMethod::take(const messages::ReportedContacts& reported) noexcept {
+  pressed_.clear();
+  for (int i = 0; i < sound_count(reported); ++i) {
+    const messages::ReportedContact& contact = reported.contacts[at(i)];
+    pressed_.add({to_vec3(contact.normal_world), contact.penetration_m});
+  }
+}
+
+void PlaneMethod::take(const messages::ReportedContacts& reported) noexcept {
+  count_ = sound_count(reported);
+  for (int i = 0; i < count_; ++i) {
+    const messages::ReportedContact& contact = reported.contacts[at(i)];
+    const Vec3 normal_W = to_vec3(contact.normal_world);
+    planes_[at(i)] = {normal_W, -normal_W.dot(to_vec3(contact.point_world_m))};
+  }
+}
+
+WayOut PlaneMethod::way_out(const Vec3& tool_m) const noexcept {
+  PressedContacts pressed;
+  for (int i = 0; i < count_; ++i) {
+    const Plane& plane = planes_[at(i)];
+    pressed.add({plane.normal_W, radius_m_ - (plane.normal_W.dot(tool_m) + plane.offset_m)});
+  }
+  return pressed.way_out();
+}
+
+PullingMethod::PullingMethod(const PullingSettings& settings)
+    : settings_(settings), to_simulated_(1.0 / std::max(settings.force_scale, kSmallestScale)) {}
+
+Vec3 PullingMethod::tick(const messages::LocalModel* model, const Vec3& tool_m, bool holds, double peak_N) noexcept {
+  const bool knows = model != nullptr && model->grip.body >= 0;
+  if (holds && !held_before_ && knows) {
+    body_ = model->grip.body;
+    point_rest_m_ = model->grip.point_rest_m;
+    offset_m_ = tool_m - to_vec3(model->grip.position_world_m);
+  }
+  held_before_ = holds;
+  if (!holds) body_ = -1;
+  if (body_ < 0) return Vec3::Zero();
+  const bool same = knows && model->grip.body == body_ && model->grip.point_rest_m == point_rest_m_;
+  if (same) point_m_ = to_vec3(model->grip.position_world_m);
+  Vec3 on_hand_N = settings_.stiffness_N_m * (point_m_ + offset_m_ - tool_m);
+  if (on_hand_N.norm() > peak_N) on_hand_N *= peak_N / on_hand_N.norm();
+  target_m_ = point_m_;
+  if (settings_.stiffness_N_m > 0.0) target_m_ -= on_hand_N / settings_.stiffness_N_m;
+  return on_hand_N * (settings_.force_scale * to_simulated_);
+}
+
+}  // namespace myotact::haptics
