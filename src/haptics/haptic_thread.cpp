@@ -4,6 +4,12 @@
 
 namespace myotact::haptics {
 
+HapticThread::HapticThread(std::span<HapticLoop* const> loops, realtime::Watchdog* watchdog)
+    : loops_(loops.begin(), loops.end()), watchdog_(watchdog), loop_durations_(loops.size()) {}
+
+HapticThread::HapticThread(HapticLoop& loop, realtime::Watchdog* watchdog)
+    : loops_{&loop}, watchdog_(watchdog), loop_durations_(1) {}
+
 void HapticThread::start() {
   thread_ = std::thread([this] {
     permission_ = realtime::make_this_thread_real_time();
@@ -18,10 +24,27 @@ void HapticThread::stop() noexcept {
   if (!thread_.joinable()) return;
   stopping_.store(true, std::memory_order_relaxed);
   thread_.join();
-  // The thread is gone: this one may send the last, empty command.
-  loop_.stop_forces(true);
-  loop_.tick(realtime::steady_now_ns());
+  // The thread is gone: this one may send the last, empty commands.
+  stop_forces(loops_, true);
+  tick_all(loops_, realtime::steady_now_ns());
   if (watchdog_ != nullptr) watchdog_->rest();
+}
+
+/// One loop is a group of one: its tick counts from the wake, as the round does.
+void HapticThread::tick_loops(std::uint64_t now_ns, std::uint64_t missed) noexcept {
+  const bool cut = watchdog_ != nullptr && watchdog_->tripped();
+  for (HapticLoop* loop : loops_) {
+    loop->note_missed(missed);
+    if (cut) loop->note_cut();
+  }
+  std::uint64_t begin_ns = now_ns;
+  for (std::size_t i = 0; i < loops_.size(); ++i) {
+    loops_[i]->tick(now_ns);
+    share_stop(*loops_[i], loops_);
+    const std::uint64_t end_ns = realtime::steady_now_ns();
+    loop_durations_[i].add(end_ns - begin_ns);
+    begin_ns = end_ns;
+  }
 }
 
 void HapticThread::run() noexcept {
@@ -33,9 +56,7 @@ void HapticThread::run() noexcept {
     if (last_ns != 0) periods_.add(wake.now_ns - last_ns);
     last_ns = wake.now_ns;
     missed_.fetch_add(wake.missed, std::memory_order_relaxed);
-    loop_.note_missed(wake.missed);
-    if (watchdog_ != nullptr && watchdog_->tripped()) loop_.note_cut();
-    loop_.tick(wake.now_ns);
+    tick_loops(wake.now_ns, wake.missed);
     if (watchdog_ != nullptr) watchdog_->beat();
     count_.fetch_add(1, std::memory_order_relaxed);
     durations_.add(realtime::steady_now_ns() - wake.now_ns);
