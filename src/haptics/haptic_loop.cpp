@@ -184,7 +184,8 @@ WayOut HapticLoop::reported_way_out(const Vec3& tool_m) const noexcept {
   return settings_.method == ForceMethod::Plane ? plane_.way_out(tool_m) : penetration_.way_out();
 }
 
-/// The proxy stands where the way out ends.
+/// The proxy stands where the way out ends. A report that makes the spring jump from d0 to d1 changes its energy by
+/// k (d1^2 - d0^2) / 2; per force k d0, that is a motion of its end.
 Vec3 HapticLoop::reported_force_N(const Vec3& tool_m, bool is_new) noexcept {
   penetration_.move(tool_m);
   const Vec3 before_m = reported_way_out(tool_m).way_m;
@@ -195,7 +196,9 @@ Vec3 HapticLoop::reported_force_N(const Vec3& tool_m, bool is_new) noexcept {
     plane_.take(reported);
   }
   way_out_ = reported_way_out(tool_m);
-  reported_moved_m_ = way_out_.way_m - before_m;
+  const double before_m2 = before_m.squaredNorm();
+  reported_moved_m_ =
+      before_m2 > 0.0 ? Vec3((0.5 * (way_out_.way_m.squaredNorm() / before_m2 - 1.0)) * before_m) : Vec3::Zero();
   proxy_.follow(tool_m + way_out_.way_m);
   return reported_stiffness_N_m() * way_out_.way_m;
 }

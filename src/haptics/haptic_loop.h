@@ -140,7 +140,7 @@ class HapticLoop {
   PlaneMethod plane_;
   PullingMethod pulling_;
   WayOut way_out_;                        // of the reported contacts; bears: a model is in use
-  Vec3 reported_moved_m_ = Vec3::Zero();  // the end of that way, by the report of this tick
+  Vec3 reported_moved_m_ = Vec3::Zero();  // by the report of this tick, as work on the way before it
   HeldBone held_;
   HapticPorts ports_;
   BuzzDetector buzz_;
