@@ -25,6 +25,9 @@ class ForceReplay {
   /// there.
   void feel(const simulation::Simulation& simulation);
 
+  /// The ticks of the last feel(), to be taken out before the next one.
+  realtime::BoundedFifo<haptics::HapticTick>& ticks() noexcept { return loop_.ticks(); }
+
   /// Tool states compared so far: those that a step consumed.
   std::size_t compared() const { return compared_; }
   /// Largest component by which a force differed [N]; infinite when one was not a number.

@@ -1,5 +1,6 @@
 #include "scene/recording.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -63,6 +64,13 @@ struct Cursor {
     return numbers;
   }
 };
+
+/// With dots for what no terminal shows.
+std::string printable(std::string_view bytes) {
+  std::string text(bytes);
+  std::replace_if(text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '.');
+  return text;
+}
 
 std::uint32_t checksum(std::uint32_t type, std::string_view payload) {
   uLong crc = crc32(0L, Z_NULL, 0);
@@ -289,7 +297,14 @@ void RecordingWriter::close() {
 Recording read_recording(const std::filesystem::path& path) {
   const std::string bytes = read_file(path);
   std::string_view rest = bytes;
-  if (!rest.starts_with(kMagic)) throw bad_data(path.string(), "byte 0", "is no recording (\"MYOREC01\" is missing)");
+  if (!rest.starts_with(kMagic)) {
+    const bool other = rest.starts_with(kMagic.substr(0, 6));
+    throw bad_data(path.string(), "byte 0",
+                   other ? fmt::format("is a recording of another version, \"{}\"; this program reads \"{}\". Record it "
+                                       "again, or take the program that wrote it",
+                                       printable(rest.substr(0, kMagic.size())), kMagic)
+                         : fmt::format("is no recording (\"{}\" is missing)", kMagic));
+  }
   rest.remove_prefix(kMagic.size());
   const auto header = take_chunk(rest);
   if (!header || header->type != kHeader) throw bad_data(path.string(), "byte 8", "the header chunk is damaged");

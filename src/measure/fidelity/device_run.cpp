@@ -1,0 +1,118 @@
+#include "measure/fidelity/device_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "device/simulated_device.h"
+#include "scene/conductor.h"
+#include "scene/force_replay.h"
+#include "scene/lockstep_haptics.h"
+
+namespace myotact::measure {
+
+namespace {
+
+/// Keeps what a step gave.
+class StepBook {
+ public:
+  explicit StepBook(const scene::Scene& scene)
+      : joint_(scene.co_contraction ? scene.co_contraction->joint : -1),
+        force_scale_(scene.tools.front().force_scale),
+        model_(std::make_unique<messages::LocalModel>()) {}
+
+  void add(const scene::StepRecord& input, const simulation::Simulation& simulation, DeviceRun& run) {
+    simulation.write_local_model(input.tool, *model_);
+    run.steps.push_back(input);
+    run.step_force_N.push_back(simulated_force_N(*model_, input.tool, force_scale_));
+    if (joint_ >= 0) run.joints.push_back(simulation.joint(joint_));
+  }
+
+ private:
+  int joint_;
+  double force_scale_;
+  std::unique_ptr<messages::LocalModel> model_;
+};
+
+bool goes_on(const RunWatch& watch, std::size_t done, std::size_t all) {
+  if (watch.progress) watch.progress(static_cast<int>(done), static_cast<int>(all));
+  return !watch.stopped || !watch.stopped();
+}
+
+}  // namespace
+
+scene::Scene without_effects(scene::Scene scene) {
+  for (scene::ToolSettings& tool : scene.tools) {
+    tool.texture = {};
+    tool.line_snap_N = 0.0;
+  }
+  return scene;
+}
+
+Vec3 simulated_force_N(const messages::LocalModel& model, const messages::ToolState& tool, double force_scale) {
+  Vec3 on_hand_N = Vec3::Zero();
+  if (model.contact.surface >= 0) on_hand_N -= to_vec3(model.contact.force_world_N);
+  if (tool.grabbed_body >= 0 && model.grip.body == tool.grabbed_body) on_hand_N -= to_vec3(model.grip.force_world_N);
+  if (tool.grabbed_line >= 0 && model.line.muscle == tool.grabbed_line) {
+    const Vec3 hand_m = to_vec3(tool.tool_position_world_m);
+    const Vec3 along = (to_vec3(model.line.proximal_point_world_m) - hand_m).normalized() +
+                       (to_vec3(model.line.distal_point_world_m) - hand_m).normalized();
+    on_hand_N += model.line.tension_N * along;
+  }
+  return force_scale * on_hand_N;
+}
+
+DeviceRun run_scripted(const scene::Scene& scene, const device::DeviceProfile& profile, double seconds,
+                       const RunWatch& watch) {
+  simulation::Simulation simulation(scene.specimen, scene.settings);
+  scene::Conductor conductor(scene, simulation);
+  device::SimulatedDevice device("simulated", conductor.hand(0.0).position_world_m, profile);
+  scene::LockstepHaptics haptics(device, scene);
+  haptics.publish_model(simulation);
+  StepBook book(scene);
+  DeviceRun run;
+  run.notice = haptics.notice();
+  const auto steps = static_cast<std::size_t>(
+      std::llround(std::min(seconds, conductor.script_end_s()) / scene.settings.dt_s));
+  scene::StepRecord input;
+  for (std::size_t step = 0; step < steps && goes_on(watch, step, steps); ++step) {
+    conductor.prepare_step(simulation.time_s(), input);
+    for (int i = 0; i < haptics.ticks_a_step(); ++i) {
+      const scene::HandTarget hand = conductor.hand(haptics.time_s());
+      device.set_hand_target({to_array(hand.position_world_m), {}, hand.buttons});
+      haptics.tick();
+      run.ticks.push_back(haptics.last_tick());
+      run.step_of_tick.push_back(step);
+    }
+    input.tool = haptics.tool();
+    scene::apply(input, simulation);
+    simulation.step({&input.tool, 1});
+    book.add(input, simulation, run);
+    haptics.publish_model(simulation);
+  }
+  return run;
+}
+
+DeviceRun run_recorded(const scene::Scene& scene, const scene::Recording& recording,
+                       const device::DeviceProfile& profile, const RunWatch& watch) {
+  simulation::Simulation simulation(scene.specimen, scene.settings);
+  const scene::Conductor start(scene, simulation);  // puts the simulation where the recording began
+  scene::ForceReplay replay(scene, recording, profile);
+  StepBook book(scene);
+  DeviceRun run;
+  const std::size_t steps = recording.steps.size();
+  for (std::size_t step = 0; step < steps && goes_on(watch, step, steps); ++step) {
+    replay.feel(simulation);
+    for (haptics::HapticTick tick; replay.ticks().pop(tick);) {
+      run.ticks.push_back(tick);
+      run.step_of_tick.push_back(step);
+    }
+    scene::apply(recording.steps[step], simulation);
+    simulation.step({&recording.steps[step].tool, 1});
+    book.add(recording.steps[step], simulation, run);
+  }
+  return run;
+}
+
+}  // namespace myotact::measure

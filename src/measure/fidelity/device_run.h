@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/vector.h"
+#include "haptics/haptic_loop.h"
+#include "scene/recording.h"
+#include "scene/scene_file.h"
+
+namespace myotact::measure {
+
+/// Of long work, asked and told between its steps.
+struct RunWatch {
+  std::function<void(int done, int all)> progress;
+  std::function<bool()> stopped;  // true, once and for good: end here, with what there is
+};
+
+/// What was felt along a path of the device, and what the simulation was told and gave meanwhile.
+struct DeviceRun {
+  std::vector<haptics::HapticTick> ticks;  // 1 ms apart
+  std::vector<std::size_t> step_of_tick;   // the step that was under way, in `steps`
+  std::vector<scene::StepRecord> steps;    // their hashes are left out
+  std::vector<Vec3> step_force_N;          // of the simulation on the hand at the end of each step, scaled
+  std::vector<simulation::JointReadout> joints;  // the scene's co-contracted one after each step; empty without one
+  std::string notice;                            // what the device does not bear of the scene's settings
+};
+
+/// The scene without what is only for the hand and no force of the simulation: texture (goal 16 measures it) and the
+/// snap of lines.
+scene::Scene without_effects(scene::Scene scene);
+
+/// The scene's script in lockstep, for at most `seconds`, by a simulated hand on a device of this profile.
+DeviceRun run_scripted(const scene::Scene& scene, const device::DeviceProfile& profile, double seconds,
+                       const RunWatch& watch);
+
+/// A recorded path, felt again against the simulation that is run again beside it.
+DeviceRun run_recorded(const scene::Scene& scene, const scene::Recording& recording,
+                       const device::DeviceProfile& profile, const RunWatch& watch);
+
+/// Force of the simulation on the hand at the end of the step that made `model` and consumed `tool`, scaled [N]:
+/// the springs of contact and bone as the implicit solve had them, and the pull of the line in hand.
+Vec3 simulated_force_N(const messages::LocalModel& model, const messages::ToolState& tool, double force_scale);
+
+}  // namespace myotact::measure

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/vector.h"
+
+namespace myotact::measure {
+
+/// A force that a device was told to give beside the one that it should have given, one entry a tick of 1 ms. Both on
+/// the hand, in the world frame.
+struct ForceSeries {
+  std::vector<Vec3> commanded_N, true_N;  // same length
+  std::vector<Vec3> hand_m;               // same length, or empty: work is not asked for
+  std::vector<bool> judged;               // same length, or empty: every tick
+};
+
+/// Less force than this moves no device (coulomb friction of a desktop stylus, 0.05-0.3 N, lies above it): ticks
+/// farther than kNearTouch_s from a true force that is larger are not looked at.
+inline constexpr double kFeltForce_N = 0.02;
+inline constexpr double kNearTouch_s = 0.05;
+
+/// How the commanded force differs from the true one. NaN where nothing can be said.
+///
+///   commanded(t) = gain turn true(t - lag) + noise(t)
+///
+/// gain, turn and lag are fitted together by least squares over all ticks near touch.
+struct ForceComparison {
+  std::size_t ticks = 0;  // near touch and judged: what all figures but work are about
+  double true_rms_N = 0.0, true_peak_N = 0.0;
+  // Straight difference, nothing taken out.
+  double error_rms_N = 0.0, error_worst_N = 0.0;
+  double error_rms_share = 0.0, error_worst_share = 0.0;  // of true_rms_N, of true_peak_N
+  // What it is made of.
+  double gain = 0.0;
+  double lag_s = 0.0;            // > 0: the commanded force is late
+  Vec3 turn_rad = Vec3::Zero();  // rotation vector in the world: the constant turn from true to commanded
+  double mean_angle_rad = 0.0;   // between the two, the lag taken out, where the true one is over a tenth of its peak
+  double noise_rms_N = 0.0;      // of the vector, over 20 Hz, of what gain, turn and lag do not explain
+  std::vector<double> noise_N2_Hz;  // its power density, entry i at i * 1000 / 256 Hz; empty: no stretch long enough
+  // Over the judged ticks.
+  double commanded_work_J = 0.0, true_work_J = 0.0;  // on the hand
+
+  double turn_angle_rad() const { return turn_rad.norm(); }
+};
+
+/// A turn about an axis that no force of the series tells of (that along which all of them lie) counts as none. Lags
+/// are looked for up to 100 ms either way.
+ForceComparison compare_forces(const ForceSeries& series);
+
+/// `force` at a time between ticks, cubic through its four neighbours; held at both ends.
+Vec3 force_at(const std::vector<Vec3>& force, double tick);
+
+}  // namespace myotact::measure

@@ -1,0 +1,111 @@
+#include "measure/fidelity/planted_faults.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string_view>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace myotact::measure {
+
+namespace {
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+
+struct PlantKey {
+  const char* name;
+  double unit;  // SI over that of the key
+  double lowest, highest;
+  double PlantedFaults::*value;
+};
+constexpr std::array kKeys = {PlantKey{"delay_ms", 1e-3, 0.0, 50.0, &PlantedFaults::delay_s},
+                              PlantKey{"scale", 1.0, 0.5, 2.0, &PlantedFaults::scale},
+                              PlantKey{"rotate_deg", kDegree_rad, -30.0, 30.0, &PlantedFaults::rotate_rad},
+                              PlantKey{"noise_mN", 1e-3, 0.0, 1000.0, &PlantedFaults::noise_N}};
+
+void read_pair(std::string_view pair, PlantedFaults& faults) {
+  const std::size_t equals = std::min(pair.find('='), pair.size());
+  const auto key =
+      std::find_if(kKeys.begin(), kKeys.end(), [&](const PlantKey& k) { return pair.substr(0, equals) == k.name; });
+  if (key == kKeys.end()) {
+    throw Error(ExitStatus::Usage, fmt::format("--plant {}: must be one of delay_ms=, scale=, rotate_deg=, noise_mN=, "
+                                               "for example --plant delay_ms=5,scale=0.9",
+                                               pair));
+  }
+  const auto number = parse_number(pair.substr(std::min(equals + 1, pair.size())));
+  if (!number || !(*number >= key->lowest && *number <= key->highest)) {
+    throw Error(ExitStatus::Usage,
+                fmt::format("--plant {}: must be a number in {} .. {}", pair, key->lowest, key->highest));
+  }
+  faults.*key->value = *number * key->unit;
+}
+
+/// Across the mean of the forces; up and down where that may be.
+Vec3 axis_across(const std::vector<Vec3>& force_N) {
+  Vec3 sum_N = Vec3::Zero();
+  for (const Vec3& force : force_N) sum_N += force;
+  const Vec3 along = sum_N.normalized();  // zero stays zero
+  const Vec3 up = Vec3::UnitZ() - along.z() * along;
+  return up.norm() > 0.1 ? Vec3(up.normalized()) : Vec3(along.unitOrthogonal());
+}
+
+/// Normal numbers by Box and Muller: the library's distribution is not the same everywhere.
+class Noise {
+ public:
+  double next() {
+    const double radius = std::sqrt(-2.0 * std::log(unit())), angle_rad = 2.0 * std::numbers::pi * unit();
+    return radius * std::cos(angle_rad);
+  }
+
+ private:
+  double unit() { return (static_cast<double>(random_() >> 11) + 0.5) * 0x1p-53; }
+  std::mt19937_64 random_{20};
+};
+
+}  // namespace
+
+PlantedFaults parse_planted_faults(const std::string& text) {
+  PlantedFaults faults;
+  for (std::size_t start = 0; start <= text.size();) {
+    const std::size_t end = std::min(text.find(',', start), text.size());
+    read_pair(std::string_view(text).substr(start, end - start), faults);
+    start = end + 1;
+  }
+  return faults;
+}
+
+std::vector<Vec3> plant(const PlantedFaults& faults, const std::vector<Vec3>& force_N) {
+  const Mat3 turn = Eigen::AngleAxisd(faults.rotate_rad, axis_across(force_N)).toRotationMatrix();
+  const double axis_N = faults.noise_N / std::sqrt(3.0);
+  Noise noise;
+  std::vector<Vec3> planted;
+  planted.reserve(force_N.size());
+  for (std::size_t i = 0; i < force_N.size(); ++i) {
+    const Vec3 late_N = force_at(force_N, static_cast<double>(i) - 1e3 * faults.delay_s);
+    planted.emplace_back(faults.scale * (turn * late_N));
+    if (axis_N > 0.0) planted.back() += axis_N * Vec3(noise.next(), noise.next(), noise.next());
+  }
+  return planted;
+}
+
+PlantedFaults found_faults(const ForceComparison& before, const ForceComparison& after) {
+  const auto turn_of = [](const ForceComparison& found) {
+    return Eigen::AngleAxisd(found.turn_angle_rad(), found.turn_rad.normalized()).toRotationMatrix();
+  };
+  PlantedFaults found;
+  found.delay_s = after.lag_s - before.lag_s;
+  found.scale = after.gain / before.gain;
+  found.rotate_rad = Eigen::AngleAxisd(Mat3(turn_of(after) * turn_of(before).transpose())).angle();
+  const double noise_N2 = after.noise_rms_N * after.noise_rms_N - before.noise_rms_N * before.noise_rms_N;
+  found.noise_N = std::sqrt(std::max(0.0, noise_N2));
+  return found;
+}
+
+}  // namespace myotact::measure
