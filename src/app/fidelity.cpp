@@ -1,18 +1,25 @@
+#include <filesystem>
 #include <iostream>
 #include <vector>
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "app/interruption.h"
 #include "app/options.h"
+#include "app/progress.h"
 #include "core/error.h"
+#include "core/file.h"
+#include "core/json_reader.h"
+#include "device/profile_file.h"
+#include "measure/fidelity/scene_fidelity_report.h"
 #include "measure/fidelity/suite_report.h"
 
 namespace myotact::app {
 
-int fidelity(const Options& options) {
-  if (!options.suite && options.goals.empty()) {
-    throw Error(ExitStatus::Usage, "fidelity: say what to measure: --suite for every goal, or --goal 6,8 for some");
-  }
+namespace {
+
+int suite(const Options& options) {
   const auto effort = options.brief ? measure::Effort::Short : measure::Effort::Full;
   std::vector<measure::MeasuredGoal> measured;
   bool passed = true;
@@ -24,6 +31,67 @@ int fidelity(const Options& options) {
   }
   if (options.json) std::cout << measure::suite_json(measured) << std::flush;
   return static_cast<int>(passed ? ExitStatus::Done : ExitStatus::CheckFailed);
+}
+
+/// What is measured and on what.
+struct Subject {
+  scene::Scene scene;
+  device::NamedProfile device;
+  std::optional<scene::Recording> recording;
+};
+
+Subject subject_of(const Options& options) {
+  if (options.devices.size() > 1)
+    throw Error(ExitStatus::Usage, "--device: one tool is measured; name one device profile");
+  Subject subject;
+  if (!options.devices.empty()) subject.device = device::load_profile(options.devices.front());
+  if (options.recording) {
+    subject.recording = scene::read_recording(*options.recording);
+    const nlohmann::json header = parse_json(subject.recording->header_json, options.recording->string() + " (header)");
+    subject.scene = scene::scene_of_recording(header, *options.recording, overrides_of(options));
+    scene::require_fit(*subject.recording, subject.scene.specimen, *options.recording);
+    if (options.devices.empty())
+      subject.device = {"recorded", "the recorded device", scene::device_of_recording(header, *options.recording)};
+  } else {
+    subject.scene = scene::load_scene(options.scene, overrides_of(options));
+    scene::set_seed(subject.scene, options.seed);
+    if (options.devices.empty()) subject.device = device::load_profile("simulated");
+  }
+  subject.scene.settings.workers = options.workers;
+  return subject;
+}
+
+int scene_fidelity(const Options& options) {
+  measure::FidelityRequest request;
+  if (!options.plant.empty()) request.planted = measure::parse_planted_faults(options.plant);
+  request.truth = options.truth == "steps" ? measure::Truth::Steps : measure::Truth::Ticks;
+  const Subject subject = subject_of(options);
+  request.profile = subject.device.profile;
+  if (options.seconds) request.seconds = *options.seconds;
+  if (subject.recording) request.recording = &*subject.recording;
+  make_writable_folder(options.out);
+  watch_for_interruption();
+  Progress progress;
+  measure::RunWatch watch;
+  watch.progress = [&](int done, int all) { progress.show(done, all); };
+  watch.stopped = [] { return interruption() != 0; };
+  const measure::SceneFidelity found = measure::measure_scene_fidelity(subject.scene, request, watch);
+  const std::string json = measure::scene_fidelity_json(found);
+  write_file(options.out / "fidelity.json", json);
+  write_file(options.out / "fidelity.csv", measure::scene_fidelity_csv(found));
+  std::cout << (options.json ? json : measure::scene_fidelity_text(found)) << std::flush;
+  if (interruption() != 0) return interruption();
+  const bool passed =
+      found.planted ? found.planted->all_found() : measure::worst_grade(measure::judge(found)) != measure::Grade::Poor;
+  return static_cast<int>(passed ? ExitStatus::Done : ExitStatus::CheckFailed);
+}
+
+}  // namespace
+
+int fidelity(const Options& options) {
+  if (options.suite || !options.goals.empty()) return suite(options);
+  // Scenes that have a measurement of their own come here, before scene_fidelity().
+  return scene_fidelity(options);
 }
 
 }  // namespace myotact::app

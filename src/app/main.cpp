@@ -58,6 +58,27 @@ CLI::App* add_probe(CLI::App& program, Options& options) {
   return probe;
 }
 
+CLI::App* add_fidelity(CLI::App& program, Options& options) {
+  CLI::App* fidelity = add_scene_command(
+      program, options, "fidelity",
+      "how truly the rendered force follows the simulated one in a scene; with --suite every goal of the rendering");
+  fidelity->add_option("--recording", options.recording, "take the hand's path from this recording, not the script");
+  fidelity
+      ->add_option(
+          "--truth", options.truth,
+          "what is true: ticks (the path again, simulated with a step of 1 ms) or steps (the scene's own steps, "
+          "five times faster)")
+      ->check(CLI::IsMember({"ticks", "steps"}))
+      ->capture_default_str();
+  fidelity->add_option("--plant", options.plant,
+                       "self-check: put faults into the recorded force and see what is found of them: "
+                       "delay_ms=5,scale=0.9,rotate_deg=5,noise_mN=20");
+  fidelity->add_flag("--suite", options.suite, "every goal; minutes");
+  fidelity->add_option("--goal", options.goals, "only these goals, by number: 6,8")->delimiter(',');
+  fidelity->add_flag("--brief", options.brief, "goals: shorter runs, as the tests make them");
+  return fidelity;
+}
+
 /// Declares all subcommands; returns what the one that was given does.
 void declare(CLI::App& program, Options& options, std::function<int(const Options&)>& action) {
   program.set_version_flag("--version", MYOTACT_VERSION);
@@ -102,13 +123,7 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
   validate->add_option("--report", options.report, "write a page with the table and plots to this file");
   add_common(*validate, options);
   bind(validate, myotact::app::validate);
-  CLI::App* fidelity = program.add_subcommand(
-      "fidelity", "how true, stable and safe the rendered forces are: goals beside what is measured");
-  fidelity->add_flag("--suite", options.suite, "every goal; minutes");
-  fidelity->add_option("--goal", options.goals, "only these goals, by number: 6,8")->delimiter(',');
-  fidelity->add_flag("--brief", options.brief, "shorter runs, as the tests make them");
-  add_common(*fidelity, options);
-  bind(fidelity, myotact::app::fidelity);
+  bind(add_fidelity(program, options), myotact::app::fidelity);
   bind(add_probe(program, options), myotact::app::probe);
   CLI::App* devices = program.add_subcommand("devices", "which devices there are");
   add_common(*devices, options);

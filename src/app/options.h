@@ -35,12 +35,15 @@ struct Options {
   std::optional<std::filesystem::path> vtk;  // solve
   std::string filter;                        // validate
   std::optional<std::filesystem::path> report;
-  bool suite = false;                           // fidelity: every goal
-  std::vector<int> goals;                       // fidelity: these goals
-  bool brief = false;                           // fidelity: seconds instead of minutes
-  std::filesystem::path path;                   // probe: where the device goes
-  std::optional<std::filesystem::path> frames;  // probe: folder of a deforming surface
-  double radius_m = 3e-3;                       // probe, as the three below
+  bool suite = false;                              // fidelity: every goal
+  std::vector<int> goals;                          // fidelity: these goals
+  bool brief = false;                              // fidelity: seconds instead of minutes
+  std::optional<std::filesystem::path> recording;  // fidelity: its path in place of the script
+  std::string truth = "ticks";                     // fidelity
+  std::string plant;                               // fidelity: faults to be found again; empty: none
+  std::filesystem::path path;                      // probe: where the device goes
+  std::optional<std::filesystem::path> frames;     // probe: folder of a deforming surface
+  double radius_m = 3e-3;                          // probe, as the three below
   double stiffness_N_m = 800.0;
   double friction = 0.3;
   double rate_hz = 1000.0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <utility>
 
 #include "device/simulated_device.h"
@@ -34,6 +35,28 @@ class StepBook {
   double force_scale_;
   std::unique_ptr<messages::LocalModel> model_;
 };
+
+/// Ticks of a hand that waits where the script begins until the force gate has opened: 1 s of ramp and some.
+constexpr int kGateOpens_ticks = 1200;
+
+/// Recorded positions without the encoder's counts: mean under Hann's window, not late.
+std::vector<Vec3> smoothed_path_m(const std::vector<haptics::HapticTick>& ticks) {
+  constexpr long kHalf_ticks = 5;
+  std::vector<Vec3> path_m;
+  const auto count = static_cast<long>(ticks.size());
+  for (long i = 0; i < count; ++i) {
+    const long half = std::min({kHalf_ticks, i, count - 1 - i});
+    Vec3 sum_m = Vec3::Zero();
+    double weight = 0.0;
+    for (long k = -half; k <= half; ++k) {
+      const double share = 1.0 + std::cos(std::numbers::pi * static_cast<double>(k) / static_cast<double>(half + 1));
+      sum_m += share * to_vec3(ticks[static_cast<std::size_t>(i + k)].device.stylus_position_world_m);
+      weight += share;
+    }
+    path_m.emplace_back(sum_m / weight);
+  }
+  return path_m;
+}
 
 bool goes_on(const RunWatch& watch, std::size_t done, std::size_t all) {
   if (watch.progress) watch.progress(static_cast<int>(done), static_cast<int>(all));
@@ -69,20 +92,27 @@ DeviceRun run_scripted(const scene::Scene& scene, const device::DeviceProfile& p
   scene::Conductor conductor(scene, simulation);
   device::SimulatedDevice device("simulated", conductor.hand(0.0).position_world_m, profile);
   scene::LockstepHaptics haptics(device, scene);
+  device.set_hand_target({to_array(conductor.hand(0.0).position_world_m), {}, 0});
   haptics.publish_model(simulation);
+  for (int i = 0; i < kGateOpens_ticks; ++i) {
+    haptics.tick();
+    if ((i + 1) % haptics.ticks_a_step() == 0) haptics.publish_model(simulation);
+  }
+  const double start_s = haptics.time_s();
   StepBook book(scene);
   DeviceRun run;
   run.notice = haptics.notice();
-  const auto steps = static_cast<std::size_t>(
-      std::llround(std::min(seconds, conductor.script_end_s()) / scene.settings.dt_s));
+  const auto steps =
+      static_cast<std::size_t>(std::llround(std::min(seconds, conductor.script_end_s()) / scene.settings.dt_s));
   scene::StepRecord input;
   for (std::size_t step = 0; step < steps && goes_on(watch, step, steps); ++step) {
     conductor.prepare_step(simulation.time_s(), input);
     for (int i = 0; i < haptics.ticks_a_step(); ++i) {
-      const scene::HandTarget hand = conductor.hand(haptics.time_s());
+      const scene::HandTarget hand = conductor.hand(haptics.time_s() - start_s);
       device.set_hand_target({to_array(hand.position_world_m), {}, hand.buttons});
       haptics.tick();
       run.ticks.push_back(haptics.last_tick());
+      run.hand_m.push_back(device.position_world_m());
       run.step_of_tick.push_back(step);
     }
     input.tool = haptics.tool();
@@ -112,6 +142,7 @@ DeviceRun run_recorded(const scene::Scene& scene, const scene::Recording& record
     simulation.step({&recording.steps[step].tool, 1});
     book.add(recording.steps[step], simulation, run);
   }
+  run.hand_m = smoothed_path_m(run.ticks);
   return run;
 }
 

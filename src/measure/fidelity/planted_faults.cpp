@@ -103,8 +103,8 @@ PlantedFaults found_faults(const ForceComparison& before, const ForceComparison&
   found.delay_s = after.lag_s - before.lag_s;
   found.scale = after.gain / before.gain;
   found.rotate_rad = Eigen::AngleAxisd(Mat3(turn_of(after) * turn_of(before).transpose())).angle();
-  const double noise_N2 = after.noise_rms_N * after.noise_rms_N - before.noise_rms_N * before.noise_rms_N;
-  found.noise_N = std::sqrt(std::max(0.0, noise_N2));
+  const double scaled_N = found.scale * before.noise_rms_N;  // the noise there was is scaled with the force
+  found.noise_N = std::sqrt(std::max(0.0, after.noise_rms_N * after.noise_rms_N - scaled_N * scaled_N));
   return found;
 }
 

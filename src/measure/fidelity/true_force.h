@@ -16,7 +16,8 @@ namespace myotact::measure {
 /// late, and nothing of what makes a slow simulation bearable at 1 kHz is trusted: the coupling is as stiff as tissue
 /// allows (30 kN/m), no device bounds it, no observer of energy and no gate come after it; the force is the solver's.
 /// What it still shares with the run is where the tool touches, whether it slips (the proxy), and the grip's own spring
-/// on a bone. `profile` is what the run was made with. Shorter when stopped.
+/// on a bone. What swings from one tick to the next is smoothed away. `profile` is what the run was made with. Shorter
+/// when stopped.
 std::vector<Vec3> true_force_by_ticks(const scene::Scene& scene, const DeviceRun& run,
                                       const device::DeviceProfile& profile, const RunWatch& watch);
 

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "device/device.h"
+
+namespace myotact::device {
+
+/// A device profile of a file (assets/devices/README.md).
+struct NamedProfile {
+  std::string name, title;
+  DeviceProfile profile;
+};
+
+/// Reads one of assets/devices by name, or a file by path. Throws Error NoInput (names the known ones) or BadData
+/// (file, place, value, range).
+NamedProfile load_profile(const std::string& name_or_path);
+
+/// Names of those in assets/devices, sorted.
+std::vector<std::string> built_in_profiles();
+
+}  // namespace myotact::device

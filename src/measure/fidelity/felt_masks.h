@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "measure/fidelity/device_run.h"
+
+namespace myotact::measure {
+
+// What the hand did in a tick.
+inline bool holds_line(const haptics::HapticTick& tick) {
+  return tick.tool.grabbed_line >= 0;
+}
+inline bool holds_bone(const haptics::HapticTick& tick) {
+  return tick.tool.grabbed_body >= 0;
+}
+inline bool holds_contact(const haptics::HapticTick& tick) {
+  return tick.tool.contact.surface >= 0 && !holds_line(tick) && !holds_bone(tick);
+}
+
+/// Which ticks say something about truth, and why the others do not.
+struct JudgedTicks {
+  std::vector<bool> judged;  // one a tick
+  std::size_t gate = 0;      // the force gate was opening, shut or fading
+  std::size_t hand = 0;      // a hand was closing or opening, whose force rises and dies out over 100 ms
+  std::size_t at_limit = 0;  // the device gave all that it may
+};
+JudgedTicks judged_ticks(const scene::Scene& scene, const DeviceRun& run, const device::DeviceProfile& profile);
+
+}  // namespace myotact::measure

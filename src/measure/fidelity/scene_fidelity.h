@@ -1,0 +1,78 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "measure/fidelity/felt_quantities.h"
+#include "measure/fidelity/planted_faults.h"
+
+namespace myotact::measure {
+
+/// What counts as the true force; true_force.h says how each is got.
+enum class Truth { Ticks, Steps };
+
+struct FidelityRequest {
+  device::DeviceProfile profile;
+  double seconds = 1e9;                         // of a script at most
+  const scene::Recording* recording = nullptr;  // in place of the script
+  Truth truth = Truth::Ticks;
+  PlantedFaults planted;
+};
+
+/// One quantity of the force over the ticks that it is about.
+struct ComparedForce {
+  std::string name;  // e.g. "contact, across the surface"
+  std::string key;   // for JSON
+  ForceComparison found;
+};
+
+enum class Grade { Good, Fair, Poor };
+
+/// One figure beside the two bounds that make it good or fair.
+struct JudgedFigure {
+  std::string name, unit;
+  double value = 0.0;
+  double good = 0.0, fair = 0.0;  // at most
+  std::string source;             // of the bounds
+  Grade grade() const { return value <= good ? Grade::Good : value <= fair ? Grade::Fair : Grade::Poor; }
+};
+
+/// What planted faults were, and what was found of them.
+struct PlantedReport {
+  PlantedFaults planted;
+  PlantedFaults alone;     // the force with the faults beside the same force without: nothing else differs
+  PlantedFaults on_truth;  // beside the truth, less what it differs by anyway
+  /// Whether `alone` holds each within a tenth of what was planted.
+  bool all_found() const;
+};
+
+struct SceneFidelity {
+  std::string scene, title;
+  Truth truth = Truth::Ticks;
+  ForceSeries force;  // commanded (as felt, nothing planted) and true, one entry a tick; shorter when stopped
+  std::size_t gate_ticks = 0, hand_ticks = 0, limit_ticks = 0;  // left out, and why (felt_masks.h)
+  std::vector<ComparedForce> compared;                          // the first is the whole force
+  /// Of the whole difference: what the haptic side adds to its simulation, and what the simulation's step leaves out
+  /// (the latter only with Truth::Ticks).
+  ForceComparison haptic_part;
+  std::optional<ForceComparison> step_part;
+  std::vector<PressStiffness> presses;
+  std::optional<SlidingFriction> friction;
+  std::optional<JointInHand> joint;
+  std::optional<PlantedReport> planted;
+  std::vector<std::string> notes;  // what a reader has to know
+};
+
+/// Runs the scene (or feels the recording again), gets the truth and compares. Texture and the snap of lines are left
+/// out. Throws Error.
+SceneFidelity measure_scene_fidelity(const scene::Scene& scene, const FidelityRequest& request, const RunWatch& watch);
+
+/// The figures that make the verdict; those that the run says nothing about are left out.
+std::vector<JudgedFigure> judge(const SceneFidelity& fidelity);
+
+/// The worst of them; Good for none.
+Grade worst_grade(const std::vector<JudgedFigure>& figures);
+const char* grade_text(Grade verdict);
+
+}  // namespace myotact::measure
