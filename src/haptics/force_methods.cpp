@@ -16,11 +16,28 @@ constexpr int kMostSweeps = 32;
 /// Below this force scale the spring in the simulation grows no stiffer: it takes no spring above 1 MN/m.
 constexpr double kSmallestScale = 1e-3;
 
-int sound_count(const messages::ReportedContacts& reported) {
-  return std::clamp(reported.count, 0, messages::kMaxReportedContacts);
+/// Whether another contact of the same body is deeper, or as deep and before it.
+bool is_outdone(const messages::ReportedContacts& reported, int count, int place) {
+  const messages::ReportedContact& own = reported.contacts[at(place)];
+  for (int i = 0; i < count; ++i) {
+    const messages::ReportedContact& other = reported.contacts[at(i)];
+    const bool deeper =
+        other.penetration_m > own.penetration_m || (other.penetration_m == own.penetration_m && i < place);
+    if (other.surface == own.surface && deeper) return true;
+  }
+  return false;
 }
 
 }  // namespace
+
+void PressedContacts::take(const messages::ReportedContacts& reported) noexcept {
+  clear();
+  const int count = std::clamp(reported.count, 0, messages::kMaxReportedContacts);
+  for (int i = 0; i < count; ++i) {
+    const messages::ReportedContact& contact = reported.contacts[at(i)];
+    if (!is_outdone(reported, count, i)) add({to_vec3(contact.normal_world), contact.penetration_m, i});
+  }
+}
 
 void PressedContacts::add(const PressedContact& contact) noexcept {
   if (count_ < messages::kMaxReportedContacts) contacts_[at(count_++)] = contact;
@@ -45,8 +62,9 @@ WayOut PressedContacts::way_out() const noexcept {
   }
   const auto most = std::max_element(w_m.begin(), w_m.begin() + count_);
   if (most == w_m.begin() + count_ || !(*most > 0.0)) return {};
-  out.bearing = static_cast<int>(most - w_m.begin());
-  out.depth_m = contacts_[at(out.bearing)].depth_m;
+  const PressedContact& bearing = contacts_[static_cast<std::size_t>(most - w_m.begin())];
+  out.bearing = bearing.place;
+  out.depth_m = bearing.depth_m;
   return out;
 }
 
@@ -55,20 +73,14 @@ void PenetrationMethod::move(const Vec3& tool_m) noexcept {
   tool_m_ = tool_m;
 }
 
-void PenetrationMethod::take(const messages::ReportedContacts& reported) noexcept {
-  pressed_.clear();
-  for (int i = 0; i < sound_count(reported); ++i) {
-    const messages::ReportedContact& contact = reported.contacts[at(i)];
-    pressed_.add({to_vec3(contact.normal_world), contact.penetration_m});
-  }
-}
-
 void PlaneMethod::take(const messages::ReportedContacts& reported) noexcept {
-  count_ = sound_count(reported);
+  PressedContacts pressed;
+  pressed.take(reported);
+  count_ = pressed.count();
   for (int i = 0; i < count_; ++i) {
-    const messages::ReportedContact& contact = reported.contacts[at(i)];
-    const Vec3 normal_W = to_vec3(contact.normal_world);
-    planes_[at(i)] = {normal_W, -normal_W.dot(to_vec3(contact.point_world_m))};
+    const PressedContact& contact = pressed[i];
+    const Vec3 point_m = to_vec3(reported.contacts[at(contact.place)].point_world_m);
+    planes_[at(i)] = {contact.normal_W, -contact.normal_W.dot(point_m), contact.place};
   }
 }
 
@@ -76,7 +88,7 @@ WayOut PlaneMethod::way_out(const Vec3& tool_m) const noexcept {
   PressedContacts pressed;
   for (int i = 0; i < count_; ++i) {
     const Plane& plane = planes_[at(i)];
-    pressed.add({plane.normal_W, radius_m_ - (plane.normal_W.dot(tool_m) + plane.offset_m)});
+    pressed.add({plane.normal_W, radius_m_ - (plane.normal_W.dot(tool_m) + plane.offset_m), plane.place});
   }
   return pressed.way_out();
 }

@@ -17,36 +17,40 @@ enum class ForceMethod : std::int32_t {
   Pulling,      // C: spring to the reported place of the body in hand, in place of BoneDrag; touch is the proxy's
 };
 
-/// The depth of the tool along a normal, and which of the reported contacts that is.
+/// What of a report is pressed on: the published methods know one contact a body, so it is the deepest of each body (of
+/// two equal ones the first). Collision detection on a mesh reports the edges of neighbouring triangles besides, with
+/// tilted normals, which are no walls.
 struct PressedContact {
   Vec3 normal_W = Vec3::UnitZ();  // unit, out of the touched body
-  double depth_m = 0.0;           // < 0: apart
+  double depth_m = 0.0;           // of the tool along it; < 0: apart
+  int place = 0;                  // in the report
 };
 
-/// From the tool to where nothing is pressed any more, as far as the methods know; F = k way_out_m.
+/// From the tool to where nothing is pressed any more, as far as the methods know; F = k way_m.
 struct WayOut {
   Vec3 way_m = Vec3::Zero();
   int bearing = -1;      // the contact that bears most, by its place in the report; -1: none is pressed
   double depth_m = 0.0;  // of that one
 };
 
-/// Several contacts at once: the published methods know one. Every contact pushes along its own normal, at most by its
+/// Several bodies at once: the published methods do not say. Every contact pushes along its own normal, at most by its
 /// own depth, and only by what the others leave of that depth:
 ///
 ///   way = sum w_i n_i,   0 <= w_i <= max(0, e_i),   n_i . way = e_i where w_i lies between
 ///
-/// So a face that an engine reports by four points presses once, as deep as the deepest of them; two walls of a corner
-/// press both; the sides of a slot press against each other; and, unlike with a choice by angle, nothing jumps when two
-/// normals come near each other. Real-time safe.
+/// So two bodies side by side press once, as deep as the deeper one; floor and wall press both; the sides of a slot
+/// press against each other; and, unlike with a choice by angle, nothing jumps when two normals come near each other.
+/// Real-time safe.
 class PressedContacts {
  public:
+  /// The deepest of each body.
+  void take(const messages::ReportedContacts& reported) noexcept;
   void clear() noexcept { count_ = 0; }
   void add(const PressedContact& contact) noexcept;  // beyond kMaxReportedContacts: left out
   WayOut way_out() const noexcept;
 
   int count() const noexcept { return count_; }
   PressedContact& operator[](int i) noexcept { return contacts_[static_cast<std::size_t>(i)]; }
-  const PressedContact& operator[](int i) const noexcept { return contacts_[static_cast<std::size_t>(i)]; }
 
  private:
   std::array<PressedContact, messages::kMaxReportedContacts> contacts_{};
@@ -65,7 +69,7 @@ class PenetrationMethod {
   /// The tool's middle in this tick.
   void move(const Vec3& tool_m) noexcept;
   /// A new report, sound (moving_surface.h, is_sound); after move().
-  void take(const messages::ReportedContacts& reported) noexcept;
+  void take(const messages::ReportedContacts& reported) noexcept { pressed_.take(reported); }
   WayOut way_out() const noexcept { return pressed_.way_out(); }
 
  private:
@@ -91,6 +95,7 @@ class PlaneMethod {
   struct Plane {
     Vec3 normal_W = Vec3::UnitZ();  // A, B, C
     double offset_m = 0.0;          // D
+    int place = 0;                  // in the report
   };
   double radius_m_;
   std::array<Plane, messages::kMaxReportedContacts> planes_{};

@@ -106,27 +106,42 @@ TEST(PenetrationMethod, JumpsWithAnOldReportAsPublished) {
   EXPECT_NEAR(method.way_out().depth_m, 1e-3, kExact_m);
 }
 
+/// Bullet, of a sphere on a flat mesh: the face, and the edge of the next triangle with a tilted normal.
+TEST(PressedContacts, OneContactABodyTheDeepest) {
+  PressedContacts pressed;
+  pressed.take(report({contact(Vec3::Zero(), Vec3(0, 0.6, 0.8), 1e-3, 0), contact(Vec3::Zero(), Vec3::UnitZ(), 2e-3, 0),
+                       contact(Vec3::Zero(), -Vec3::UnitX(), 1e-3, 7), contact(Vec3::Zero(), Vec3::UnitY(), 1e-3, 7)}));
+  ASSERT_EQ(pressed.count(), 2);
+  EXPECT_NEAR((pressed.way_out().way_m - Vec3(-1e-3, 0, 2e-3)).norm(), 0.0, kExact_m);
+  EXPECT_EQ(pressed.way_out().bearing, 1);  // by its place in the report
+  PlaneMethod plane(kRadius_m);
+  plane.take(
+      report({contact(Vec3::Zero(), Vec3(0, 0.6, 0.8), 1e-3, 0), contact(Vec3::Zero(), Vec3::UnitZ(), 2e-3, 0)}));
+  EXPECT_NEAR((plane.way_out(Vec3(0, 0, 1e-3)).way_m - Vec3(0, 0, 2e-3)).norm(), 0.0, kExact_m);
+  EXPECT_EQ(plane.way_out(Vec3(0, 0, 1e-3)).bearing, 1);
+}
+
 TEST(PressedContacts, AFacePressesOnceACornerTwiceASlotAgainstItself) {
   PressedContacts face;
-  for (const double depth_m : {1e-3, 2e-3, 0.5e-3, 2e-3}) face.add({Vec3::UnitZ(), depth_m});
+  for (const double depth_m : {1e-3, 2e-3, 0.5e-3, 2e-3}) face.add({Vec3::UnitZ(), depth_m, face.count()});
   EXPECT_NEAR((face.way_out().way_m - Vec3(0, 0, 2e-3)).norm(), 0.0, kExact_m);
 
   PressedContacts corner;
-  corner.add({Vec3::UnitZ(), 1e-3});
-  corner.add({Vec3::UnitX(), 2e-3});
-  corner.add({Vec3::UnitY(), -1e-3});
+  corner.add({Vec3::UnitZ(), 1e-3, 0});
+  corner.add({Vec3::UnitX(), 2e-3, 1});
+  corner.add({Vec3::UnitY(), -1e-3, 2});
   EXPECT_NEAR((corner.way_out().way_m - Vec3(2e-3, 0, 1e-3)).norm(), 0.0, kExact_m);
   EXPECT_EQ(corner.way_out().bearing, 1);
 
   PressedContacts slot;
-  slot.add({Vec3::UnitX(), 1e-3});
-  slot.add({-Vec3::UnitX(), 3e-3});
+  slot.add({Vec3::UnitX(), 1e-3, 0});
+  slot.add({-Vec3::UnitX(), 3e-3, 1});
   EXPECT_NEAR((slot.way_out().way_m - Vec3(-2e-3, 0, 0)).norm(), 0.0, kExact_m);
 
   // 60 degrees: w1 + w2/2 = 1 and w1/2 + w2 = 1 mm, so both 2/3: by hand.
   PressedContacts edge;
-  edge.add({Vec3::UnitZ(), 1e-3});
-  edge.add({Vec3(std::sqrt(0.75), 0.0, 0.5), 1e-3});
+  edge.add({Vec3::UnitZ(), 1e-3, 0});
+  edge.add({Vec3(std::sqrt(0.75), 0.0, 0.5), 1e-3, 1});
   EXPECT_NEAR((edge.way_out().way_m - Vec3(2e-3 / 3.0 * std::sqrt(0.75), 0.0, 1e-3)).norm(), 0.0, 1e-12);
 }
 
@@ -136,8 +151,8 @@ TEST(PressedContacts, ChangesAsLittleAsTheContactsDo) {
   for (int i = 0; i <= 2000; ++i) {
     const double angle_rad = 1e-3 * (i - 1000);
     PressedContacts pressed;
-    const PressedContact fixed{Vec3::UnitZ(), 1e-3};
-    const PressedContact turning{Vec3(std::sin(angle_rad), 0.0, std::cos(angle_rad)), 0.5e-3 + 0.5e-6 * i};
+    const PressedContact fixed{Vec3::UnitZ(), 1e-3, 0};
+    const PressedContact turning{Vec3(std::sin(angle_rad), 0.0, std::cos(angle_rad)), 0.5e-3 + 0.5e-6 * i, 1};
     const bool turning_first = turning.depth_m > fixed.depth_m;  // the deepest first, as engines report
     pressed.add(turning_first ? turning : fixed);
     pressed.add(turning_first ? fixed : turning);

@@ -129,21 +129,30 @@ class WatchedDevice : public device::Device {
     if (watch_ != nullptr) watch_->look_at(loop_->models().front());
     const Vec3 force_N = to_vec3(command.force_world_N);
     const double step_N = (force_N - last_N_).norm();
-    if (loop_ != nullptr && loop_->gate_state() == haptics::GateState::On && step_N > largest_step_N()) {
-      largest_step_N_.store(step_N, std::memory_order_relaxed);
+    if (loop_ != nullptr && loop_->gate_state() == haptics::GateState::On) {
+      if (step_N > largest_step_N()) largest_step_N_.store(step_N, std::memory_order_relaxed);
+      if (step_N > kLargeStep_N) large_steps_.fetch_add(1, std::memory_order_relaxed);
     }
     last_N_ = force_N;
     inner_.write(command);
   }
 
+  // ---- any thread
+  void begin_again() noexcept {
+    largest_step_N_.store(0.0, std::memory_order_relaxed);
+    large_steps_.store(0, std::memory_order_relaxed);
+  }
   double largest_step_N() const noexcept { return largest_step_N_.load(std::memory_order_relaxed); }
+  std::uint64_t large_steps() const noexcept { return large_steps_.load(std::memory_order_relaxed); }  // over 30 mN
 
  private:
+  static constexpr double kLargeStep_N = 0.030;  // reference 3.2, goal 13
   device::Device& inner_;
   haptics::HapticLoop* loop_ = nullptr;
   TearingWatch* watch_ = nullptr;
   Vec3 last_N_ = Vec3::Zero();
   std::atomic<double> largest_step_N_{0.0};
+  std::atomic<std::uint64_t> large_steps_{0};
 };
 
 }  // namespace myotact::layer
