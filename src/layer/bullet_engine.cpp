@@ -30,7 +30,7 @@ class BulletEngine final : public Engine {
   std::string_view name() const override { return "bullet"; }
   double step_s() const override { return settings_.step_s; }
   int surface_count() const override { return surfaces_.count(); }
-  void move_tool(int tool, const messages::ToolState& state) override { tools_[at(tool)] = state; }
+  void move_tool(int tool, const messages::ToolState& state) override;
   void advance() override;
   void report_contacts(int tool, messages::ReportedContacts& reported) const override;
   Pose body_pose(int surface) const override;
@@ -48,6 +48,7 @@ class BulletEngine final : public Engine {
   simulation::Limb limb_;
   std::vector<std::unique_ptr<btConvexShape>> shapes_;  // one a tool
   std::vector<messages::ToolState> tools_;
+  messages::LocalModel around_;  // scratch, kept for its size
 };
 
 BulletEngine::BulletEngine(const anatomy::Specimen& specimen, const BulletSettings& settings)
@@ -74,6 +75,14 @@ void BulletEngine::push_spring(const simulation::ToolSpring& spring, double h_s,
   const double mobility_1_kg = world_.mobility_1_kg(spring.body, p_W, pull_m.normalized());
   force_N = std::min(spring.stiffness_N_m, 1.0 / (h_s * h_s * mobility_1_kg)) * pull_m;
   world_.push(spring.body, p_W, force_N);
+}
+
+void BulletEngine::move_tool(int tool, const messages::ToolState& state) {
+  messages::ToolState& taken = tools_[at(tool)];
+  taken = state;
+  if (taken.contact.surface < 0 || taken.contact.triangle >= 0) return;
+  surfaces_.patch().write(to_vec3(state.touched_world_m), around_);
+  name_touched_triangle(around_, taken);
 }
 
 void BulletEngine::advance() {

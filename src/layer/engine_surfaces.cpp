@@ -1,6 +1,9 @@
 #include "layer/engine_surfaces.h"
 
 #include <algorithm>
+#include <limits>
+
+#include "geometry/closest_point.h"
 
 namespace myotact::layer {
 namespace {
@@ -17,6 +20,24 @@ std::vector<const geometry::TriangleMesh*> all_surfaces(const anatomy::Specimen&
 }
 
 }  // namespace
+
+void name_touched_triangle(const messages::LocalModel& around, messages::ToolState& tool) {
+  const Vec3 touched_m = to_vec3(tool.touched_world_m);
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (std::size_t t = 0; t < at(around.triangle_count); ++t) {
+    const messages::LocalModel::Triangle& triangle = around.triangles[t];
+    if (triangle.surface != tool.contact.surface) continue;
+    const auto corner = [&](std::size_t k) { return to_vec3(around.current_world_m[at(triangle.vertices[k])]); };
+    const geometry::TrianglePoint foot =
+        geometry::closest_point_on_triangle(touched_m, corner(0), corner(1), corner(2));
+    const double away_m = (touched_m - foot.position_m).norm();
+    if (!(away_m < nearest_m)) continue;
+    nearest_m = away_m;
+    tool.contact.triangle = triangle.triangle;
+    tool.contact.barycentric = foot.barycentric;
+  }
+  if (tool.contact.triangle < 0) tool.contact = {};
+}
 
 EngineSurfaces::EngineSurfaces(const anatomy::Specimen& specimen)
     : specimen_(specimen), patch_(all_surfaces(specimen)) {

@@ -1,14 +1,18 @@
 #pragma once
 
-#include <memory>
 #include <span>
 #include <vector>
 
 #include "anatomy/specimen.h"
 #include "core/pose.h"
+#include "messages/tool_state.h"
 #include "simulation/local_patch.h"
 
 namespace myotact::layer {
+
+/// Names the triangle of a contact that is known by its place alone (ToolState::touched_world_m): the nearest one of
+/// its surface in `around`, a model about that place. Without one the contact is dropped.
+void name_touched_triangle(const messages::LocalModel& around, messages::ToolState& tool);
 
 /// Surfaces of a specimen for an engine that knows no more of them than where bodies and skins are after a step: the
 /// positions at the last two steps, and the trees over them. Numbered as in LocalModel: muscles first, then bones.

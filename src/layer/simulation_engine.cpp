@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "geometry/closest_point.h"
+#include "layer/engine_surfaces.h"
 
 namespace myotact::layer {
 namespace {
@@ -73,7 +74,13 @@ SimulationEngine::SimulationEngine(const anatomy::Specimen& specimen, const simu
       tools_(radii_m_.size()) {}
 
 void SimulationEngine::move_tool(int tool, const messages::ToolState& state) {
-  tools_[at(tool)] = state;
+  messages::ToolState& taken = tools_[at(tool)];
+  taken = state;
+  if (taken.contact.surface < 0 || taken.contact.triangle >= 0) return;
+  messages::ToolState around = state;
+  around.proxy_position_world_m = state.touched_world_m;
+  simulation_.write_local_model(around, around_);
+  name_touched_triangle(around_, taken);
 }
 
 void SimulationEngine::report_contacts(int tool, messages::ReportedContacts& reported) const {

@@ -35,7 +35,7 @@ class SimulationEngine final : public Engine {
   std::vector<int> bodies_;  // of a surface, -1: a skin
   std::vector<double> radii_m_;
   std::vector<messages::ToolState> tools_;
-  mutable messages::LocalModel around_;  // of the last report, kept for its size
+  mutable messages::LocalModel around_;  // scratch, kept for its size
 };
 
 }  // namespace myotact::layer

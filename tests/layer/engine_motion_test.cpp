@@ -104,6 +104,25 @@ TEST_P(EngineMotion, a_plate_pulled_with_its_weight_stays) {
   EXPECT_NEAR(model.grip.force_world_N[2], weight_N, 1e-6);
 }
 
+/// The force methods that go by reports name no triangle: the place alone.
+TEST_P(EngineMotion, a_press_known_by_its_place_balances_the_weight_from_below) {
+  const anatomy::Specimen specimen = pendulum();
+  const auto engine = make_engine(GetParam(), specimen);
+  const double weight_N = mass_kg(specimen) * kGravity_m_s2;
+  const Vec3 below_m = specimen.bodies[kPlate].com_m - Vec3(0.0, 0.0, 0.005);
+  messages::ToolState tool = tool_at(below_m - Vec3(0.0, 0.0, 0.004));
+  tool.contact.surface = kPlate;
+  tool.contact.normal_world = {0.0, 0.0, -1.0};
+  tool.contact.stiffness_N_m = 800.0;
+  tool.contact.target_world_m = to_array(below_m + Vec3(0.0, 0.0, weight_N / 800.0));
+  tool.touched_world_m = to_array(below_m);
+  for (int step = 0; step < 120; ++step) {
+    engine->move_tool(0, tool);
+    engine->advance();
+    ASSERT_NEAR(angle_rad(*engine), 0.0, 1e-9) << step;
+  }
+}
+
 TEST_P(EngineMotion, the_grip_tells_the_mobility_of_a_point_on_a_hinge) {
   const anatomy::Specimen specimen = plain_specimen("plate");
   const auto engine = make_engine(GetParam(), specimen);
