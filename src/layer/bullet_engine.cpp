@@ -38,6 +38,8 @@ class BulletEngine final : public Engine {
 
  private:
   void push_spring(const simulation::ToolSpring& spring, double h_s, Vec3& force_N);
+  void push_joints(double h_s);
+  void take_angles();
   void follow();
 
   const anatomy::Specimen specimen_;
@@ -46,6 +48,7 @@ class BulletEngine final : public Engine {
   EngineSurfaces surfaces_;
   /// Angles and rates as Bullet has them, in the form from which our own simulation tells how a body in hand moves.
   simulation::Limb limb_;
+  simulation::SkeletonLoads joints_alone_;              // without gravity and motion
   std::vector<std::unique_ptr<btConvexShape>> shapes_;  // one a tool
   std::vector<messages::ToolState> tools_;
   messages::LocalModel around_;  // scratch, kept for its size
@@ -87,25 +90,45 @@ void BulletEngine::move_tool(int tool, const messages::ToolState& state) {
 
 void BulletEngine::advance() {
   const double h_s = settings_.step_s / settings_.substeps;
+  limb_.before = limb_.last;
+  limb_.last = limb_.now;
   limb_.springs = simulation::tool_springs(tools_, {specimen_, {}}, limb_);
   limb_.spring_force_N.assign(limb_.springs.size(), Vec3::Zero());
   for (int substep = 0; substep < settings_.substeps; ++substep) {
     for (std::size_t s = 0; s < limb_.springs.size(); ++s) {
       push_spring(limb_.springs[s], h_s, limb_.spring_force_N[s]);
     }
+    push_joints(h_s);
     world_.advance(h_s);
+    take_angles();
   }
   follow();
 }
 
-void BulletEngine::follow() {
-  limb_.before = limb_.last;
-  limb_.last = limb_.now;
+/// Spring, damper and end of range of the joints as our own simulation has them, so that both engines hold one
+/// mechanics and the grip is told what there is: the torque at rest, and a damper, implicit as if the rest of the limb
+/// were stiff, that also takes the spring's motion within the substep.
+void BulletEngine::push_joints(double h_s) {
+  const Eigen::VectorXd still = Eigen::VectorXd::Zero(limb_.skeleton.joint_count());
+  const std::span<const double> zero(still.data(), static_cast<std::size_t>(still.size()));
+  joints_alone_.compute(limb_.skeleton, {Vec3::Zero(), zero, zero});
+  for (int j = 0; j < limb_.skeleton.joint_count(); ++j) {
+    if (!limb_.skeleton.moves(j)) continue;
+    const double damping_Nms_rad = joints_alone_.damping_Nms_rad[j] + h_s * joints_alone_.passive_Nm_rad[j];
+    const double share = 1.0 + h_s * damping_Nms_rad / limb_.skeleton.inertia_kg_m2(j);
+    world_.turn(j, joints_alone_.force_Nm[j] - damping_Nms_rad / share * limb_.now.velocity_rad_s[j]);
+  }
+}
+
+void BulletEngine::take_angles() {
   for (int j = 0; j < limb_.skeleton.joint_count(); ++j) {
     limb_.now.angle_rad[j] = world_.angle_rad(j);
     limb_.now.velocity_rad_s[j] = world_.velocity_rad_s(j);
   }
   limb_.skeleton.set_pose(limb_.angles());
+}
+
+void BulletEngine::follow() {
   simulation::read_out(limb_);
   for (int s = 0; s < surfaces_.count(); ++s) surfaces_.follow(s, body_pose(s));
 }

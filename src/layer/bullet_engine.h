@@ -31,7 +31,8 @@ bool has_bullet();
 
 /// Bullet Physics (zlib licence) behind the adapter, in double precision. Bodies that no hinge moves are triangle
 /// meshes; those on hinges have mass, inertia and a convex hull of each of their bones. Bones do not collide with each
-/// other: what holds a joint is its range. Joints keep spring, damper and range; a weld is rigid.
+/// other. A joint is one of Bullet's constraints; its spring, damper and end of range are torques by the law of our own
+/// simulation, since Bullet's hinges end hard.
 ///
 /// A tool's body is no part of the world: Bullet's collision detection is asked what it meets, so it pushes nothing.
 /// The springs of a tool (contact, bone in hand) pull at every substep with k (target - p - h v), the place at the end

@@ -66,12 +66,6 @@ std::vector<bool> moving_bodies(const anatomy::Specimen& specimen) {
   return moves;
 }
 
-/// Of a body about an axis through the joint's centre.
-double inertia_kg_m2(const btRigidBody& body, const btVector3& centre, const btVector3& axis) {
-  const btVector3 arm = (body.getCenterOfMassPosition() - centre).cross(axis);
-  return 1.0 / axis.dot(body.getInvInertiaTensorWorld() * axis) + arm.length2() / body.getInvMass();
-}
-
 /// Takes every point at which the tool's body is inside of another one.
 struct Collector : btCollisionWorld::ContactResultCallback {
   explicit Collector(const btCollisionObject& tool) : tool(&tool) {}
@@ -191,10 +185,7 @@ void BulletWorld::add_joint(const anatomy::Joint& joint) {
     const btTransform frame = joint_frame(joint);
     const btTransform in_child = frame_in_body(joint.child, frame), in_parent = frame_in_body(joint.parent, frame);
     if (hinge.turns) {
-      // The child is A: then Bullet's angle rises with ours.
-      auto constraint = std::make_unique<btHingeConstraint>(child, parent, in_child, in_parent);
-      constraint->setLimit(joint.range_rad[0].first, joint.range_rad[0].second);
-      hinge.constraint = std::move(constraint);
+      hinge.constraint = std::make_unique<btHingeConstraint>(child, parent, in_child, in_parent);
     } else {
       hinge.constraint = std::make_unique<btFixedConstraint>(parent, child, in_parent, in_child);
     }
@@ -243,24 +234,15 @@ double BulletWorld::velocity_rad_s(int joint) const {
   return velocity_rad_s.dot(body_pose(hinge.joint->parent).rotation * hinge.joint->axes[0]);
 }
 
-/// Spring and damper of the joints themselves: the damper implicitly, as if the child alone hung on the joint.
-void BulletWorld::push_joints(double h_s) {
-  for (int j = 0; j < static_cast<int>(hinges_.size()); ++j) {
-    const anatomy::Joint& joint = *hinges_[index(j)].joint;
-    if (!hinges_[index(j)].turns || (joint.stiffness_Nm_rad == 0.0 && joint.damping_Nms_rad == 0.0)) continue;
-    btRigidBody& child = *bodies_[index(joint.child)].rigid;
-    const Pose parent = body_pose(joint.parent);
-    const btVector3 axis = to_bullet(parent.rotation * joint.axes[0]);
-    const double damping_Nms_rad = joint.damping_Nms_rad + h_s * joint.stiffness_Nm_rad;
-    const double share = 1.0 + h_s * damping_Nms_rad / inertia_kg_m2(child, to_bullet(parent * joint.centre_m), axis);
-    const double torque_Nm = -joint.stiffness_Nm_rad * angle_rad(j) - damping_Nms_rad / share * velocity_rad_s(j);
-    child.applyTorque(torque_Nm * axis);
-    if (moves(joint.parent)) bodies_[index(joint.parent)].rigid->applyTorque(-torque_Nm * axis);
-  }
+void BulletWorld::turn(int joint, double torque_Nm) {
+  const Hinge& hinge = hinges_[index(joint)];
+  if (!hinge.turns) return;
+  const btVector3 torque = to_bullet(torque_Nm * (body_pose(hinge.joint->parent).rotation * hinge.joint->axes[0]));
+  bodies_[index(hinge.joint->child)].rigid->applyTorque(torque);
+  if (moves(hinge.joint->parent)) bodies_[index(hinge.joint->parent)].rigid->applyTorque(-torque);
 }
 
 void BulletWorld::advance(double h_s) {
-  push_joints(h_s);
   world_->stepSimulation(h_s, 0);  // 0: exactly one step of that length
 }
 

@@ -27,7 +27,7 @@ class BulletWorld {
   BulletWorld& operator=(const BulletWorld&) = delete;
   ~BulletWorld();
 
-  void advance(double h_s);  // one substep; forces pushed before it act during it and are forgotten
+  void advance(double h_s);  // one substep; forces and torques given before it act during it and are forgotten
 
   bool moves(int body) const { return bodies_[index(body)].rigid != nullptr; }
   Pose body_pose(int body) const;
@@ -35,6 +35,7 @@ class BulletWorld {
   /// How fast a unit force on the point along `direction` speeds it up, the body taken for itself [1/kg].
   double mobility_1_kg(int body, const Vec3& p_W, const Vec3& direction) const;
   void push(int body, const Vec3& p_W, const Vec3& force_N);
+  void turn(int joint, double torque_Nm);  // child against parent, about the axis
 
   /// Right-hand rotation of the child about the joint's axis; 0 where nothing turns.
   double angle_rad(int joint) const;
@@ -60,7 +61,6 @@ class BulletWorld {
   void add_fixed_bone(const anatomy::Specimen& specimen, int bone);
   void add_moving_body(const anatomy::Specimen& specimen, int body);
   void add_joint(const anatomy::Joint& joint);
-  void push_joints(double h_s);
   btTransform frame_in_body(int body, const btTransform& X_LJ) const;
 
   btDefaultCollisionConfiguration configuration_;
