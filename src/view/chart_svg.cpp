@@ -13,6 +13,7 @@ namespace myotact::view {
 
 namespace {
 
+constexpr std::size_t kMostMarked = 100;  // points; more markers than that only thicken the line
 constexpr double kWidth = 960, kHeight = 460, kLeft = 80, kRight = 260, kTop = 52, kBottom = 64;  // pixels
 
 /// Okabe and Ito's palette without its yellow, which vanishes on white.
@@ -116,7 +117,8 @@ std::string curve_svg(const ChartSeries& series, const Axes& axes, const std::st
                        points_text(series.x, series.y, axes), colour, dash_of(series.stroke));
   }
   const bool ring = series.stroke == Stroke::Rings;
-  for (std::size_t i = 0; i < series.x.size() && i < series.y.size() && series.stroke != Stroke::Dashed; ++i) {
+  const bool marked = ring || (series.stroke == Stroke::Line && series.x.size() <= kMostMarked);
+  for (std::size_t i = 0; i < series.x.size() && i < series.y.size() && marked; ++i) {
     if (!std::isfinite(series.x[i]) || !std::isfinite(series.y[i])) continue;
     svg += fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="{}" fill="{}" stroke="{}"/>)", axes.px(series.x[i]),
                        axes.py(series.y[i]), ring ? 5.5 : 3.0, ring ? "none" : colour, colour);

@@ -113,10 +113,10 @@ std::string layer_json(const LayerFidelity& fidelity) {
 
 std::string layer_csv(const LayerFidelity& fidelity) {
   std::string csv =
-      "run,t_s,target_x_m,target_y_m,target_z_m,hand_x_m,hand_y_m,hand_z_m,force_x_N,force_y_N,force_z_N\n";
+      "engine,run,t_s,target_x_m,target_y_m,target_z_m,hand_x_m,hand_y_m,hand_z_m,force_x_N,force_y_N,force_z_N\n";
   for (const LayerFidelity::Trace& trace : fidelity.traces) {
     for (const LayerTick& tick : trace.ticks) {
-      csv += trace.name + ',' + to_text(tick.t_s);
+      csv += trace.engine + ',' + trace.name + ',' + to_text(tick.t_s);
       for (const Vec3& v : {tick.target_m, tick.hand_m, tick.force_N}) {
         for (int k = 0; k < 3; ++k) csv += ',' + to_text(v[k]);
       }

@@ -55,7 +55,7 @@ struct LayerFidelity {
   std::vector<Figure> figures;                 // what has a goal
   std::vector<std::string> notes;              // definitions and conditions
   struct Trace {
-    std::string name;
+    std::string engine, name;
     std::vector<LayerTick> ticks;
   };
   std::vector<Trace> traces;
@@ -70,7 +70,7 @@ LayerFidelity measure_plate(const scene::Scene& scene, Effort effort);
 
 std::string layer_text(const LayerFidelity& fidelity);
 std::string layer_json(const LayerFidelity& fidelity);
-/// t_s, target, hand and force of all runs: `run,t_s,target_x_m,..`.
+/// Target, hand and force of all runs that left a trace: `engine,run,t_s,target_x_m,..`.
 std::string layer_csv(const LayerFidelity& fidelity);
 
 }  // namespace myotact::measure

@@ -138,7 +138,7 @@ LayerFidelity measure_plate(const scene::Scene& scene, Effort effort) {
     for (const LiftCase& which : {LiftCase{engine, haptics::ForceMethod::Pulling, k0_N_m},
                                   LiftCase{engine, haptics::ForceMethod::Pulling, 0.25 * k0_N_m},
                                   LiftCase{engine, haptics::ForceMethod::Proxy, k0_N_m}}) {
-      LayerFidelity::Trace trace{which.name(), {}};
+      LayerFidelity::Trace trace{engine, fmt::format("{} {:.0f} N/m", which.grip(), which.stiffness_N_m), {}};
       const LiftFigures found = lift(which, scene, hold_s, trace);
       const double off_percent = 100.0 * (found.settled_N / weight_N - 1.0);
       fidelity.rows.push_back({engine, which.grip()});
