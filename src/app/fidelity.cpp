@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -90,8 +91,10 @@ int scene_fidelity(const Options& options) {
 
 int fidelity(const Options& options) {
   if (options.suite || !options.goals.empty()) return suite(options);
-  // Scenes that have a measurement of their own come here, before scene_fidelity().
-  return scene_fidelity(options);
+  // Asked for with a path, faults or a device of one's own, a scene of the layer is measured as any other.
+  const bool as_any = options.recording || !options.plant.empty() || !options.devices.empty();
+  const std::optional<int> of_layer = as_any ? std::nullopt : layer_fidelity(options);
+  return of_layer ? *of_layer : scene_fidelity(options);
 }
 
 }  // namespace myotact::app
