@@ -208,16 +208,14 @@ LayerFidelity measure_plane(const scene::Scene& scene, Effort effort) {
   }
   add_goals(runs, fidelity);
   fidelity.notes = {
-      "mN, um: jitter of the force on the hand and of the place of the stylus less where the hand wants it: what is "
-      "left",
-      "above 20 Hz (first order), as root of its mean square, once the speed is constant; beside a goal, of all axes",
-      "together. step: largest change of the force from tick to tick; one count of the encoder is 20 mN. A trembling "
-      "hand",
-      "wants 0.2 mm at 9 Hz; what that leaves above 20 Hz is the same for all. A, B and proxy are the spring alone, "
-      "the",
-      "proxy as set has the scene's friction and damping. A y-up world calls our y z. Both engines report the depth on "
-      "a",
-      "plane exactly, so B is the closed form there: as good as A and B is within 1 %."};
+      "mN, um: jitter of the force on the hand, and of the place of the stylus less where the hand wants it: what is",
+      "left above 20 Hz (first order), as root of its mean square, once the speed is constant; beside a goal: all "
+      "axes.",
+      "step: largest change of the force from tick to tick; one count of the encoder is 20 mN.",
+      "A trembling hand wants 0.2 mm at 9 Hz; what that leaves above 20 Hz is the same for all.",
+      "A, B and proxy are the spring alone, the proxy as set has the scene's friction and damping.",
+      "Both engines report the depth on a plane exactly, so B is the closed form: as good as A and B is within 1 %.",
+      "A y-up world calls our y z."};
   return fidelity;
 }
 
