@@ -104,8 +104,9 @@ Vec3 PullingMethod::tick(const messages::LocalModel* model, const Vec3& tool_m, 
     offset_m_ = tool_m - to_vec3(model->grip.position_world_m);
   }
   held_before_ = holds;
-  if (!holds) body_ = -1;
-  if (body_ < 0) return Vec3::Zero();
+  if (!holds && gain_ <= 0.0) body_ = -1;  // the tick that lets go still names the body: its port gives up the spring
+  gain_ = holds && body_ >= 0 ? 1.0 : 0.0;
+  if (gain_ <= 0.0) return Vec3::Zero();
   const bool same = knows && model->grip.body == body_ && model->grip.point_rest_m == point_rest_m_;
   if (same) point_m_ = to_vec3(model->grip.position_world_m);
   Vec3 on_hand_N = settings_.stiffness_N_m * (point_m_ + offset_m_ - tool_m);

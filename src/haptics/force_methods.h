@@ -123,14 +123,15 @@ class PullingMethod {
   // ---- as BoneDrag tells it
   std::int32_t body() const noexcept { return body_; }
   const std::array<double, 3>& point_rest_m() const noexcept { return point_rest_m_; }
-  double gain() const noexcept { return body_ < 0 ? 0.0 : 1.0; }
-  double stiffness_N_m() const noexcept { return body_ < 0 ? 0.0 : settings_.stiffness_N_m * to_simulated_; }
+  double gain() const noexcept { return gain_; }
+  double stiffness_N_m() const noexcept { return gain_ * settings_.stiffness_N_m * to_simulated_; }
   const Vec3& target_m() const noexcept { return target_m_; }
 
  private:
   PullingSettings settings_;
   double to_simulated_;  // by which a felt stiffness or force becomes one of the simulation
   bool held_before_ = false;
+  double gain_ = 0.0;
   std::int32_t body_ = -1;
   std::array<double, 3> point_rest_m_{};
   Vec3 offset_m_ = Vec3::Zero();  // from the engine's point to S

@@ -194,6 +194,8 @@ TEST(PullingMethod, IsASpringToTheNewestPublishedPlace) {
   const Vec3 on_body_N = method.stiffness_N_m() * (method.target_m() - Vec3(0.011, 0.002, 0.0));
   EXPECT_NEAR((on_body_N + cut_N / 0.5).norm(), 0.0, 1e-9);
   EXPECT_EQ(method.tick(&model, closed_m, false, 3.0), Vec3::Zero());
+  EXPECT_EQ(method.stiffness_N_m(), 0.0);
+  EXPECT_EQ(method.tick(&model, closed_m, false, 3.0), Vec3::Zero());
   EXPECT_EQ(method.body(), -1);
 }
 
