@@ -18,7 +18,9 @@ using myotact::ExitStatus;
 using myotact::app::Options;
 
 void add_common(CLI::App& command, Options& options) {
-  command.add_option("--device", options.devices, "device name: simulated or mouse")->delimiter(',');
+  command
+      .add_option("--device", options.devices, "one device a tool: simulated or mouse; two tools: simulated,simulated")
+      ->delimiter(',');
   command.add_option("--set", options.set,
                      "override a key of the scene: key=value, e.g. dt_s=0.005 or tissue.default=line");
   command.add_option("--seconds", options.seconds, "simulated time to run [s]")->check(CLI::Range(0.0, 86400.0));

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "core/error.h"
 #include "core/number_list.h"
 #include "core/text.h"
+#include "scene/recording_header.h"
 
 namespace myotact::app {
 
@@ -23,8 +26,12 @@ scene::Overrides overrides_of(const Options& options) {
 scene::Scene scene_of(const Options& options) {
   scene::Scene scene = scene::load_scene(options.scene, overrides_of(options));
   scene.settings.workers = options.workers;
-  if (options.devices.size() > 1) {
-    throw Error(ExitStatus::Usage, "--device: more than one tool is not in this version; name one device");
+  if (options.devices.size() > scene.tools.size()) {
+    throw Error(
+        ExitStatus::Usage,
+        fmt::format("--device: {} devices named, but the scene \"{}\" has {} tool{}; name one a tool, in the order "
+                    "of the scene's /tools",
+                    options.devices.size(), scene.name, scene.tools.size(), scene.tools.size() == 1 ? "" : "s"));
   }
   static const std::vector<std::string> kKnown = {"simulated", "mouse"};
   for (const std::string& name : options.devices) {
@@ -32,7 +39,10 @@ scene::Scene scene_of(const Options& options) {
     throw Error(ExitStatus::Unavailable, "--device " + name + ": there is no such device; \"myotact devices\" lists " +
                                              join(kKnown) + " (nearest: " + nearest_word(name, kKnown) + ")");
   }
-  if (!options.devices.empty()) scene.tools.front().device = options.devices.front();
+  if (std::count(options.devices.begin(), options.devices.end(), "mouse") > 1) {
+    throw Error(ExitStatus::Usage, "--device: there is one mouse; name it once");
+  }
+  for (std::size_t t = 0; t < options.devices.size(); ++t) scene.tools[t].device = options.devices[t];
   scene::set_seed(scene, options.seed);
   return scene;
 }
@@ -48,10 +58,10 @@ std::vector<double> levels_of(const Options& options) {
 }
 
 std::unique_ptr<scene::RecordingWriter> open_recorder(const Options& options, const scene::Scene& scene,
-                                                      const device::DeviceProfile& profile) {
+                                                      const std::vector<device::DeviceProfile>& profiles) {
   if (!options.record) return nullptr;
   return std::make_unique<scene::RecordingWriter>(*options.record,
-                                                  scene::recording_header(scene, options.seed, profile));
+                                                  scene::recording_header(scene, options.seed, profiles));
 }
 
 }  // namespace myotact::app

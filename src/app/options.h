@@ -58,9 +58,9 @@ scene::Scene scene_of(const Options& options);
 /// --levels. Throws Error Usage for one outside 0 .. 1.
 std::vector<double> levels_of(const Options& options);
 
-/// A recorder on the file of --record, or null. Throws Error InputOutput.
+/// A recorder on the file of --record, or null. `profiles`: of the devices, one a tool. Throws Error InputOutput.
 std::unique_ptr<scene::RecordingWriter> open_recorder(const Options& options, const scene::Scene& scene,
-                                                      const device::DeviceProfile& profile);
+                                                      const std::vector<device::DeviceProfile>& profiles);
 
 // One function a subcommand, in the file of its name. Each returns the exit status of the program or throws Error.
 int run(const Options& options);

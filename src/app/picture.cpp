@@ -5,7 +5,6 @@
 #include <spdlog/spdlog.h>
 
 #include "core/error.h"
-#include "scene/tool_frame.h"
 #include "view/offscreen.h"
 #include "view/scene_renderer.h"
 
@@ -17,11 +16,12 @@ constexpr int kWidth = 900, kHeight = 1200;
 
 }  // namespace
 
-void write_picture(const scene::Scene& scene, const simulation::Simulation& simulation, const messages::ToolState& tool,
-                   const std::string& view, const std::filesystem::path& path) {
+void write_picture(const scene::Scene& scene, const simulation::Simulation& simulation,
+                   const std::vector<messages::ToolFrame>& tools, const std::string& view,
+                   const std::filesystem::path& path) {
   messages::SceneFrame frame;
   simulation.write_frame(frame);
-  frame.tools.assign(1, scene::tool_frame(tool, scene.tools.front().radius_m, simulation));
+  frame.tools = tools;
   constexpr float kAspect = static_cast<float>(kWidth) / static_cast<float>(kHeight);
   const auto camera =
       view::standard_view(view, scene.specimen.side != "right", view::bounds_of(scene.specimen), kAspect);

@@ -2,8 +2,9 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
-#include "messages/tool_state.h"
+#include "messages/scene_frame.h"
 #include "scene/scene_file.h"
 #include "simulation/simulation.h"
 
@@ -11,7 +12,8 @@ namespace myotact::app {
 
 /// Draws the scene as it is now from a standard view. Without any OpenGL it warns and goes on without a picture; throws
 /// Error InputOutput when the file cannot be written.
-void write_picture(const scene::Scene& scene, const simulation::Simulation& simulation, const messages::ToolState& tool,
-                   const std::string& view, const std::filesystem::path& path);
+void write_picture(const scene::Scene& scene, const simulation::Simulation& simulation,
+                   const std::vector<messages::ToolFrame>& tools, const std::string& view,
+                   const std::filesystem::path& path);
 
 }  // namespace myotact::app

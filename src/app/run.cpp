@@ -1,15 +1,17 @@
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <thread>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
-#include "app/guarded_motor.h"
+#include "app/guarded_motors.h"
 #include "app/interruption.h"
 #include "app/options.h"
 #include "app/picture.h"
@@ -50,9 +52,13 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+std::vector<device::DeviceProfile> simulated_profiles(const scene::Scene& scene) {
+  return std::vector<device::DeviceProfile>(scene.tools.size());
+}
+
 RunSummary run_lockstep(const Options& options, const scene::Scene& scene, simulation::Simulation& simulation) {
-  const auto recorder = open_recorder(options, scene, device::DeviceProfile{});
-  scene::SampleTable samples(scene.specimen, options.every);
+  const auto recorder = open_recorder(options, scene, simulated_profiles(scene));
+  scene::SampleTable samples(scene.specimen, scene::hands_of(scene), options.every);
   scene::LockstepSession session(scene, simulation, samples, recorder.get());
   const double end_s = options.seconds.value_or(session.conductor().script_end_s());
   const auto steps = static_cast<std::uint64_t>(std::llround(end_s / scene.settings.dt_s));
@@ -67,7 +73,7 @@ RunSummary run_lockstep(const Options& options, const scene::Scene& scene, simul
       notice = now;
     }
     if (const auto wanted = session.conductor().take_picture()) {
-      write_picture(scene, simulation, session.tool(), wanted->view, options.out / "scene.png");
+      write_picture(scene, simulation, session.tool_frames(), wanted->view, options.out / "scene.png");
       pictured = true;
     }
   }
@@ -76,18 +82,23 @@ RunSummary run_lockstep(const Options& options, const scene::Scene& scene, simul
   summary.extremes = session.extremes();
   summary.notice = session.notice();
   summary.shove = session.conductor().shove_test().record();
-  if (!pictured) write_picture(scene, simulation, session.tool(), "lateral", options.out / "scene.png");
+  if (!pictured) write_picture(scene, simulation, session.tool_frames(), "lateral", options.out / "scene.png");
   if (recorder) recorder->close();
   write_file(options.out / "samples.csv", samples.csv());
   return summary;
 }
 
 nlohmann::json run_free(const Options& options, const scene::Scene& scene, simulation::Simulation& simulation,
-                        GuardedMotor& guarded, RunSummary& summary) {
-  const auto recorder = open_recorder(options, scene, device::DeviceProfile{});
-  device::SimulatedDevice device(scene.tools.front().device, scene::start_of_hand(scene.specimen));
-  device.drive(guarded.motor);
-  scene::FreeSession session(scene, simulation, device, &device, recorder.get(), &guarded.watchdog);
+                        GuardedMotors& guarded, RunSummary& summary) {
+  const auto recorder = open_recorder(options, scene, simulated_profiles(scene));
+  std::vector<std::unique_ptr<device::SimulatedDevice>> devices;
+  std::vector<scene::ToolDevice> tools;
+  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
+    devices.push_back(std::make_unique<device::SimulatedDevice>(scene.tools[t].device, scene::start_of_hand(scene, t)));
+    devices.back()->drive(guarded.motors[t]);
+    tools.push_back({devices.back().get(), devices.back().get()});
+  }
+  scene::FreeSession session(scene, simulation, tools, recorder.get(), &guarded.watchdog);
   summary.notice = session.notice();
   const double end_s = options.seconds.value_or(session.script_end_s());
   session.start();
@@ -103,34 +114,46 @@ nlohmann::json run_free(const Options& options, const scene::Scene& scene, simul
   summary.wall_s = timing.wall_s;
   summary.steps = timing.steps;
   summary.extremes = timing.extremes;
-  messages::ToolState tool;
-  if (!frame.tools.empty()) {
-    tool.tool_position_world_m = frame.tools[0].tool_world_m;
-    tool.proxy_position_world_m = frame.tools[0].proxy_world_m;
-    tool.force_world_N = frame.tools[0].force_world_N;
-  }
-  write_picture(scene, simulation, tool, "lateral", options.out / "scene.png");
-  return timing_json(timing);
+  write_picture(scene, simulation, frame.tools, "lateral", options.out / "scene.png");
+  return timing_json(timing, scene);
+}
+
+/// Of one tool, or over all of them.
+nlohmann::json touch_json(const scene::ToolExtremes& reached) {
+  return {{"largest_force_N", reached.force_N},
+          {"largest_line_tension_N", reached.line_tension_N},
+          {"contact_s", reached.contact_s},
+          {"bone_in_hand_s", reached.bone_s},
+          {"fault_bits", reached.faults},
+          {"faults", haptics::describe_faults(static_cast<std::uint32_t>(reached.faults))}};
 }
 
 nlohmann::json summary_json(const scene::Scene& scene, const RunSummary& summary) {
-  return {{"scene", scene.name},
-          {"specimen", scene.specimen.name},
-          {"muscles", scene.specimen.muscles.size()},
-          {"simulated_s", summary.simulated_s},
-          {"wall_s", summary.wall_s},
-          {"steps", summary.steps},
-          {"steps_per_s", summary.wall_s > 0.0 ? static_cast<double>(summary.steps) / summary.wall_s : 0.0},
-          {"largest_force_N", summary.extremes.force_N},
-          {"largest_line_tension_N", summary.extremes.line_tension_N},
-          {"contact_s", summary.extremes.contact_s},
-          {"largest_drift_deg", summary.extremes.drift_rad * kDegrees},
-          {"largest_residual_share", summary.extremes.residual_share},
-          {"largest_volume_error", summary.extremes.volume_error},
-          {"smallest_J", summary.extremes.smallest_J},
-          {"fault_bits", summary.extremes.faults},
-          {"notice", summary.notice},
-          {"faults", haptics::describe_faults(static_cast<std::uint32_t>(summary.extremes.faults))}};
+  scene::ToolExtremes all;
+  for (const scene::ToolExtremes& tool : summary.extremes.tools) {
+    all.force_N = std::max(all.force_N, tool.force_N);
+    all.line_tension_N = std::max(all.line_tension_N, tool.line_tension_N);
+    all.contact_s += tool.contact_s;
+    all.bone_s += tool.bone_s;
+    all.faults |= tool.faults;
+  }
+  nlohmann::json json = touch_json(all);
+  for (std::size_t t = 0; t < scene.tools.size() && scene.tools.size() > 1; ++t) {
+    json[scene.tools[t].hand] = touch_json(summary.extremes.tools[t]);
+  }
+  json.update({{"scene", scene.name},
+               {"specimen", scene.specimen.name},
+               {"muscles", scene.specimen.muscles.size()},
+               {"simulated_s", summary.simulated_s},
+               {"wall_s", summary.wall_s},
+               {"steps", summary.steps},
+               {"steps_per_s", summary.wall_s > 0.0 ? static_cast<double>(summary.steps) / summary.wall_s : 0.0},
+               {"largest_drift_deg", summary.extremes.drift_rad * kDegrees},
+               {"largest_residual_share", summary.extremes.residual_share},
+               {"largest_volume_error", summary.extremes.volume_error},
+               {"smallest_J", summary.extremes.smallest_J},
+               {"notice", summary.notice}});
+  return json;
 }
 
 nlohmann::json shove_json(const scene::ShoveRecord& record) {
@@ -161,7 +184,7 @@ nlohmann::json measure_stiffness(const Options& options, const scene::Scene& sce
 }  // namespace
 
 int run(const Options& options) {
-  std::optional<GuardedMotor> guarded;
+  std::optional<GuardedMotors> guarded;
   if (options.realtime) guarded.emplace();  // first: the watchdog is forked off before there are threads
   const scene::Scene scene = scene_of(options);
   const std::vector<double> levels = levels_of(options);

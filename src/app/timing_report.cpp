@@ -29,15 +29,19 @@ void print(const nlohmann::json& value, const std::string& name, std::ostream& o
 
 }  // namespace
 
-nlohmann::json timing_json(const scene::FreeTiming& timing) {
-  return {{"simulation_hz", static_cast<double>(timing.steps) / timing.wall_s},
-          {"haptic_hz", static_cast<double>(timing.ticks) / timing.wall_s},
-          {"missed_ticks", timing.missed_ticks},
-          {"time_factor", timing.simulated_s / timing.wall_s},
-          {"step", percentiles_us(timing.step)},
-          {"tick", percentiles_us(timing.tick)},
-          {"tick_period", percentiles_us(timing.tick_period)},
-          {"not_permitted", timing.refused}};
+nlohmann::json timing_json(const scene::FreeTiming& timing, const scene::Scene& scene) {
+  nlohmann::json json = {{"simulation_hz", static_cast<double>(timing.steps) / timing.wall_s},
+                         {"haptic_hz", static_cast<double>(timing.ticks) / timing.wall_s},
+                         {"missed_ticks", timing.missed_ticks},
+                         {"time_factor", timing.simulated_s / timing.wall_s},
+                         {"step", percentiles_us(timing.step)},
+                         {"tick", percentiles_us(timing.tick)},
+                         {"tick_period", percentiles_us(timing.tick_period)},
+                         {"not_permitted", timing.refused}};
+  for (std::size_t t = 0; t < timing.tool_ticks.size() && scene.tools.size() > 1; ++t) {
+    json[scene.tools[t].hand + "_tick"] = percentiles_us(timing.tool_ticks[t]);
+  }
+  return json;
 }
 
 void print_summary(const nlohmann::json& report, std::ostream& out) {

@@ -6,7 +6,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include "app/guarded_motor.h"
+#include "app/guarded_motors.h"
 #include "app/interruption.h"
 #include "app/joint_watch.h"
 #include "app/options.h"
@@ -34,14 +34,74 @@ int watched_joint(const scene::Scene& scene) {
   return scene.co_contraction ? scene.co_contraction->joint : 0;
 }
 
-view::WindowSettings window_settings(const scene::Scene& scene, const device::Device& device, const Vec3& hand_m) {
+/// The devices of a scene's tools, and which of them the script moves.
+struct Hands {
+  Hands(const scene::Scene& scene, std::size_t led, GuardedMotors* guarded);
+
+  std::size_t led;            // the tool that the mouse moves; none: as many as there are tools
+  device::MouseDevice mouse;  // of that one
+  std::vector<std::unique_ptr<device::SimulatedDevice>> simulated;
+  std::vector<scene::ToolDevice> devices;  // one a tool
+};
+
+Hands::Hands(const scene::Scene& scene, std::size_t led_tool, GuardedMotors* guarded)
+    : led(led_tool), mouse(scene::start_of_hand(scene, led_tool < scene.tools.size() ? led_tool : 0)) {
+  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
+    if (t == led) {
+      devices.push_back({&mouse, nullptr});
+      continue;
+    }
+    simulated.push_back(std::make_unique<device::SimulatedDevice>("simulated", scene::start_of_hand(scene, t)));
+    if (guarded != nullptr) simulated.back()->drive(guarded->motors[t]);
+    devices.push_back({simulated.back().get(), simulated.back().get()});
+  }
+}
+
+/// The tool that the mouse moves. Without devices named the person leads the right hand, or the only one.
+std::size_t led_tool(const Options& options, const scene::Scene& scene) {
+  for (std::size_t t = 0; t < options.devices.size(); ++t) {
+    if (options.devices[t] == "mouse") return t;
+  }
+  if (!options.devices.empty()) return scene.tools.size();
+  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
+    if (scene.tools[t].hand == "right") return t;
+  }
+  return 0;
+}
+
+/// Where a person leads, the script does no more than move the other hand.
+void leave_the_lead(std::size_t led, scene::Scene& scene) {
+  if (led >= scene.tools.size()) return;
+  std::erase_if(scene.script, [led](const scene::ScriptAction& action) {
+    return !scene::moves_hand(action.deed) || action.tool == led;
+  });
+}
+
+std::vector<device::DeviceProfile> profiles_of(const Hands& hands) {
+  std::vector<device::DeviceProfile> profiles;
+  for (const scene::ToolDevice& tool : hands.devices) profiles.push_back(tool.device->profile());
+  return profiles;
+}
+
+std::string device_notes(const scene::Scene& scene, const Hands& hands) {
+  std::string notes;
+  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
+    const std::string note =
+        haptics::stiffness_notice(hands.devices[t].device->profile(), scene.tools[t].stiffness_N_m);
+    if (!note.empty()) notes += note + "\n";
+  }
+  return notes;
+}
+
+view::WindowSettings window_settings(const scene::Scene& scene, const Hands& hands) {
   view::WindowSettings settings;
   settings.title = "Myotact: " + scene.title;
-  const std::string notice = haptics::stiffness_notice(device.profile(), scene.tools.front().stiffness_N_m);
-  settings.note = notice.empty() ? scene.note : notice + "\n" + scene.note;
-  settings.device_peak_N = device.profile().peak_force_N;
+  settings.note = device_notes(scene, hands) + scene.note;
+  for (const scene::ToolDevice& tool : hands.devices) {
+    settings.device_peaks_N.push_back(tool.device->profile().peak_force_N);
+  }
   settings.joint = watched_joint(scene);
-  settings.hand_start_world_m = to_array(hand_m);
+  settings.hand_start_world_m = to_array(scene::start_of_hand(scene, hands.led < scene.tools.size() ? hands.led : 0));
   settings.start.gravity = scene.settings.gravity_m_s2.norm() > 0.0;
   if (scene.co_contraction) {
     settings.start.common = scene.co_contraction->common;
@@ -74,23 +134,18 @@ scene::Requests requests_of(const view::ViewControls& controls) {
 
 int view(const Options& options) {
   scene::Scene scene = scene_of(options);
-  // Without a device named the mouse is the hand, and the script's hand stays away: the person leads.
-  const bool scripted = !options.devices.empty() && options.devices.front() == "simulated";
-  if (!scripted) scene.script.clear();
-  std::optional<GuardedMotor> guarded;
-  if (scripted) guarded.emplace();  // first: the watchdog is forked off before there are threads
-  const Vec3 hand_m = scene::start_of_hand(scene.specimen);
-  device::MouseDevice mouse(hand_m);
-  device::SimulatedDevice simulated("simulated", hand_m);
-  if (guarded) simulated.drive(guarded->motor);
+  const std::size_t led = led_tool(options, scene);
+  leave_the_lead(led, scene);
+  std::optional<GuardedMotors> guarded;
+  // First: the watchdog is forked off before there are threads.
+  if (scene.tools.size() > 1 || led >= scene.tools.size()) guarded.emplace();
+  Hands hands(scene, led, guarded ? &*guarded : nullptr);
   if (options.seconds) make_writable_folder(options.out);
-  device::Device& device = scripted ? static_cast<device::Device&>(simulated) : mouse;
   // First: without a display nothing is built.
-  view::Window window(scene.specimen, window_settings(scene, device, hand_m));
+  view::Window window(scene.specimen, window_settings(scene, hands));
   simulation::Simulation simulation(scene.specimen, scene.settings);
-  const auto recorder = open_recorder(options, scene, device.profile());
-  scene::FreeSession session(scene, simulation, device, scripted ? &simulated : nullptr, recorder.get(),
-                             guarded ? &guarded->watchdog : nullptr);
+  const auto recorder = open_recorder(options, scene, profiles_of(hands));
+  scene::FreeSession session(scene, simulation, hands.devices, recorder.get(), guarded ? &guarded->watchdog : nullptr);
   if (!session.notice().empty()) spdlog::warn("{}", session.notice());
   watch_for_interruption();
   session.start();
@@ -108,7 +163,7 @@ int view(const Options& options) {
     common = controls.common;
     leave_time_to_the_simulation(std::chrono::steady_clock::now() - drawing_since);
     session.request(requests_of(controls));
-    mouse.set_pointer(to_vec3(controls.hand_world_m), controls.hand_buttons);
+    hands.mouse.set_pointer(to_vec3(controls.hand_world_m), controls.hand_buttons);
     if (last) break;
   }
   if (const scene::FreeTiming timing = session.stop(); !timing.refused.empty()) spdlog::warn("{}", timing.refused);

@@ -25,6 +25,11 @@ constexpr double kSoften_s = 0.02;  // a stiffness that is too much is gone befo
 constexpr double kStiffen_s = 0.5;  // and comes back without a push
 constexpr double kTold_J = 0.1e-3;  // what a port may lack before it is called a fault: a count of an encoder at 5 N
 
+std::uint32_t of_clamp(std::uint32_t buttons) {
+  const bool line = (buttons & messages::kGrabButton) != 0;
+  return line ? (buttons & ~messages::kGrabButton) | messages::kGrabBoneButton : buttons;
+}
+
 /// The settings as this loop's device bears them.
 HapticSettings bearable(HapticSettings settings, const device::DeviceProfile& profile) {
   settings.bone.force_scale = settings.force_scale;
@@ -93,7 +98,8 @@ void HapticLoop::tick(std::uint64_t now_ns) noexcept {
   if (device_is_sound) {
     const ProxyGoal goal{to_vec3(state.stylus_position_world_m), to_vec3(state.stylus_velocity_world_m_s)};
     soften(goal.position_m, now_ns);
-    felt.bone_N = bone_force_N(goal, state.buttons, is_new);
+    const std::uint32_t buttons = settings_.takes_bones_only ? of_clamp(state.buttons) : state.buttons;
+    felt.bone_N = bone_force_N(goal, buttons, is_new);
     contact_N = contact_force_N(goal, now_ns, is_new);
     felt.contact_N = settings_.force_scale * contact_N;
     felt.texture_N = settings_.force_scale * texture_force_N(goal, contact_N);
@@ -102,7 +108,7 @@ void HapticLoop::tick(std::uint64_t now_ns) noexcept {
     const bool open = line_.gain() <= 0.0 && held_.body < 0;
     felt.texture_N += settings_.force_scale * snap_.tick(line, goal.position_m, open, dt_s_);
     const Vec3 line_N =
-        line_.tick(line, {goal.position_m, goal.velocity_m_s, (state.buttons & messages::kGrabButton) != 0}, dt_s_);
+        line_.tick(line, {goal.position_m, goal.velocity_m_s, (buttons & messages::kGrabButton) != 0}, dt_s_);
     felt.line_N = settings_.force_scale * line_N;
     felt = make_passive(felt, goal);
   } else {

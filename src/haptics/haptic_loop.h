@@ -39,6 +39,8 @@ struct HapticSettings {
   TextureSettings texture;
   /// Felt over simulated force: muscles pull with 10-1000 N, devices with 3-20 N. The tissue gets the unscaled force.
   double force_scale = 1.0;
+  /// A clamp: either button takes the nearest bone, none a muscle line.
+  bool takes_bones_only = false;
   /// Stiffnesses stay within what the device bears (stiffness_bound.h) and what the age of the simulation's answer
   /// leaves of it. False: for measurements of where a loop becomes unstable.
   bool limit_stiffness = true;

@@ -90,7 +90,7 @@ void SimulationEngine::report_contacts(int tool, messages::ReportedContacts& rep
   const Vec3 middle_m = to_vec3(reported.tool_world_m);
   if (!middle_m.allFinite()) return;
   around.proxy_position_world_m = around.tool_position_world_m;  // round which a model is looked up
-  simulation_.write_local_model(around, around_);
+  simulation_.write_local_model(around, around_, tool);
   std::vector<messages::ReportedContact> contacts;
   for (const Nearest& nearest : nearest_places(around_, middle_m)) {
     const messages::ReportedContact contact = contact_of(nearest, middle_m, radii_m_[at(tool)]);
@@ -109,7 +109,7 @@ Pose SimulationEngine::body_pose(int surface) const {
 }
 
 void SimulationEngine::write_surface(int tool, messages::LocalModel& model) const {
-  simulation_.write_local_model(tools_[at(tool)], model);
+  simulation_.write_local_model(tools_[at(tool)], model, tool);
 }
 
 }  // namespace myotact::layer

@@ -7,12 +7,17 @@
 
 namespace myotact::messages {
 
+/// What a tool looks and feels like: a fingertip, the tip of a stylus, a clamp that takes bones.
+enum class ToolShape { Ball, Point, Clamp };
+
 /// One tool as the view draws it.
 struct ToolFrame {
   std::array<double, 3> tool_world_m{};
   std::array<double, 3> proxy_world_m{};
   std::array<double, 3> force_world_N{};
   double radius_m = 0.0;
+  ToolShape shape = ToolShape::Ball;
+  bool left = false;  // hand
   bool in_contact = false;
   bool forces_stopped = false;           // by key, button or call; stays until forces are enabled again
   int grabbed_line = -1;                 // muscle, or -1

@@ -14,6 +14,7 @@ namespace {
 /// The hand starts beside the limb, out of reach of every muscle, so that the first touch is an approach.
 constexpr double kStartAside_m = 0.15;
 constexpr double kStartAbove_m = 0.05;  // where there are no muscles: a hand's breadth
+constexpr double kStartApart_m = 0.08;  // of two hands, each from the middle: as a person holds them
 constexpr double kSliderGlide_s = 0.1;  // a slider's jump is spread over this
 /// Settles that mend what the table's interpolation leaves over: from 0.06 N m to below 1e-4 on the canine stifle.
 constexpr int kStartCorrections = 2;
@@ -28,6 +29,13 @@ Vec3 above_bones(const anatomy::Specimen& specimen) {
   return {box.center().x(), box.center().y(), box.max().z() + kStartAbove_m};
 }
 
+/// `side`: 1 where the limb's lateral side looks along y, -1 where it looks against it.
+Vec3 beside_muscles(const anatomy::Specimen& specimen, double side) {
+  Vec3 sum = Vec3::Zero();
+  for (const auto& muscle : specimen.muscles) sum += muscle.skin.positions_m.front();
+  return sum / static_cast<double>(specimen.muscles.size()) + side * kStartAside_m * Vec3::UnitY();
+}
+
 std::vector<double> start_angles(const Scene& scene) {
   std::vector<double> angles;
   for (const JointSetting& joint : scene.joints) angles.push_back(joint.angle_rad);
@@ -36,13 +44,24 @@ std::vector<double> start_angles(const Scene& scene) {
 
 }  // namespace
 
-Vec3 start_of_hand(const anatomy::Specimen& specimen) {
-  if (specimen.muscles.empty()) return above_bones(specimen);
-  Vec3 sum = Vec3::Zero();
-  for (const auto& muscle : specimen.muscles) sum += muscle.skin.positions_m.front();
+Vec3 start_of_hand(const Scene& scene, std::size_t tool) {
+  const anatomy::Specimen& specimen = scene.specimen;
   const double side = specimen.side == "right" ? -1.0 : 1.0;
-  return sum / static_cast<double>(specimen.muscles.size()) + side * kStartAside_m * Vec3::UnitY();
+  const Vec3 start_m = specimen.muscles.empty() ? above_bones(specimen) : beside_muscles(specimen, side);
+  if (scene.tools.size() < 2) return start_m;
+  const double leftwards = scene.tools[tool].hand == "left" ? 1.0 : -1.0;
+  return start_m + side * leftwards * kStartApart_m * Vec3::UnitX();
 }
+
+namespace {
+
+std::vector<ScriptedHand> hands_at_start(const Scene& scene) {
+  std::vector<ScriptedHand> hands;
+  for (std::size_t t = 0; t < scene.tools.size(); ++t) hands.emplace_back(scene.specimen, start_of_hand(scene, t));
+  return hands;
+}
+
+}  // namespace
 
 double Conductor::Ramp::at(double time_s) const {
   if (time_s >= end_s) return to;
@@ -53,7 +72,7 @@ double Conductor::Ramp::at(double time_s) const {
 Conductor::Conductor(const Scene& scene, simulation::Simulation& simulation)
     : scene_(&scene),
       simulation_(&simulation),
-      hand_(scene.specimen, start_of_hand(scene.specimen)),
+      hands_(hands_at_start(scene)),
       shove_test_(scene.settings.dt_s),
       gravity_m_s2_(scene.settings.gravity_m_s2) {
   if (scene.co_contraction) {
@@ -64,7 +83,7 @@ Conductor::Conductor(const Scene& scene, simulation::Simulation& simulation)
 }
 
 void Conductor::restart() {
-  hand_ = ScriptedHand(scene_->specimen, start_of_hand(scene_->specimen));
+  hands_ = hands_at_start(*scene_);
   next_action_ = 0;
   script_start_s_ = simulation_->time_s();
   flexor_level_.reset();
@@ -100,7 +119,7 @@ void Conductor::settle() {
 }
 
 void Conductor::begin(const ScriptAction& action) {
-  hand_.begin(action, *simulation_);
+  hands_[action.tool].begin(action, *simulation_);
   const auto ramp = [&](const Ramp& now, double to) {
     return Ramp{action.start_s, action.end_s(), now.at(action.start_s), to};
   };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,7 +29,7 @@ class Conductor {
   /// Fills excitations, torques and gravity of the step that starts at `simulated_s`. Starts the script's due actions.
   void prepare_step(double simulated_s, StepRecord& input);
 
-  HandTarget hand(double time_s) const { return hand_.target(time_s - script_start_s_); }
+  HandTarget hand(std::size_t tool, double time_s) const { return hands_[tool].target(time_s - script_start_s_); }
 
   /// The picture that the script asked for since the last call, if any.
   std::optional<TakePicture> take_picture();
@@ -62,7 +63,7 @@ class Conductor {
 
   const Scene* scene_;
   simulation::Simulation* simulation_;
-  ScriptedHand hand_;
+  std::vector<ScriptedHand> hands_;       // one a tool
   TorqueTable measured_torques_;          // in the starting posture
   TorqueTable torques_;                   // in the posture that is held
   simulation::JointReadout start_joint_;  // the co-contraction's, at rest in the starting posture
@@ -82,8 +83,9 @@ class Conductor {
   std::optional<TakePicture> picture_;
 };
 
-/// Where the hand begins: beside the limb, out of reach of every muscle.
-Vec3 start_of_hand(const anatomy::Specimen& specimen);
+/// Where the hand of a tool begins: beside the limb, out of reach of every muscle; two hands 0.16 m apart, the left one
+/// on the left of a person who looks at the limb from its lateral side.
+Vec3 start_of_hand(const Scene& scene, std::size_t tool);
 
 /// Tells the simulation what a step's record says.
 void apply(const StepRecord& input, simulation::Simulation& simulation);

@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "haptics/haptic_thread.h"
-
 namespace myotact::scene {
 
-void Extremes::add_tick(const haptics::HapticTick& tick) {
-  force_N = std::max(force_N, to_vec3(tick.tool.force_world_N).norm());
-  line_tension_N = std::max(line_tension_N, tick.line_tension_N);
-  if (tick.tool.contact.surface >= 0) contact_s += 1e-9 * static_cast<double>(haptics::kTickPeriod_ns);
-  faults |= tick.tool.faults;
+void Extremes::add_tick(std::size_t tool, const haptics::HapticTick& tick) {
+  constexpr double kTick_s = 1e-9 * static_cast<double>(haptics::kTickPeriod_ns);
+  ToolExtremes& reached = tools[tool];
+  reached.force_N = std::max(reached.force_N, to_vec3(tick.tool.force_world_N).norm());
+  reached.line_tension_N = std::max(reached.line_tension_N, tick.line_tension_N);
+  if (tick.tool.contact.surface >= 0) reached.contact_s += kTick_s;
+  if (tick.tool.grabbed_body >= 0) reached.bone_s += kTick_s;
+  reached.faults |= tick.tool.faults;
 }
 
 void Extremes::add_step(const Scene& scene, const simulation::Simulation& simulation) {

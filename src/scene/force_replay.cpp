@@ -12,10 +12,10 @@ namespace myotact::scene {
 
 namespace {
 
-std::vector<messages::DeviceState> device_states(const Recording& recording) {
+std::vector<messages::DeviceState> device_states(const std::vector<TickRecord>& ticks) {
   std::vector<messages::DeviceState> states;
-  states.reserve(recording.ticks.size());
-  for (const TickRecord& tick : recording.ticks) states.push_back(tick.device);
+  states.reserve(ticks.size());
+  for (const TickRecord& tick : ticks) states.push_back(tick.device);
   return states;
 }
 
@@ -31,17 +31,20 @@ double difference_N(const messages::ToolState& a, const messages::ToolState& b) 
 
 }  // namespace
 
-ForceReplay::ForceReplay(const Scene& scene, const Recording& recording, const device::DeviceProfile& device)
+ToolReplay::ToolReplay(const Scene& scene, const Recording& recording, const device::DeviceProfile& device,
+                       std::size_t tool)
     : recording_(recording),
+      tool_(tool),
       step_ns_(static_cast<std::uint64_t>(std::llround(scene.settings.dt_s * 1e9))),
-      device_(device_states(recording), device),
-      loop_(device_, haptic_settings(scene.tools.front())) {
-  loop_.prepare(recording.ticks.empty() ? 0 : recording.ticks.front().time_ns);
+      device_(device_states(recording.tools[tool].ticks), device),
+      loop_(device_, haptic_settings(scene.tools[tool])) {
+  const std::vector<TickRecord>& ticks = recording.tools[tool].ticks;
+  loop_.prepare(ticks.empty() ? 0 : ticks.front().time_ns);
 }
 
-void ForceReplay::feel(const simulation::Simulation& simulation) {
-  const std::vector<ModelRecord>& models = recording_.models;
-  const std::vector<TickRecord>& ticks = recording_.ticks;
+void ToolReplay::feel(const simulation::Simulation& simulation) {
+  const std::vector<ModelRecord>& models = recording_.tools[tool_].models;
+  const std::vector<TickRecord>& ticks = recording_.tools[tool_].ticks;
   for (; next_model_ < models.size() && models[next_model_].step == steps_felt_; ++next_model_) {
     publish(models[next_model_], simulation);
     for (; next_tick_ < ticks.size() && ticks[next_tick_].model_sequence <= models[next_model_].sequence;
@@ -52,26 +55,50 @@ void ForceReplay::feel(const simulation::Simulation& simulation) {
   ++steps_felt_;
 }
 
-void ForceReplay::publish(const ModelRecord& record, const simulation::Simulation& simulation) {
-  messages::ToolState tool;  // before the first step the hand touches nothing
-  tool.tool_position_world_m = tool.proxy_position_world_m = record.tool_position_world_m;
-  if (record.step > 0) tool = recording_.steps[record.step - 1].tool;
-  write_model(simulation, tool, record, step_ns_, loop_.models().back());
+void ToolReplay::publish(const ModelRecord& record, const simulation::Simulation& simulation) {
+  messages::ToolState state;  // before the first step the hand touches nothing
+  state.tool_position_world_m = state.proxy_position_world_m = record.tool_position_world_m;
+  if (record.step > 0) state = recording_.steps[record.step - 1].tools[tool_];
+  write_model(simulation, {state, static_cast<int>(tool_), record, step_ns_}, loop_.models().back());
   loop_.models().publish();
 }
 
-void ForceReplay::tick(const TickRecord& record) {
+void ToolReplay::tick(const TickRecord& record) {
   const bool stopped = loop_.gate_state() == haptics::GateState::Off;
   if (record.forces_stopped != stopped || next_tick_ == 0) loop_.stop_forces(record.forces_stopped);
   loop_.tick(record.time_ns);
-  const messages::ToolState& tool = loop_.tool_state();
+  const messages::ToolState& felt = loop_.tool_state();
   const std::vector<StepRecord>& steps = recording_.steps;
-  for (; next_step_ < steps.size() && steps[next_step_].tool.sequence <= tool.sequence; ++next_step_) {
-    if (steps[next_step_].tool.sequence != tool.sequence) continue;
-    ++compared_;
-    largest_difference_N_ = std::max(largest_difference_N_, difference_N(tool, steps[next_step_].tool));
-    largest_force_N_ = std::max(largest_force_N_, to_vec3(tool.force_world_N).norm());
+  for (; next_step_ < steps.size() && steps[next_step_].tools[tool_].sequence <= felt.sequence; ++next_step_) {
+    const messages::ToolState& recorded = steps[next_step_].tools[tool_];
+    if (recorded.sequence != felt.sequence) continue;
+    ++comparison_.compared;
+    comparison_.largest_difference_N = std::max(comparison_.largest_difference_N, difference_N(felt, recorded));
+    comparison_.largest_force_N = std::max(comparison_.largest_force_N, to_vec3(felt.force_world_N).norm());
   }
+}
+
+ForceReplay::ForceReplay(const Scene& scene, const Recording& recording,
+                         const std::vector<device::DeviceProfile>& devices) {
+  for (std::size_t t = 0; t < recording.tools.size(); ++t) {
+    const device::DeviceProfile device = t < devices.size() ? devices[t] : device::DeviceProfile{};
+    tools_.push_back(std::make_unique<ToolReplay>(scene, recording, device, t));
+  }
+}
+
+void ForceReplay::feel(const simulation::Simulation& simulation) {
+  for (const auto& tool : tools_) tool->feel(simulation);
+}
+
+ForceComparison ForceReplay::comparison() const {
+  ForceComparison all;
+  for (const auto& tool : tools_) {
+    const ForceComparison& one = tool->comparison();
+    all.compared += one.compared;
+    all.largest_difference_N = std::max(all.largest_difference_N, one.largest_difference_N);
+    all.largest_force_N = std::max(all.largest_force_N, one.largest_force_N);
+  }
+  return all;
 }
 
 }  // namespace myotact::scene

@@ -4,6 +4,10 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "haptics/faults.h"
+#include "haptics/haptic_group.h"
 #include "realtime/periodic_loop.h"
 #include "scene/lockstep_haptics.h"
 #include "scene/model_writer.h"
@@ -23,16 +27,22 @@ std::uint64_t nanoseconds(double seconds) {
 
 }  // namespace
 
-FreeSession::FreeSession(const Scene& scene, simulation::Simulation& simulation, device::Device& device,
-                         device::SimulatedDevice* scripted_device, RecordingWriter* recorder,
-                         realtime::Watchdog* watchdog)
+FreeSession::Tool::Tool(const ToolSettings& settings, const ToolDevice& given)
+    : scripted(given.scripted), loop(*given.device, haptic_settings(settings)) {}
+
+FreeSession::FreeSession(const Scene& scene, simulation::Simulation& simulation, std::span<const ToolDevice> devices,
+                         RecordingWriter* recorder, realtime::Watchdog* watchdog)
     : scene_(&scene),
       simulation_(&simulation),
-      scripted_device_(scripted_device),
       recorder_(recorder),
       conductor_(scene, simulation),
-      loop_(device, haptic_settings(scene.tools.front())),
-      haptic_thread_(loop_, watchdog) {
+      extremes_(devices.size()) {
+  for (std::size_t t = 0; t < devices.size(); ++t) {
+    tools_.push_back(std::make_unique<Tool>(scene.tools[t], devices[t]));
+    loops_.push_back(&tools_.back()->loop);
+  }
+  notice_ = stiffness_notices(loops_, scene);
+  haptic_thread_.emplace(loops_, watchdog);
   obeyed_.gravity = scene.settings.gravity_m_s2.norm() > 0.0;
   obeyed_.hold_posture = scene.co_contraction && scene.co_contraction->hold_posture;
 }
@@ -40,17 +50,19 @@ FreeSession::FreeSession(const Scene& scene, simulation::Simulation& simulation,
 FreeSession::~FreeSession() {
   running_ = false;
   if (thread_.joinable()) thread_.join();
-  haptic_thread_.stop();
+  haptic_thread_->stop();
 }
 
 void FreeSession::start() {
   started_ns_ = realtime::steady_now_ns();
-  loop_.prepare(started_ns_);
-  loop_.tool_states().update();  // where the hand is: the first model is of the surface there
-  publish_model();
+  for (haptics::HapticLoop* loop : loops_) {
+    loop->prepare(started_ns_);
+    loop->tool_states().update();  // where the hand is: the first model is of the surface there
+  }
+  publish_models();
   publish_frame();
   running_ = true;
-  haptic_thread_.start();
+  haptic_thread_->start();
   thread_ = std::thread([this] {
     try {
       simulate();
@@ -62,27 +74,29 @@ void FreeSession::start() {
 }
 
 FreeTiming FreeSession::stop() {
+  haptics::stop_forces(loops_, true);  // now, not after the step that is under way
   running_ = false;
   if (thread_.joinable()) thread_.join();
-  haptic_thread_.stop();
+  haptic_thread_->stop();
   if (failure_) std::rethrow_exception(failure_);
   FreeTiming timing;
   timing.wall_s = static_cast<double>(realtime::steady_now_ns() - started_ns_) * 1e-9;
   timing.simulated_s = simulation_->time_s();
   timing.steps = step_count_;
-  timing.ticks = haptic_thread_.tick_count();
-  timing.missed_ticks = haptic_thread_.missed_count();
-  timing.tick = haptic_thread_.ticks().summary();
-  timing.tick_period = haptic_thread_.periods().summary();
+  timing.ticks = haptic_thread_->tick_count();
+  timing.missed_ticks = haptic_thread_->missed_count();
+  timing.tick = haptic_thread_->ticks().summary();
+  for (std::size_t t = 0; t < tools_.size(); ++t) timing.tool_ticks.push_back(haptic_thread_->ticks(t).summary());
+  timing.tick_period = haptic_thread_->periods().summary();
   timing.step = steps_.summary();
-  timing.refused = haptic_thread_.refused();
+  timing.refused = haptic_thread_->refused();
   timing.extremes = extremes_;
   return timing;
 }
 
 void FreeSession::request(const Requests& requests) {
-  if (requests.arms != arms_) loop_.stop_forces(false);
-  if (requests.stops != stops_) loop_.stop_forces(true);  // last: of both, the stop counts
+  if (requests.arms != arms_) haptics::stop_forces(loops_, false);
+  if (requests.stops != stops_) haptics::stop_forces(loops_, true);  // last: of both, the stop counts
   arms_ = requests.arms;
   stops_ = requests.stops;
   requests_.publish(requests);
@@ -132,24 +146,32 @@ void FreeSession::simulate() {
     } else {
       take_ticks();
     }
-    publish_model();
+    publish_models();
     publish_frame();
+  }
+}
+
+void FreeSession::move_scripted_hands(double time_s) {
+  for (std::size_t t = 0; t < tools_.size(); ++t) {
+    if (tools_[t]->scripted == nullptr) continue;
+    const HandTarget hand = conductor_.hand(t, time_s);
+    const Vec3 ahead = conductor_.hand(t, time_s + scene_->settings.dt_s).position_world_m;
+    const Vec3 velocity_m_s = (ahead - hand.position_world_m) / scene_->settings.dt_s;
+    tools_[t]->scripted->set_hand_target({to_array(hand.position_world_m), to_array(velocity_m_s), hand.buttons});
   }
 }
 
 void FreeSession::step() {
   const double time_s = simulation_->time_s();
   conductor_.prepare_step(time_s, input_);
-  if (scripted_device_ != nullptr) {
-    const HandTarget hand = conductor_.hand(time_s);
-    const Vec3 ahead = conductor_.hand(time_s + scene_->settings.dt_s).position_world_m;
-    const Vec3 velocity_m_s = (ahead - hand.position_world_m) / scene_->settings.dt_s;
-    scripted_device_->set_hand_target({to_array(hand.position_world_m), to_array(velocity_m_s), hand.buttons});
+  move_scripted_hands(time_s);
+  input_.tools.clear();
+  for (haptics::HapticLoop* loop : loops_) {
+    loop->tool_states().update();
+    input_.tools.push_back(loop->tool_states().front());
   }
-  loop_.tool_states().update();
-  input_.tool = loop_.tool_states().front();
   apply(input_, *simulation_);
-  simulation_->step({&input_.tool, 1});
+  simulation_->step(input_.tools);
   ++step_count_;
   extremes_.add_step(*scene_, *simulation_);
   take_ticks();
@@ -159,34 +181,53 @@ void FreeSession::step() {
 }
 
 void FreeSession::take_ticks() {
-  std::vector<TickRecord> ticks;
-  for (haptics::HapticTick tick; loop_.ticks().pop(tick);) {
-    extremes_.add_tick(tick);
-    fault_notice_.add(tick.tool.faults, realtime::steady_now_ns());
-    if (recorder_ != nullptr) ticks.push_back(record_of(tick));
+  for (std::size_t t = 0; t < tools_.size(); ++t) {
+    std::vector<TickRecord> ticks;
+    for (haptics::HapticTick tick; tools_[t]->loop.ticks().pop(tick);) {
+      if (!running_) tick.tool.faults &= ~haptics::bit(haptics::Fault::Stopped);  // the run's end is no fault
+      extremes_.add_tick(t, tick);
+      tools_[t]->faults.add(tick.tool.faults, realtime::steady_now_ns());
+      if (recorder_ != nullptr) ticks.push_back(record_of(tick));
+    }
+    if (!ticks.empty()) recorder_->add(t, ticks);
   }
-  if (!ticks.empty()) recorder_->add(ticks);
 }
 
-void FreeSession::publish_model() {
-  const messages::ToolState& tool = loop_.tool_states().front();
-  const ModelRecord record{++model_sequence_, realtime::steady_now_ns(), obeyed_.paused, tool.tool_position_world_m, 0};
-  write_model(*simulation_, tool, record, nanoseconds(scene_->settings.dt_s), loop_.models().back());
-  loop_.models().publish();
-  if (recorder_ != nullptr) recorder_->add(record);
+void FreeSession::publish_models() {
+  const std::uint64_t step_ns = nanoseconds(scene_->settings.dt_s);
+  for (std::size_t t = 0; t < tools_.size(); ++t) {
+    haptics::HapticLoop& loop = tools_[t]->loop;
+    const messages::ToolState& state = loop.tool_states().front();
+    const ModelRecord record{++tools_[t]->model_sequence, realtime::steady_now_ns(), obeyed_.paused,
+                             state.tool_position_world_m, 0};
+    write_model(*simulation_, {state, static_cast<int>(t), record, step_ns}, loop.models().back());
+    loop.models().publish();
+    if (recorder_ != nullptr) recorder_->add(t, record);
+  }
+}
+
+std::string FreeSession::fault_text() const {
+  const std::uint64_t now_ns = realtime::steady_now_ns();
+  for (std::size_t t = 0; t < tools_.size(); ++t) {
+    const std::string text = tools_[t]->faults.text(now_ns);
+    if (!text.empty()) return tools_.size() > 1 ? fmt::format("{} hand: {}", scene_->tools[t].hand, text) : text;
+  }
+  return {};
 }
 
 void FreeSession::publish_frame() {
   const std::scoped_lock lock(frame_mutex_);
   simulation_->write_frame(frame_);
-  const messages::ToolState& tool = loop_.tool_states().front();
-  frame_.tools.assign(1, tool_frame(tool, scene_->tools.front().radius_m, *simulation_));
+  frame_.tools.clear();
+  for (std::size_t t = 0; t < tools_.size(); ++t) {
+    frame_.tools.push_back(tool_frame(loops_[t]->tool_states().front(), scene_->tools[t], *simulation_));
+  }
   const double wall_s = std::max(static_cast<double>(realtime::steady_now_ns() - started_ns_) * 1e-9, 1e-3);
   frame_.rates.simulation_hz = static_cast<double>(step_count_) / wall_s;
-  frame_.rates.haptic_hz = static_cast<double>(haptic_thread_.tick_count()) / wall_s;
-  frame_.rates.missed_ticks = haptic_thread_.missed_count();
+  frame_.rates.haptic_hz = static_cast<double>(haptic_thread_->tick_count()) / wall_s;
+  frame_.rates.missed_ticks = haptic_thread_->missed_count();
   frame_.rates.time_factor = static_cast<double>(step_count_) * scene_->settings.dt_s / wall_s;
-  frame_.notice = fault_notice_.text(realtime::steady_now_ns());
+  frame_.notice = fault_text();
   if (frame_.notice.empty()) frame_.notice = conductor_.notice();
   shove_ = conductor_.shove_test().record();
   ++frame_.sequence;

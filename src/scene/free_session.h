@@ -1,11 +1,16 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <memory>
 #include <mutex>
+#include <optional>
+#include <span>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "device/device.h"
 #include "device/simulated_device.h"
@@ -45,20 +50,26 @@ struct FreeTiming {
   double simulated_s = 0.0;
   std::uint64_t steps = 0;
   std::uint64_t ticks = 0, missed_ticks = 0;
-  realtime::DurationSummary tick, tick_period, step;
-  std::string refused;  // what the system did not permit
+  realtime::DurationSummary tick, tick_period, step;  // a tick: of all tools, one after the other
+  std::vector<realtime::DurationSummary> tool_ticks;  // of each alone
+  std::string refused;                                // what the system did not permit
   Extremes extremes;
 };
 
+/// The device of one tool.
+struct ToolDevice {
+  device::Device* device = nullptr;
+  device::SimulatedDevice* scripted = nullptr;  // the same one when the script moves its hand, else null
+};
+
 /// Runs a scene on the wall clock: the haptic thread at 1 kHz, the simulation thread at its own step, the caller draws.
+/// Every tool has a device, a haptic loop and channels of its own; no lock is shared between them.
 class FreeSession {
  public:
-  /// `device` is the scene's tool; `scripted_device` the same one when the script moves its hand, else null. All
-  /// references must outlive the session. Throws Error.
-  /// `watchdog`: of the device, told of every tick; null: none.
-  FreeSession(const Scene& scene, simulation::Simulation& simulation, device::Device& device,
-              device::SimulatedDevice* scripted_device, RecordingWriter* recorder,
-              realtime::Watchdog* watchdog = nullptr);
+  /// `devices`: one a tool of the scene. All references must outlive the session. Throws Error.
+  /// `watchdog`: of all devices, told of every tick; null: none.
+  FreeSession(const Scene& scene, simulation::Simulation& simulation, std::span<const ToolDevice> devices,
+              RecordingWriter* recorder, realtime::Watchdog* watchdog = nullptr);
   ~FreeSession();
 
   void start();
@@ -67,10 +78,10 @@ class FreeSession {
 
   bool running() const { return running_.load(std::memory_order_relaxed); }
   double script_end_s() const { return conductor_.script_end_s(); }
-  const std::string& notice() const { return loop_.notice(); }  // what the device does not bear of the settings
+  const std::string& notice() const { return notice_; }  // what the devices do not bear of the settings
 
   // ---- the drawing thread
-  /// A stop goes to the haptic loop at once, whatever the simulation is busy with, and stays until `arms` counts on.
+  /// A stop goes to all haptic loops at once, whatever the simulation is busy with, and stays until `arms` counts on.
   void request(const Requests& requests);
   /// Copies the newest frame; false when there is none newer.
   bool fetch_frame(messages::SceneFrame& frame);
@@ -78,21 +89,33 @@ class FreeSession {
   ShoveRecord fetch_shove();
 
  private:
+  /// What belongs to one tool.
+  struct Tool {
+    Tool(const ToolSettings& settings, const ToolDevice& given);
+    device::SimulatedDevice* scripted;
+    haptics::HapticLoop loop;
+    std::uint64_t model_sequence = 0;
+    FaultNotice faults;
+  };
+
   void simulate();
+  void move_scripted_hands(double time_s);
   void obey(const Requests& requests);
   void step();
-  void publish_model();
+  void publish_models();
   void publish_frame();
+  std::string fault_text() const;
   /// Ticks since the last time: for the summary and the recording.
   void take_ticks();
 
   const Scene* scene_;
   simulation::Simulation* simulation_;
-  device::SimulatedDevice* scripted_device_;
   RecordingWriter* recorder_;
   Conductor conductor_;
-  haptics::HapticLoop loop_;
-  haptics::HapticThread haptic_thread_;
+  std::vector<std::unique_ptr<Tool>> tools_;  // as in the scene
+  std::vector<haptics::HapticLoop*> loops_;   // theirs
+  std::string notice_;
+  std::optional<haptics::HapticThread> haptic_thread_;  // from the constructor on
   std::thread thread_;
   std::atomic<bool> running_{false};
   std::exception_ptr failure_;
@@ -103,12 +126,10 @@ class FreeSession {
   messages::SceneFrame frame_;
   ShoveRecord shove_;
   std::uint64_t drawn_sequence_ = 0;
-  std::uint64_t model_sequence_ = 0;
   realtime::PeriodHistogram steps_;
   std::uint64_t step_count_ = 0;
   std::uint64_t started_ns_ = 0;
   Extremes extremes_;
-  FaultNotice fault_notice_;
   StepRecord input_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "haptics/haptic_group.h"
 #include "scene/model_writer.h"
 
 namespace myotact::scene {
@@ -17,16 +18,32 @@ haptics::HapticSettings haptic_settings(const ToolSettings& tool) {
   settings.contact.along_over_across = tool.along_over_across;
   settings.contact.viscous_Ns_m = tool.viscous_Ns_m;
   settings.snap.force_N = tool.line_snap_N;
+  settings.takes_bones_only = tool.shape == messages::ToolShape::Clamp;
   settings.force_scale = tool.force_scale;
   settings.gate.force_limit = tool.force_limit;
   settings.texture = tool.texture;
   return settings;
 }
 
-LockstepHaptics::LockstepHaptics(device::Device& device, const Scene& scene)
-    : step_ns_(static_cast<std::uint64_t>(std::llround(scene.settings.dt_s * 1e9))),
-      loop_(device, haptic_settings(scene.tools.front())) {
-  loop_.prepare(clock_ns_);
+std::string stiffness_notices(std::span<haptics::HapticLoop* const> loops, const Scene& scene) {
+  std::string notices;
+  for (std::size_t t = 0; t < loops.size(); ++t) {
+    if (loops[t]->notice().empty()) continue;
+    if (!notices.empty()) notices += '\n';
+    if (loops.size() > 1) notices += scene.tools[t].hand + " hand: ";
+    notices += loops[t]->notice();
+  }
+  return notices;
+}
+
+LockstepHaptics::LockstepHaptics(std::span<device::Device* const> devices, const Scene& scene)
+    : step_ns_(static_cast<std::uint64_t>(std::llround(scene.settings.dt_s * 1e9))), model_sequences_(devices.size()) {
+  for (std::size_t t = 0; t < devices.size(); ++t) {
+    owned_.push_back(std::make_unique<haptics::HapticLoop>(*devices[t], haptic_settings(scene.tools[t])));
+    loops_.push_back(owned_.back().get());
+    loops_.back()->prepare(clock_ns_);
+  }
+  notice_ = stiffness_notices(loops_, scene);
 }
 
 int LockstepHaptics::ticks_a_step() const {
@@ -38,17 +55,20 @@ double LockstepHaptics::time_s() const {
 }
 
 void LockstepHaptics::tick() {
-  loop_.tick(clock_ns_);
+  haptics::tick_all(loops_, clock_ns_);
   clock_ns_ += haptics::kTickPeriod_ns;
-  for (haptics::HapticTick tick; loop_.ticks().pop(tick);) {  // nobody else empties the queue here
+  for (haptics::HapticLoop* loop : loops_) {
+    for (haptics::HapticTick tick; loop->ticks().pop(tick);) {  // nobody else empties the queue here
+    }
   }
 }
 
-ModelRecord LockstepHaptics::publish_model(const simulation::Simulation& simulation) {
-  const messages::ToolState& tool = loop_.tool_state();
-  const ModelRecord record{++model_sequence_, clock_ns_, false, tool.tool_position_world_m, 0};
-  write_model(simulation, tool, record, step_ns_, loop_.models().back());
-  loop_.models().publish();
+ModelRecord LockstepHaptics::publish_model(std::size_t tool, const simulation::Simulation& simulation) {
+  haptics::HapticLoop& loop = *loops_[tool];
+  const messages::ToolState& state = loop.tool_state();
+  const ModelRecord record{++model_sequences_[tool], clock_ns_, false, state.tool_position_world_m, 0};
+  write_model(simulation, {state, static_cast<int>(tool), record, step_ns_}, loop.models().back());
+  loop.models().publish();
   return record;
 }
 

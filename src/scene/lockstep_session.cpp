@@ -1,6 +1,28 @@
 #include "scene/lockstep_session.h"
 
+#include "scene/tool_frame.h"
+
 namespace myotact::scene {
+
+namespace {
+
+std::vector<std::unique_ptr<device::SimulatedDevice>> simulated_devices(const Scene& scene,
+                                                                        const Conductor& conductor) {
+  std::vector<std::unique_ptr<device::SimulatedDevice>> devices;
+  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
+    devices.push_back(
+        std::make_unique<device::SimulatedDevice>(scene.tools[t].device, conductor.hand(t, 0.0).position_world_m));
+  }
+  return devices;
+}
+
+std::vector<device::Device*> pointers_to(const std::vector<std::unique_ptr<device::SimulatedDevice>>& devices) {
+  std::vector<device::Device*> pointers;
+  for (const auto& device : devices) pointers.push_back(device.get());
+  return pointers;
+}
+
+}  // namespace
 
 LockstepSession::LockstepSession(const Scene& scene, simulation::Simulation& simulation, SampleTable& samples,
                                  RecordingWriter* recorder)
@@ -9,43 +31,64 @@ LockstepSession::LockstepSession(const Scene& scene, simulation::Simulation& sim
       samples_(&samples),
       recorder_(recorder),
       conductor_(scene, simulation),
-      device_(scene.tools.front().device, conductor_.hand(0.0).position_world_m),
-      haptics_(device_, scene) {
-  publish_model();
+      devices_(simulated_devices(scene, conductor_)),
+      haptics_(pointers_to(devices_), scene),
+      extremes_(scene.tools.size()),
+      ticks_(scene.tools.size()) {
+  publish_models();
 }
 
-void LockstepSession::publish_model() {
-  const ModelRecord model = haptics_.publish_model(*simulation_);
-  if (recorder_ != nullptr) recorder_->add(model);
+void LockstepSession::publish_models() {
+  for (std::size_t t = 0; t < haptics_.tool_count(); ++t) {
+    const ModelRecord model = haptics_.publish_model(t, *simulation_);
+    if (recorder_ != nullptr) recorder_->add(t, model);
+  }
 }
 
 void LockstepSession::run_ticks() {
+  std::vector<ToolSample> row(devices_.size());
   for (int i = 0; i < haptics_.ticks_a_step(); ++i) {
     const double time_s = haptics_.time_s();
-    const HandTarget hand = conductor_.hand(time_s);
-    device_.set_hand_target({to_array(hand.position_world_m), {}, hand.buttons});
+    for (std::size_t t = 0; t < devices_.size(); ++t) {
+      const HandTarget hand = conductor_.hand(t, time_s);
+      devices_[t]->set_hand_target({to_array(hand.position_world_m), {}, hand.buttons});
+    }
     haptics_.tick();
-    const haptics::HapticTick& tick = haptics_.last_tick();
-    samples_->add(time_s, tick.tool, tick.line_tension_N, *simulation_);
-    extremes_.add_tick(tick);
-    if (recorder_ != nullptr) ticks_.push_back(record_of(tick));
+    for (std::size_t t = 0; t < devices_.size(); ++t) {
+      const haptics::HapticTick& tick = haptics_.last_tick(t);
+      row[t] = {tick.tool, tick.line_tension_N};
+      extremes_.add_tick(t, tick);
+      if (recorder_ != nullptr) ticks_[t].push_back(record_of(tick));
+    }
+    samples_->add(time_s, row, *simulation_);
   }
+}
+
+std::vector<messages::ToolFrame> LockstepSession::tool_frames() const {
+  std::vector<messages::ToolFrame> frames;
+  for (std::size_t t = 0; t < devices_.size(); ++t) {
+    frames.push_back(tool_frame(tool(t), scene_->tools[t], *simulation_));
+  }
+  return frames;
 }
 
 void LockstepSession::step() {
   conductor_.prepare_step(simulation_->time_s(), input_);
   run_ticks();
-  input_.tool = haptics_.tool();
+  input_.tools.clear();
+  for (std::size_t t = 0; t < devices_.size(); ++t) input_.tools.push_back(tool(t));
   apply(input_, *simulation_);
-  simulation_->step({&input_.tool, 1});
+  simulation_->step(input_.tools);
   extremes_.add_step(*scene_, *simulation_);
   if (recorder_ != nullptr) {
     input_.state_hash = simulation_->state_hash();
-    recorder_->add(ticks_);
+    for (std::size_t t = 0; t < ticks_.size(); ++t) {
+      recorder_->add(t, ticks_[t]);
+      ticks_[t].clear();
+    }
     recorder_->add(input_);
-    ticks_.clear();
   }
-  publish_model();
+  publish_models();
 }
 
 }  // namespace myotact::scene

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "device/simulated_device.h"
+#include "messages/scene_frame.h"
 #include "scene/conductor.h"
 #include "scene/extremes.h"
 #include "scene/lockstep_haptics.h"
@@ -26,24 +29,25 @@ class LockstepSession {
   void step();
 
   Conductor& conductor() { return conductor_; }
-  const messages::ToolState& tool() const { return haptics_.tool(); }
+  const messages::ToolState& tool(std::size_t index = 0) const { return haptics_.last_tick(index).tool; }
+  std::vector<messages::ToolFrame> tool_frames() const;  // as they are drawn
   const std::string& notice() const { return haptics_.notice(); }
   const Extremes& extremes() const { return extremes_; }  // so far
 
  private:
   void run_ticks();
-  void publish_model();
+  void publish_models();
 
   const Scene* scene_;
   simulation::Simulation* simulation_;
   SampleTable* samples_;
   RecordingWriter* recorder_;
   Conductor conductor_;
-  device::SimulatedDevice device_;
+  std::vector<std::unique_ptr<device::SimulatedDevice>> devices_;  // one a tool
   LockstepHaptics haptics_;
   Extremes extremes_;
   StepRecord input_;
-  std::vector<TickRecord> ticks_;
+  std::vector<std::vector<TickRecord>> ticks_;  // of the present step, tool by tool
 };
 
 }  // namespace myotact::scene

@@ -13,14 +13,13 @@ void hold_still(messages::LocalModel& model) {
 
 }  // namespace
 
-void write_model(const simulation::Simulation& simulation, const messages::ToolState& tool, const ModelRecord& record,
-                 std::uint64_t step_ns, messages::LocalModel& model) {
-  simulation.write_local_model(tool, model);
-  if (record.holds_still) hold_still(model);
-  model.sequence = record.sequence;
-  model.published_at_ns = record.published_at_ns;
-  model.dt_ns = step_ns;
-  model.tool_sequence = tool.sequence;
+void write_model(const simulation::Simulation& simulation, const ModelRequest& request, messages::LocalModel& model) {
+  simulation.write_local_model(request.tool, model, request.index);
+  if (request.record.holds_still) hold_still(model);
+  model.sequence = request.record.sequence;
+  model.published_at_ns = request.record.published_at_ns;
+  model.dt_ns = request.step_ns;
+  model.tool_sequence = request.tool.sequence;
 }
 
 }  // namespace myotact::scene

@@ -8,9 +8,16 @@
 
 namespace myotact::scene {
 
-/// Fills `model` with what the simulation shows of itself to a tool: the surface played over `step_ns` from the
-/// record's time on, or standing where the record says that it holds still.
-void write_model(const simulation::Simulation& simulation, const messages::ToolState& tool, const ModelRecord& record,
-                 std::uint64_t step_ns, messages::LocalModel& model);
+/// Whom a model is for, and how.
+struct ModelRequest {
+  const messages::ToolState& tool;
+  int index = 0;  // of the tool in the scene
+  const ModelRecord& record;
+  std::uint64_t step_ns = 0;
+};
+
+/// Fills `model` with what the simulation shows of itself to a tool: the surface played over a step from the record's
+/// time on, or standing where the record says that it holds still.
+void write_model(const simulation::Simulation& simulation, const ModelRequest& request, messages::LocalModel& model);
 
 }  // namespace myotact::scene

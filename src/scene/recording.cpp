@@ -9,12 +9,10 @@
 #include <string_view>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <zlib.h>
 
 #include "core/error.h"
 #include "core/file.h"
-#include "core/json_reader.h"
 
 namespace myotact::scene {
 
@@ -23,7 +21,19 @@ static_assert(std::endian::native == std::endian::little, "the recording's layou
 namespace {
 
 constexpr std::string_view kMagic = "MYOREC01";
-enum ChunkType : std::uint32_t { kHeader = 1, kStep = 2, kTicks = 3, kEnd = 4, kModel = 5, kTimedTicks = 6 };
+/// Before there were several tools, a step held one ToolState and ticks and models did not say whose they are.
+enum ChunkType : std::uint32_t {
+  kHeader = 1,
+  kStepOfOne = 2,
+  kUntimedTicksOfOne = 3,
+  kEnd = 4,
+  kModelOfOne = 5,
+  kTicksOfOne = 6,
+  kStep = 7,
+  kTicks = 8,
+  kModel = 9
+};
+constexpr std::uint32_t kMostToolsInAFile = 16;  // two hands; a damaged count must not ask for memory
 
 template <class T>
 void append(std::string& bytes, const T& value) {
@@ -99,8 +109,8 @@ std::optional<Chunk> take_chunk(std::string_view& bytes) {
   return chunk;
 }
 
-/// Steps of earlier versions end before the touched place; a hash follows.
-messages::ToolState take_tool(Cursor& cursor) {
+/// Of a step of one tool. Those of earlier versions end before the touched place; a hash follows.
+messages::ToolState take_only_tool(Cursor& cursor) {
   constexpr std::size_t kBefore = offsetof(messages::ToolState, touched_world_m);
   if (cursor.rest.size() != kBefore + sizeof(StepRecord::state_hash)) return cursor.take<messages::ToolState>();
   messages::ToolState tool;
@@ -109,55 +119,73 @@ messages::ToolState take_tool(Cursor& cursor) {
   return tool;
 }
 
-bool read_step(std::string_view payload, Recording& recording) {
+bool read_step(std::string_view payload, bool of_one, Recording& recording) {
   Cursor cursor{payload};
   StepRecord step;
   step.excitations = cursor.take_numbers();
   step.joint_torques_Nm = cursor.take_numbers();
   step.gravity_m_s2 = to_vec3(cursor.take<std::array<double, 3>>());
-  step.tool = take_tool(cursor);
+  const std::uint32_t tools = of_one ? 1 : cursor.take<std::uint32_t>();
+  if (tools > kMostToolsInAFile) return false;
+  for (std::uint32_t t = 0; t < tools; ++t) {
+    step.tools.push_back(of_one ? take_only_tool(cursor) : cursor.take<messages::ToolState>());
+  }
   step.state_hash = cursor.take<std::uint64_t>();
   if (cursor.ok) recording.steps.push_back(std::move(step));
   return cursor.ok;
 }
 
-/// `timed`: with their times; files of earlier versions hold none.
-bool read_ticks(std::string_view payload, bool timed, Recording& recording) {
-  Cursor cursor{payload};
+/// Whose ticks or model a chunk holds; null when its number makes no sense.
+ToolRecording* take_tool(Cursor& cursor, bool of_one, Recording& recording) {
+  const std::uint32_t tool = of_one ? 0 : cursor.take<std::uint32_t>();
+  if (!cursor.ok || tool >= kMostToolsInAFile) return nullptr;
+  if (recording.tools.size() <= tool) recording.tools.resize(tool + 1);
+  return &recording.tools[tool];
+}
+
+bool read_ticks(const Chunk& chunk, Recording& recording) {
+  Cursor cursor{chunk.payload};
+  ToolRecording* tool = take_tool(cursor, chunk.type != kTicks, recording);
+  if (tool == nullptr) return false;
   while (cursor.ok && !cursor.rest.empty()) {
     TickRecord tick;
     tick.device = cursor.take<messages::DeviceState>();
     tick.model_sequence = cursor.take<std::uint64_t>();
-    if (timed) {
+    if (chunk.type != kUntimedTicksOfOne) {
       tick.time_ns = cursor.take<std::uint64_t>();
       tick.forces_stopped = cursor.take<std::uint8_t>() != 0;
     }
-    if (cursor.ok) recording.ticks.push_back(tick);
+    if (cursor.ok) tool->ticks.push_back(tick);
   }
   return cursor.ok;
 }
 
-bool read_model(std::string_view payload, Recording& recording) {
-  Cursor cursor{payload};
+bool read_model(const Chunk& chunk, Recording& recording) {
+  Cursor cursor{chunk.payload};
+  ToolRecording* tool = take_tool(cursor, chunk.type != kModel, recording);
+  if (tool == nullptr) return false;
   ModelRecord model;
   model.sequence = cursor.take<std::uint64_t>();
   model.published_at_ns = cursor.take<std::uint64_t>();
   model.holds_still = cursor.take<std::uint8_t>() != 0;
   model.tool_position_world_m = cursor.take<std::array<double, 3>>();
   model.step = recording.steps.size();
-  if (cursor.ok) recording.models.push_back(model);
+  if (cursor.ok) tool->models.push_back(model);
   return cursor.ok;
 }
 
 bool read_chunk(const Chunk& chunk, Recording& recording) {
   switch (chunk.type) {
+    case kStepOfOne:
     case kStep:
-      return read_step(chunk.payload, recording);
+      return read_step(chunk.payload, chunk.type == kStepOfOne, recording);
+    case kUntimedTicksOfOne:
+    case kTicksOfOne:
     case kTicks:
-    case kTimedTicks:
-      return read_ticks(chunk.payload, chunk.type == kTimedTicks, recording);
+      return read_ticks(chunk, recording);
+    case kModelOfOne:
     case kModel:
-      return read_model(chunk.payload, recording);
+      return read_model(chunk, recording);
     case kEnd:
       recording.complete = true;
       return true;
@@ -166,77 +194,10 @@ bool read_chunk(const Chunk& chunk, Recording& recording) {
   }
 }
 
-/// Keys of a device's profile in the header.
-struct ProfileKey {
-  const char* name;
-  double device::DeviceProfile::*value;
-};
-constexpr std::array<ProfileKey, 7> kProfileKeys = {{
-    {"peak_force_N", &device::DeviceProfile::peak_force_N},
-    {"continuous_force_N", &device::DeviceProfile::continuous_force_N},
-    {"max_stiffness_N_m", &device::DeviceProfile::max_stiffness_N_m},
-    {"inertia_kg", &device::DeviceProfile::inertia_kg},
-    {"viscous_Ns_m", &device::DeviceProfile::viscous_Ns_m},
-    {"coulomb_N", &device::DeviceProfile::coulomb_N},
-    {"resolution_m", &device::DeviceProfile::resolution_m},
-}};
-constexpr double kMostOfAll = 1e6;  // of any of them: no device of this world
-
 }  // namespace
 
 TickRecord record_of(const haptics::HapticTick& tick) {
   return {tick.device, tick.model_sequence, tick.tool.time_ns, tick.gate == haptics::GateState::Off};
-}
-
-std::string recording_header(const Scene& scene, std::uint64_t seed, const device::DeviceProfile& profile) {
-  nlohmann::json device = {{"delay_ticks", profile.delay_ticks}, {"shows_force_only", profile.shows_force_only}};
-  for (const ProfileKey& key : kProfileKeys) device[key.name] = profile.*key.value;
-  const nlohmann::json header = {{"schema", 1},
-                                 {"seed", seed},
-                                 {"device", device},
-                                 {"specimen", std::filesystem::absolute(scene.specimen_folder).string()},
-                                 {"scene", scene.source_text}};
-  return header.dump();
-}
-
-device::DeviceProfile device_of_recording(const nlohmann::json& header, const std::filesystem::path& file) {
-  device::DeviceProfile profile;
-  JsonObject fields(JsonValue(header, file.string()));
-  const std::optional<JsonValue> device = fields.find("device");
-  if (!device) return profile;
-  JsonObject numbers(*device);
-  for (const ProfileKey& key : kProfileKeys) profile.*key.value = numbers.at(key.name).number_between(0.0, kMostOfAll);
-  profile.delay_ticks = numbers.at("delay_ticks").integer_between(0, 1000);
-  profile.shows_force_only = numbers.at("shows_force_only").boolean();
-  numbers.finish();
-  return profile;
-}
-
-Scene scene_of_recording(const nlohmann::json& header, const std::filesystem::path& file, const Overrides& overrides) {
-  JsonObject fields(JsonValue(header, file.string()));
-  fields.at("schema").integer_between(1, 1);
-  const JsonValue seed = fields.at("seed");
-  if (!seed.raw().is_number_unsigned()) throw seed.error("must be a whole number of at least 0");
-  fields.find("device");  // device_of_recording
-  Overrides all = {{"specimen", fields.at("specimen").string()}};
-  for (const auto& [key, value] : overrides) all[key] = value;
-  const std::string text = fields.at("scene").string();
-  fields.finish();
-  Scene scene = parse_scene(text, file, all);
-  set_seed(scene, seed.raw().get<std::uint64_t>());
-  return scene;
-}
-
-void require_fit(const Recording& recording, const anatomy::Specimen& specimen, const std::filesystem::path& file) {
-  for (std::size_t i = 0; i < recording.steps.size(); ++i) {
-    const std::size_t muscles = recording.steps[i].excitations.size();
-    const std::size_t joints = recording.steps[i].joint_torques_Nm.size();
-    if (muscles == specimen.muscles.size() && joints == specimen.joints.size()) continue;
-    throw bad_data(file.string(), fmt::format("step {}", i),
-                   fmt::format("is for {} muscles and {} joints; the specimen has {} and {}. Name the specimen of the "
-                               "recording with --set specimen=FOLDER",
-                               muscles, joints, specimen.muscles.size(), specimen.joints.size()));
-  }
 }
 
 RecordingWriter::RecordingWriter(const std::filesystem::path& path, const std::string& header_json)
@@ -264,24 +225,27 @@ void RecordingWriter::add(const StepRecord& step) {
   append(payload, step.excitations);
   append(payload, step.joint_torques_Nm);
   append(payload, to_array(step.gravity_m_s2));
-  append(payload, step.tool);
+  append(payload, static_cast<std::uint32_t>(step.tools.size()));
+  for (const messages::ToolState& tool : step.tools) append(payload, tool);
   append(payload, step.state_hash);
   write_chunk(kStep, payload);
 }
 
-void RecordingWriter::add(const std::vector<TickRecord>& ticks) {
+void RecordingWriter::add(std::size_t tool, const std::vector<TickRecord>& ticks) {
   std::string payload;
+  append(payload, static_cast<std::uint32_t>(tool));
   for (const TickRecord& tick : ticks) {
     append(payload, tick.device);
     append(payload, tick.model_sequence);
     append(payload, tick.time_ns);
     append(payload, static_cast<std::uint8_t>(tick.forces_stopped));
   }
-  write_chunk(kTimedTicks, payload);
+  write_chunk(kTicks, payload);
 }
 
-void RecordingWriter::add(const ModelRecord& model) {
+void RecordingWriter::add(std::size_t tool, const ModelRecord& model) {
   std::string payload;
+  append(payload, static_cast<std::uint32_t>(tool));
   append(payload, model.sequence);
   append(payload, model.published_at_ns);
   append(payload, static_cast<std::uint8_t>(model.holds_still));

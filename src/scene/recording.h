@@ -1,36 +1,34 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "core/vector.h"
-#include "device/device.h"
 #include "haptics/haptic_loop.h"
 #include "messages/device.h"
 #include "messages/tool_state.h"
-#include "scene/scene_file.h"
 
 namespace myotact::scene {
 
 // A recording is append-only: 8 bytes "MYOREC01", then chunks of {u32 length, u32 type, payload, u32 crc32 of type and
-// payload}, little-endian. After a crash it is readable up to the last whole chunk.
+// payload}, little-endian. After a crash it is readable up to the last whole chunk. Files of the first version, which
+// knew one tool, are read as well.
 
 /// What the simulation was told before a step, and the state that followed.
 struct StepRecord {
   std::vector<double> excitations;       // one a muscle
   std::vector<double> joint_torques_Nm;  // one a joint
   Vec3 gravity_m_s2 = Vec3::Zero();
-  messages::ToolState tool;
-  std::uint64_t state_hash = 0;  // after the step
+  std::vector<messages::ToolState> tools;  // one a tool of the scene
+  std::uint64_t state_hash = 0;            // after the step
 };
 
-/// What the device said in one tick, and which model answered.
+/// What a device said in one tick, and which model answered.
 struct TickRecord {
   messages::DeviceState device;
   std::uint64_t model_sequence = 0;
@@ -40,7 +38,7 @@ struct TickRecord {
 
 TickRecord record_of(const haptics::HapticTick& tick);
 
-/// A model that the haptic loop could take.
+/// A model that a haptic loop could take.
 struct ModelRecord {
   std::uint64_t sequence = 0;
   std::uint64_t published_at_ns = 0;
@@ -49,12 +47,17 @@ struct ModelRecord {
   std::size_t step = 0;  // how many steps went before; told by the place in the file, not written
 };
 
+/// What one tool's device and loop went through.
+struct ToolRecording {
+  std::vector<TickRecord> ticks;
+  std::vector<ModelRecord> models;
+};
+
 struct Recording {
   std::string header_json;  // program version, seed, settings, the scene's text
   std::vector<StepRecord> steps;
-  std::vector<TickRecord> ticks;
-  std::vector<ModelRecord> models;
-  bool complete = false;  // the closing chunk is there
+  std::vector<ToolRecording> tools;  // up to the last one that anything was recorded of
+  bool complete = false;             // the closing chunk is there
 };
 
 class RecordingWriter {
@@ -62,8 +65,8 @@ class RecordingWriter {
   /// Throws Error InputOutput.
   RecordingWriter(const std::filesystem::path& path, const std::string& header_json);
   void add(const StepRecord& step);
-  void add(const std::vector<TickRecord>& ticks);
-  void add(const ModelRecord& model);
+  void add(std::size_t tool, const std::vector<TickRecord>& ticks);
+  void add(std::size_t tool, const ModelRecord& model);
   void close();
 
  private:
@@ -72,19 +75,6 @@ class RecordingWriter {
   std::filesystem::path path_;
   std::ofstream file_;
 };
-
-/// What a recording must hold to be run again: seed, device, the scene's text and where its specimen is.
-std::string recording_header(const Scene& scene, std::uint64_t seed, const device::DeviceProfile& profile);
-
-/// What the recorded device could bear; that of a simulated one for a recording that does not say. Throws Error
-/// BadData.
-device::DeviceProfile device_of_recording(const nlohmann::json& header, const std::filesystem::path& file);
-
-/// The scene that a recording's header describes. Throws Error BadData.
-Scene scene_of_recording(const nlohmann::json& header, const std::filesystem::path& file, const Overrides& overrides);
-
-/// Throws Error BadData unless every step tells each muscle and each joint of the specimen something.
-void require_fit(const Recording& recording, const anatomy::Specimen& specimen, const std::filesystem::path& file);
 
 /// Throws Error NoInput, or BadData when the file is no recording or its first chunk is damaged.
 Recording read_recording(const std::filesystem::path& path);

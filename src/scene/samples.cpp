@@ -19,11 +19,18 @@ void append(std::string& csv, const std::array<double, 3>& vector) {
 
 }  // namespace
 
-SampleTable::SampleTable(const anatomy::Specimen& specimen, int every_nth_tick)
+SampleTable::SampleTable(const anatomy::Specimen& specimen, const std::vector<std::string>& hands, int every_nth_tick)
     : muscle_count_(specimen.muscles.size()), every_nth_tick_(every_nth_tick) {
-  csv_ =
-      "t_s,tool_x_m,tool_y_m,tool_z_m,proxy_x_m,proxy_y_m,proxy_z_m,force_x_N,force_y_N,force_z_N,line_tension_N,"
-      "contact";
+  csv_ = "t_s";
+  for (const std::string& hand : hands) {
+    const std::string prefix = hands.size() > 1 ? hand + "_" : "";
+    for (const char* column : {"tool_x_m", "tool_y_m", "tool_z_m", "proxy_x_m", "proxy_y_m", "proxy_z_m", "force_x_N",
+                               "force_y_N", "force_z_N", "line_tension_N", "contact"}) {
+      csv_ += ',';
+      csv_ += prefix;
+      csv_ += column;
+    }
+  }
   for (std::size_t j = 0; j < specimen.joints.size(); ++j) {
     if (specimen.joints[j].type == anatomy::JointType::Weld) continue;
     moving_joints_.push_back(static_cast<int>(j));
@@ -34,15 +41,16 @@ SampleTable::SampleTable(const anatomy::Specimen& specimen, int every_nth_tick)
   csv_ += '\n';
 }
 
-void SampleTable::add(double time_s, const messages::ToolState& tool, double line_tension_N,
-                      const simulation::Simulation& simulation) {
+void SampleTable::add(double time_s, std::span<const ToolSample> tools, const simulation::Simulation& simulation) {
   if (ticks_++ % every_nth_tick_ != 0) return;
   csv_ += to_text(time_s);
-  append(csv_, tool.tool_position_world_m);
-  append(csv_, tool.proxy_position_world_m);
-  append(csv_, tool.force_world_N);
-  append(csv_, line_tension_N);
-  csv_ += tool.contact.surface >= 0 ? ",1" : ",0";
+  for (const ToolSample& sample : tools) {
+    append(csv_, sample.tool.tool_position_world_m);
+    append(csv_, sample.tool.proxy_position_world_m);
+    append(csv_, sample.tool.force_world_N);
+    append(csv_, sample.line_tension_N);
+    csv_ += sample.tool.contact.surface >= 0 ? ",1" : ",0";
+  }
   for (const int j : moving_joints_) {
     const simulation::JointReadout joint = simulation.joint(j);
     append(csv_, joint.angle_rad);

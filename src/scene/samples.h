@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,14 +10,20 @@
 
 namespace myotact::scene {
 
+/// What one tool did in a tick.
+struct ToolSample {
+  messages::ToolState tool;
+  double line_tension_N = 0.0;  // of the line in hand, 0 without one
+};
+
 /// samples.csv (FORMATS: Tables): one row a tick. Numbers are shortest round-trip text, so equal runs give equal bytes.
 class SampleTable {
  public:
-  SampleTable(const anatomy::Specimen& specimen, int every_nth_tick);
+  /// `hands`: left or right, of each tool. The columns of several carry it in front.
+  SampleTable(const anatomy::Specimen& specimen, const std::vector<std::string>& hands, int every_nth_tick);
 
-  /// `line_tension_N`: of the line in hand, 0 without one.
-  void add(double time_s, const messages::ToolState& tool, double line_tension_N,
-           const simulation::Simulation& simulation);
+  /// `tools`: one a hand.
+  void add(double time_s, std::span<const ToolSample> tools, const simulation::Simulation& simulation);
 
   const std::string& csv() const { return csv_; }
 

@@ -21,6 +21,9 @@ namespace myotact::scene {
 
 namespace {
 
+// Radii of tools: a blunt needle's and a ballpoint's, a thumb's.
+constexpr double kFinestPoint_m = 0.3e-3, kPointRadius_m = 0.5e-3, kThickestPoint_m = 1e-3, kThickestBall_m = 1e-2;
+
 std::filesystem::path scenes_folder() {
   return data_folder() / "assets" / "scenes";
 }
@@ -222,13 +225,27 @@ haptics::ForceMethod force_method(const JsonValue& value) {
   return haptics::ForceMethod::Proxy;
 }
 
+void read_shape(JsonObject& fields, ToolSettings& tool) {
+  if (const auto shape = fields.find("shape")) {
+    const std::string name = shape->one_of({"ball", "point", "clamp"});
+    if (name == "point") tool.shape = messages::ToolShape::Point;
+    if (name == "clamp") tool.shape = messages::ToolShape::Clamp;
+  }
+  const bool is_point = tool.shape == messages::ToolShape::Point;
+  if (is_point) tool.radius_m = kPointRadius_m;
+  if (const auto radius = fields.find("radius_m")) {
+    tool.radius_m = is_point ? radius->number_between(kFinestPoint_m, kThickestPoint_m)
+                             : radius->number_between(kThickestPoint_m, kThickestBall_m);
+  }
+}
+
 ToolSettings read_tool(const JsonValue& value) {
   JsonObject fields(value);
   ToolSettings tool;
   tool.device = fields.at("device").string();
   if (const auto hand = fields.find("hand")) tool.hand = hand->one_of({"left", "right"});
   if (const auto method = fields.find("method")) tool.method = force_method(*method);
-  if (const auto radius = fields.find("radius_m")) tool.radius_m = radius->number_between(1e-3, 1e-2);
+  read_shape(fields, tool);
   if (const auto scale = fields.find("force_scale")) tool.force_scale = scale->number_between(0.0, 1.0);
   if (const auto limit = fields.find("force_limit")) tool.force_limit = limit->number_between(0.0, 1.0);
   if (const auto friction = fields.find("friction")) read_friction(*friction, tool);
@@ -237,6 +254,17 @@ ToolSettings read_tool(const JsonValue& value) {
   if (const auto texture = fields.find("texture")) tool.texture = textures_asked_for(*texture);
   fields.finish();
   return tool;
+}
+
+void read_tools(const JsonValue& value, Scene& scene) {
+  for (const JsonValue& tool : value.elements()) {
+    scene.tools.push_back(read_tool(tool));
+    if (scene.tools.size() > kMostTools) throw tool.error("is one more than a person has hands; name two at most");
+  }
+  if (scene.tools.size() == kMostTools && scene.tools[0].hand == scene.tools[1].hand) {
+    throw value.error("both tools are for the " + scene.tools[0].hand + " hand; give one \"hand\": \"" +
+                      (scene.tools[0].hand == "left" ? "right" : "left") + "\"");
+  }
 }
 
 void read_parts(JsonObject& root, Scene& scene) {
@@ -249,11 +277,9 @@ void read_parts(JsonObject& root, Scene& scene) {
   if (const auto rest_stretch = root.find("rest_stretch")) read_rest_stretch(*rest_stretch, scene);
   if (const auto activations = root.find("activations")) read_activations(*activations, scene);
   if (const auto set = root.find("co_contraction")) scene.co_contraction = read_co_contraction(*set, scene);
-  if (const auto tools = root.find("tools")) {
-    for (const JsonValue& tool : tools->elements()) scene.tools.push_back(read_tool(tool));
-    if (scene.tools.size() > 1) throw tools->error("more than one tool is not in this version; name one");
-  }
-  if (const auto script = root.find("script")) scene.script = read_script(*script, scene.specimen);
+  if (const auto tools = root.find("tools")) read_tools(*tools, scene);
+  if (scene.tools.empty()) scene.tools.emplace_back();
+  if (const auto script = root.find("script")) scene.script = read_script(*script, scene.specimen, hands_of(scene));
 }
 
 }  // namespace
@@ -276,8 +302,13 @@ Scene parse_scene(const std::string& text, const std::filesystem::path& file, co
   scene.settings.tissue.assign(scene.specimen.muscles.size(), simulation::TissueModel::Fem);
   read_parts(root, scene);
   root.finish();
-  if (scene.tools.empty()) scene.tools.emplace_back();
   return scene;
+}
+
+std::vector<std::string> hands_of(const Scene& scene) {
+  std::vector<std::string> hands;
+  for (const ToolSettings& tool : scene.tools) hands.push_back(tool.hand);
+  return hands;
 }
 
 void set_seed(Scene& scene, std::uint64_t seed) {

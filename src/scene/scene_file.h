@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -11,6 +12,7 @@
 #include "core/vector.h"
 #include "haptics/force_methods.h"
 #include "haptics/texture_set.h"
+#include "messages/scene_frame.h"
 #include "scene/script.h"
 #include "simulation/simulation.h"
 
@@ -26,19 +28,22 @@ struct CoContraction {
   bool hold_posture = false;            // trims the balance slowly until the joint is back at its starting angle
 };
 
+inline constexpr std::size_t kMostTools = 2;  // a person has two hands
+
 struct ToolSettings {
   std::string device = "simulated";
   std::string hand = "right";
   haptics::ForceMethod method = haptics::ForceMethod::Proxy;
+  messages::ToolShape shape = messages::ToolShape::Ball;
   double radius_m = 3e-3;
   double force_scale = 1.0;
-  double force_limit = 0.5;  // share of the device's peak force that is ever sent
+  double force_limit = 0.5;                              // share of the device's peak force that is ever sent
   double static_friction = 0.3, dynamic_friction = 0.3;  // across the fibres
   double stribeck_m_s = 0.01;
   double along_over_across = 1.0;  // friction along the fibres over across them
   double viscous_Ns_m = 0.0;
   double stiffness_N_m = 800.0;
-  double line_snap_N = 0.0;  // the most that a muscle line near the surface pulls a passing tool with
+  double line_snap_N = 0.0;          // the most that a muscle line near the surface pulls a passing tool with
   haptics::TextureSettings texture;  // smooth where empty
 };
 
@@ -57,7 +62,7 @@ struct Scene {
   std::vector<JointSetting> joints;  // one a joint of the specimen
   std::vector<double> activations;   // one a muscle
   std::optional<CoContraction> co_contraction;
-  std::vector<ToolSettings> tools;
+  std::vector<ToolSettings> tools;   // 1 or 2; of two, one for each hand
   std::vector<ScriptAction> script;  // by time
   std::string source_text;           // the file as read, for recordings
 };
@@ -70,6 +75,9 @@ Scene load_scene(const std::string& name_or_path, const Overrides& overrides = {
 
 /// The same from text, for recordings; `file` is named in errors and relative specimen paths start at its folder.
 Scene parse_scene(const std::string& text, const std::filesystem::path& file, const Overrides& overrides);
+
+/// Left or right, of each tool.
+std::vector<std::string> hands_of(const Scene& scene);
 
 /// Of everything random: the vibration of textures, each tool its own.
 void set_seed(Scene& scene, std::uint64_t seed);

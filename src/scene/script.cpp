@@ -97,7 +97,15 @@ Deed read_deed(const std::string& what, JsonObject& action, const anatomy::Speci
   return TakePicture{action.at("view").one_of({"lateral", "medial", "cranial", "caudal", "dorsal", "palmar"})};
 }
 
-ScriptAction read_action(const JsonValue& value, const anatomy::Specimen& specimen) {
+std::size_t read_hand(const JsonValue& value, const std::vector<std::string>& hands) {
+  const std::string hand = value.one_of({"left", "right"});
+  const auto found = std::find(hands.begin(), hands.end(), hand);
+  if (found == hands.end()) throw value.error("the scene has no tool for the " + hand + " hand; add one to /tools");
+  return static_cast<std::size_t>(found - hands.begin());
+}
+
+ScriptAction read_action(const JsonValue& value, const anatomy::Specimen& specimen,
+                         const std::vector<std::string>& hands) {
   static const std::vector<std::string> kDeeds = {"move",         "touch",   "slide",      "grab_line",
                                                   "grab_bone",    "release", "activate",   "co_contract",
                                                   "hold_posture", "shove",   "shove_test", "picture"};
@@ -108,8 +116,26 @@ ScriptAction read_action(const JsonValue& value, const anatomy::Specimen& specim
   if (const auto duration = object.find("duration_s")) action.duration_s = duration->number_between(0.0, kLongestRun_s);
   action.deed = read_deed(object.at("do").one_of(kDeeds), object, specimen);
   if (std::holds_alternative<TestShove>(action.deed)) action.duration_s = kShoveTest_s;
+  if (moves_hand(action.deed)) {
+    if (const auto hand = object.find("hand")) action.tool = read_hand(*hand, hands);
+  }
   object.finish();
   return action;
+}
+
+/// A hand that is told two things at once would silently do only the later one.
+void require_free_hand(const JsonValue& element, const std::vector<ScriptAction>& script, std::size_t hand_count) {
+  constexpr double kSameTime_s = 1e-9;  // of sums of decimal fractions
+  const ScriptAction& action = script.back();
+  for (std::size_t i = 0; i + 1 < script.size(); ++i) {
+    const ScriptAction& before = script[i];
+    const bool overlaps = moves_hand(action.deed) && moves_hand(before.deed) && before.tool == action.tool &&
+                          before.end_s() > action.start_s + kSameTime_s;
+    if (!overlaps) continue;
+    throw element.error(fmt::format("starts at {} s, before the {}hand's action {} ends at {} s; let it start then{}",
+                                    action.start_s, hand_count > 1 ? "same " : "", i, before.end_s(),
+                                    hand_count > 1 ? ", or give it to the other hand" : ""));
+  }
 }
 
 }  // namespace
@@ -126,13 +152,21 @@ int require_joint(const JsonValue& name, const anatomy::Specimen& specimen) {
   return require_part(name, specimen.joints, "joint");
 }
 
-std::vector<ScriptAction> read_script(const JsonValue& list, const anatomy::Specimen& specimen) {
+bool moves_hand(const Deed& deed) {
+  return std::holds_alternative<MoveHand>(deed) || std::holds_alternative<TouchMuscle>(deed) ||
+         std::holds_alternative<SlideOnMuscle>(deed) || std::holds_alternative<GrabLine>(deed) ||
+         std::holds_alternative<GrabBone>(deed) || std::holds_alternative<ReleaseHand>(deed);
+}
+
+std::vector<ScriptAction> read_script(const JsonValue& list, const anatomy::Specimen& specimen,
+                                      const std::vector<std::string>& hands) {
   std::vector<ScriptAction> script;
   for (const JsonValue& element : list.elements()) {
-    script.push_back(read_action(element, specimen));
+    script.push_back(read_action(element, specimen, hands));
     if (script.size() > 1 && script.back().start_s < script[script.size() - 2].start_s) {
       throw element.error("starts before the action above it; order the script by t_s");
     }
+    require_free_hand(element, script, hands.size());
   }
   return script;
 }

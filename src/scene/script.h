@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <variant>
 #include <vector>
@@ -62,16 +63,22 @@ struct TakePicture {
 using Deed = std::variant<MoveHand, TouchMuscle, SlideOnMuscle, GrabLine, GrabBone, ReleaseHand, Activate, CoContract,
                           HoldPosture, Shove, TestShove, TakePicture>;
 
+/// True for what a hand does; the rest is done to the limb or the picture.
+bool moves_hand(const Deed& deed);
+
 struct ScriptAction {
   double start_s = 0.0;
   double duration_s = 0.0;  // 0: at once
   Deed deed;
+  std::size_t tool = 0;  // whose hand, where it moves one
 
   double end_s() const { return start_s + duration_s; }
 };
 
-/// Reads a scene's `script` list. Throws Error BadData (unknown muscle, wrong type, overlapping hand actions).
-std::vector<ScriptAction> read_script(const JsonValue& list, const anatomy::Specimen& specimen);
+/// Reads a scene's `script` list. `hands`: left or right, of each tool. Throws Error BadData (unknown muscle, wrong
+/// type, a hand without a tool, overlapping actions of one hand).
+std::vector<ScriptAction> read_script(const JsonValue& list, const anatomy::Specimen& specimen,
+                                      const std::vector<std::string>& hands);
 
 /// Index of the named part; throws Error BadData naming the nearest one.
 int require_muscle(const JsonValue& name, const anatomy::Specimen& specimen);

@@ -4,13 +4,15 @@
 
 namespace myotact::scene {
 
-messages::ToolFrame tool_frame(const messages::ToolState& tool, double radius_m,
+messages::ToolFrame tool_frame(const messages::ToolState& tool, const ToolSettings& settings,
                                const simulation::Simulation& simulation) {
   messages::ToolFrame frame;
   frame.tool_world_m = tool.tool_position_world_m;
   frame.proxy_world_m = tool.proxy_position_world_m;
   frame.force_world_N = tool.force_world_N;
-  frame.radius_m = radius_m;
+  frame.radius_m = settings.radius_m;
+  frame.shape = settings.shape;
+  frame.left = settings.hand == "left";
   frame.in_contact = tool.contact.surface >= 0;
   frame.forces_stopped = (tool.faults & haptics::bit(haptics::Fault::Stopped)) != 0;
   frame.grabbed_line = tool.grabbed_line;

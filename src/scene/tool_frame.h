@@ -2,12 +2,13 @@
 
 #include "messages/scene_frame.h"
 #include "messages/tool_state.h"
+#include "scene/scene_file.h"
 #include "simulation/simulation.h"
 
 namespace myotact::scene {
 
 /// The tool as the view draws it: with the bone's point in hand where it is now.
-messages::ToolFrame tool_frame(const messages::ToolState& tool, double radius_m,
+messages::ToolFrame tool_frame(const messages::ToolState& tool, const ToolSettings& settings,
                                const simulation::Simulation& simulation);
 
 }  // namespace myotact::scene

@@ -17,6 +17,7 @@ namespace myotact::simulation {
 
 /// A spring between a place in the world and a material point of a muscle or a point of a body.
 struct ToolSpring {
+  int tool = 0;         // whose it is, in the order of the step's tools
   int surface = -1;     // of the scene, for the spring of a contact; -1: of something in hand
   int muscle = -1;      // or -1: `body` and `body_rest_m` say where
   MaterialPoint point;  // of the muscle's mesh

@@ -44,18 +44,25 @@ struct JointTangent {
   Eigen::MatrixXd stiffness_Nm_rad, damping_Nms_rad;
 };
 
-JointTangent tangent_of(const Limb& limb, const Eigen::MatrixXd& muscle_damping_Nms_rad) {
-  JointTangent tangent{limb.loads.stiffness_Nm_rad, muscle_damping_Nms_rad};
+JointTangent tangent_of(const Limb& limb, const GripStep& step) {
+  JointTangent tangent{limb.loads.stiffness_Nm_rad, step.damping_Nms_rad};
   for (const LimbMuscle& muscle : limb.muscles) tangent.stiffness_Nm_rad.diagonal() += muscle.stiffness_Nm_rad;
   tangent.damping_Nms_rad.diagonal() += limb.loads.damping_Nms_rad;
+  for (const ToolSpring& spring : limb.springs) {
+    if (spring.tool == step.tool || spring.body < 0) continue;
+    Eigen::Matrix3Xd slope(3, static_cast<Eigen::Index>(limb.skeleton.joint_count()));
+    for (int j = 0; j < limb.skeleton.joint_count(); ++j) slope.col(j) = spring_slope(limb, spring, j);
+    tangent.stiffness_Nm_rad += spring.stiffness_N_m * slope.transpose() * slope;
+  }
   return tangent;
 }
 
 /// Force of the hand's own spring among all tools' in the last step.
-Vec3 spring_force_N(const Limb& limb, const messages::ToolState& tool) {
+Vec3 spring_force_N(const Limb& limb, const GripHand& hand) {
+  const messages::ToolState& tool = hand.tool;
   for (std::size_t s = 0; s < limb.springs.size() && s < limb.spring_force_N.size(); ++s) {
     const ToolSpring& spring = limb.springs[s];
-    if (spring.muscle < 0 && spring.body == tool.grabbed_body &&
+    if (spring.tool == hand.index && spring.muscle < 0 && spring.body == tool.grabbed_body &&
         spring.body_rest_m == to_vec3(tool.body_point_rest_m) &&
         spring.target_W_m == to_vec3(tool.body_target_world_m)) {
       return limb.spring_force_N[s];
@@ -67,14 +74,15 @@ Vec3 spring_force_N(const Limb& limb, const messages::ToolState& tool) {
 }  // namespace
 
 messages::LocalGrip local_grip(const Limb& limb, const anatomy::Specimen& specimen, const LocalPatch& patch,
-                               const messages::ToolState& tool) {
+                               const GripHand& hand) {
+  const messages::ToolState& tool = hand.tool;
   messages::LocalGrip grip;
   const bool in_hand = tool.grabbed_body >= 0 && tool.grabbed_body < static_cast<int>(specimen.bodies.size()) &&
                        to_vec3(tool.body_point_rest_m).allFinite();
   if (in_hand) {
     grip.body = tool.grabbed_body;
     grip.point_rest_m = tool.body_point_rest_m;
-    grip.force_world_N = to_array(spring_force_N(limb, tool));
+    grip.force_world_N = to_array(spring_force_N(limb, hand));
     return grip;
   }
   const int muscles = static_cast<int>(specimen.muscles.size());  // bones are numbered after them
@@ -85,8 +93,7 @@ messages::LocalGrip local_grip(const Limb& limb, const anatomy::Specimen& specim
   return grip;
 }
 
-void write_grip_motion(const Limb& limb, const Eigen::MatrixXd& damping_Nms_rad, double dt_s,
-                       messages::LocalGrip& grip) {
+void write_grip_motion(const Limb& limb, const GripStep& step, messages::LocalGrip& grip) {
   const Vec3 position_m = limb.skeleton.body_pose(grip.body) * to_vec3(grip.point_rest_m);
   grip.position_world_m = to_array(position_m);
   std::vector<int> joints;
@@ -101,7 +108,7 @@ void write_grip_motion(const Limb& limb, const Eigen::MatrixXd& damping_Nms_rad,
     velocity_m_s += slope.col(a) * limb.now.velocity_rad_s[j];
     const double change_rad_s = 1.5 * limb.now.velocity_rad_s[j] - 2.0 * limb.last.velocity_rad_s[j] +
                                 0.5 * limb.before.velocity_rad_s[j];  // as the second-order step has it
-    acceleration_m_s2 += slope.col(a) * (change_rad_s / dt_s);
+    acceleration_m_s2 += slope.col(a) * (change_rad_s / step.dt_s);
   }
   grip.velocity_world_m_s = to_array(velocity_m_s);
   grip.acceleration_world_m_s2 = to_array(acceleration_m_s2);
@@ -112,7 +119,7 @@ void write_grip_motion(const Limb& limb, const Eigen::MatrixXd& damping_Nms_rad,
   const Eigen::MatrixXd turn = mass.solve(slope.transpose());  // angles' acceleration by a unit force on the point
   const Mat3 mobility = slope * turn;
   const Eigen::MatrixXd turn_of_way = turn * pseudo_inverse(mobility);
-  const JointTangent tangent = tangent_of(limb, damping_Nms_rad);
+  const JointTangent tangent = tangent_of(limb, step);
   grip.mobility_1_kg = rows_of(mobility);
   grip.stiffness_1_s2 = rows_of(turn.transpose() * part(tangent.stiffness_Nm_rad, joints) * turn_of_way);
   grip.damping_1_s = rows_of(turn.transpose() * part(tangent.damping_Nms_rad, joints) * turn_of_way);

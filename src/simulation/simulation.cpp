@@ -100,7 +100,7 @@ void Simulation::set_joint_torque(int joint, double torque_Nm) {
 }
 
 void Simulation::restart() {
-  impl_->offered_line = -1;
+  impl_->offered_lines.clear();
   return_to_file_pose(impl_->limb);
 }
 
@@ -150,7 +150,11 @@ void Simulation::step(std::span<const messages::ToolState> tools) {
   });
   if (refreshes) in.next_refresh = (in.next_refresh + 1) % static_cast<int>(in.limb.muscles.size());
   ++in.steps;
-  in.offered_line = tools.empty() ? -1 : in.line_at(tools.front()).muscle;
+  std::vector<int> offered;
+  for (std::size_t t = 0; t < tools.size(); ++t) {
+    offered.push_back(in.line_at(tools[t], static_cast<int>(t)).muscle);
+  }
+  in.offered_lines = std::move(offered);
 }
 
 double Simulation::time_s() const {

@@ -108,8 +108,9 @@ class Simulation {
   int failed_steps() const;  // that had to be repeated in shorter parts, since construction
 
   /// The surface near the tool, its compliance at the contact, the line and the bone nearest to (or in) the hand, the
-  /// joint.
-  void write_local_model(const messages::ToolState& tool, messages::LocalModel& model) const;
+  /// joint. `index`: the tool's place among those of the last step; what the others hold and press is part of what
+  /// this one feels.
+  void write_local_model(const messages::ToolState& tool, messages::LocalModel& model, int index = 0) const;
   void write_frame(messages::SceneFrame& frame) const;  // everything but tools and rates
 
  private:

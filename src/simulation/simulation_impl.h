@@ -36,8 +36,8 @@ struct Simulation::Impl {
   int whole_steps = 0;   // of equal length since the last restart; the second-order rule needs one
   int next_refresh = 0;  // muscle whose stiffness is refreshed by the next step
   int failed_steps = 0;
-  double residual_share = 0.0;  // of the last step
-  int offered_line = -1;        // muscle whose line was nearest to the first tool after the last step
+  double residual_share = 0.0;     // of the last step
+  std::vector<int> offered_lines;  // of each tool: the muscle whose line was nearest after the last step
 
   double time_s() const { return static_cast<double>(steps) * settings.dt_s; }
   bool advance_in_parts(double dt_s, int halvings);
@@ -48,10 +48,11 @@ struct Simulation::Impl {
   MuscleAtJoint at_joint(int muscle, int joint, const LineReading& line) const;
   JointReadout joint(int joint, const std::vector<LineReading>& lines_now) const;
   double tension_N(int muscle) const;
-  void write_contact(const messages::ToolContact& contact, messages::LocalModel& model) const;
-  messages::LocalLine line_at(const messages::ToolState& tool) const;
+  // `index`: of the tool among those of the last step.
+  void write_contact(const messages::ToolContact& contact, int index, messages::LocalModel& model) const;
+  messages::LocalLine line_at(const messages::ToolState& tool, int index) const;
   void write_joint(int joint, const std::vector<LineReading>& lines_now, messages::JointFrame& frame) const;
-  void write_grip(const messages::ToolState& tool, messages::LocalModel& model) const;
+  void write_grip(const messages::ToolState& tool, int index, messages::LocalModel& model) const;
 };
 
 }  // namespace myotact::simulation

@@ -15,12 +15,13 @@ std::size_t at(int i) {
 
 }  // namespace
 
-void Simulation::Impl::write_contact(const messages::ToolContact& contact, messages::LocalModel& model) const {
+void Simulation::Impl::write_contact(const messages::ToolContact& contact, int index,
+                                     messages::LocalModel& model) const {
   model.contact = {};
   for (std::size_t s = 0; s < limb.springs.size(); ++s) {
     const ToolSpring& spring = limb.springs[s];
     if (contact.stiffness_N_m <= 0.0 || spring.surface < 0 || spring.surface != contact.surface) continue;
-    if (spring.target_W_m != to_vec3(contact.target_world_m)) continue;
+    if (spring.tool != index || spring.target_W_m != to_vec3(contact.target_world_m)) continue;
     model.contact.surface = contact.surface;
     model.contact.force_world_N = to_array(limb.spring_force_N[s]);
     const Mat3& compliance = limb.spring_compliance_m_N[s];
@@ -28,7 +29,7 @@ void Simulation::Impl::write_contact(const messages::ToolContact& contact, messa
   }
 }
 
-messages::LocalLine Simulation::Impl::line_at(const messages::ToolState& tool) const {
+messages::LocalLine Simulation::Impl::line_at(const messages::ToolState& tool, int index) const {
   std::vector<std::vector<Vec3>> points;
   std::vector<LineView> views;
   const std::vector<LineReading> lines_now = read_lines();
@@ -38,11 +39,12 @@ messages::LocalLine Simulation::Impl::line_at(const messages::ToolState& tool) c
     views.push_back({static_cast<int>(m), points[m], lines[m].fractions, std::max(0.0, tension_N(static_cast<int>(m))),
                      force.stiffness_N_m, force.damping_Ns_m});
   }
-  return local_line(views, {to_vec3(tool.tool_position_world_m), tool.grabbed_line, tool.grab_fraction, offered_line});
+  const int offered = index >= 0 && at(index) < offered_lines.size() ? offered_lines[at(index)] : -1;
+  return local_line(views, {to_vec3(tool.tool_position_world_m), tool.grabbed_line, tool.grab_fraction, offered});
 }
 
-void Simulation::Impl::write_grip(const messages::ToolState& tool, messages::LocalModel& model) const {
-  model.grip = local_grip(limb, specimen, surfaces.patch(), tool);
+void Simulation::Impl::write_grip(const messages::ToolState& tool, int index, messages::LocalModel& model) const {
+  model.grip = local_grip(limb, specimen, surfaces.patch(), {tool, index});
   if (model.grip.body < 0) return;
   const int joints = limb.skeleton.joint_count();
   Eigen::MatrixXd damping_Nms_rad = Eigen::MatrixXd::Zero(joints, joints);
@@ -52,7 +54,7 @@ void Simulation::Impl::write_grip(const messages::ToolState& tool, messages::Loc
     damping_Nms_rad +=
         line_force_of(m, geometry).damping_Ns_m * geometry.slope_m_rad * geometry.slope_m_rad.transpose();
   }
-  write_grip_motion(limb, damping_Nms_rad, settings.dt_s, model.grip);
+  write_grip_motion(limb, {damping_Nms_rad, index, settings.dt_s}, model.grip);
 }
 
 void Simulation::Impl::write_joint(int index, const std::vector<LineReading>& lines_now,
@@ -71,16 +73,16 @@ void Simulation::Impl::write_joint(int index, const std::vector<LineReading>& li
   }
 }
 
-void Simulation::write_local_model(const messages::ToolState& tool, messages::LocalModel& model) const {
+void Simulation::write_local_model(const messages::ToolState& tool, messages::LocalModel& model, int index) const {
   const Impl& in = *impl_;
   model.sequence = in.steps;
   model.published_at_ns = static_cast<std::uint64_t>(std::llround(in.time_s() * 1e9));
   model.dt_ns = static_cast<std::uint64_t>(std::llround(in.settings.dt_s * 1e9));
   model.tool_sequence = tool.sequence;
   in.surfaces.patch().write(to_vec3(tool.proxy_position_world_m), model);
-  in.write_contact(tool.contact, model);
-  model.line = in.line_at(tool);
-  in.write_grip(tool, model);
+  in.write_contact(tool.contact, index, model);
+  model.line = in.line_at(tool, index);
+  in.write_grip(tool, index, model);
   model.joint = {};
   for (int j = 0; j < in.limb.skeleton.joint_count(); ++j) {
     if (!in.limb.skeleton.moves(j)) continue;

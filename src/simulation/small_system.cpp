@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 namespace myotact::simulation {
 namespace {
@@ -95,14 +96,39 @@ void add_springs(const Limb& limb, SmallSystem& small) {
   }
 }
 
-/// Compliance of what each spring pulls at, the other springs left out: U^T matrix^-1 U of its muscle, and what the
-/// joints add, P^T joints^-1 P.
+/// What the springs of the other tools take from a compliance: the joints and those springs' forces eliminated
+/// together. `own`: the spring, of the limb's.
+Mat3 compliance_beside(const Limb& limb, const SmallSystem& small, std::size_t own) {
+  std::vector<Eigen::Index> kept;
+  for (std::size_t a = 0; a < small.joints.size(); ++a) kept.push_back(static_cast<Eigen::Index>(a));
+  for (std::size_t s = 0; s < limb.springs.size(); ++s) {
+    if (limb.springs[s].tool == limb.springs[own].tool) continue;
+    for (Eigen::Index k = 0; k < 3; ++k) kept.push_back(small.spring_row(s) + k);
+  }
+  const auto count = static_cast<Eigen::Index>(kept.size());
+  Eigen::MatrixXd inner(count, count), border(count, 3);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Eigen::Index row = kept[static_cast<std::size_t>(i)];
+    border.row(i) = small.matrix.block<1, 3>(row, small.spring_row(own));
+    for (Eigen::Index j = 0; j < count; ++j) inner(i, j) = small.matrix(row, kept[static_cast<std::size_t>(j)]);
+  }
+  return border.transpose() * inner.partialPivLu().solve(border);  // indefinite: the springs' block is negative
+}
+
+bool of_several_tools(const Limb& limb) {
+  return std::any_of(limb.springs.begin(), limb.springs.end(),
+                     [&](const ToolSpring& spring) { return spring.tool != limb.springs.front().tool; });
+}
+
+/// Compliance of what each spring pulls at, its tool's springs left out: U^T matrix^-1 U of its muscle, and what the
+/// joints add, P^T joints^-1 P, which other tools that hold the limb or press on the same muscle lessen.
 void read_compliance(Limb& limb, const SmallSystem& small) {
   const auto joints = static_cast<Eigen::Index>(small.joints.size());
   const Eigen::MatrixXd columns = small.matrix.topRightCorner(joints, small.size() - joints);
   const Eigen::MatrixXd turns = joints > 0 && columns.cols() > 0
                                     ? Eigen::MatrixXd(small.matrix.topLeftCorner(joints, joints).ldlt().solve(columns))
                                     : columns;
+  const bool several = of_several_tools(limb);
   for (std::size_t s = 0; s < limb.springs.size(); ++s) {
     const int muscle = limb.springs[s].muscle;
     const auto first = static_cast<Eigen::Index>(3 * s);
@@ -110,7 +136,11 @@ void read_compliance(Limb& limb, const SmallSystem& small) {
     compliance.setZero();
     if (muscle >= 0 && !limb.muscles[at(muscle)].rigid)
       compliance = limb.muscles[at(muscle)].reduced.block<3, 3>(small.spring_row(s), small.spring_row(s));
-    if (joints > 0) compliance += columns.middleCols<3>(first).transpose() * turns.middleCols<3>(first);
+    if (several) {
+      compliance += compliance_beside(limb, small, s);
+    } else if (joints > 0) {
+      compliance += columns.middleCols<3>(first).transpose() * turns.middleCols<3>(first);
+    }
   }
 }
 

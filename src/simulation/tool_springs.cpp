@@ -105,10 +105,14 @@ std::optional<ToolSpring> body_spring(const messages::ToolState& tool, const ana
 std::vector<ToolSpring> tool_springs(std::span<const messages::ToolState> tools, const TouchableParts& parts,
                                      const Limb& limb) {
   std::vector<ToolSpring> springs;
-  for (const messages::ToolState& tool : tools) {
-    if (const auto spring = contact_spring(tool.contact, parts)) springs.push_back(*spring);
-    if (const auto spring = line_spring(tool, parts, limb)) springs.push_back(*spring);
-    if (const auto spring = body_spring(tool, parts.specimen)) springs.push_back(*spring);
+  for (std::size_t t = 0; t < tools.size(); ++t) {
+    const messages::ToolState& tool = tools[t];
+    for (std::optional<ToolSpring> spring :
+         {contact_spring(tool.contact, parts), line_spring(tool, parts, limb), body_spring(tool, parts.specimen)}) {
+      if (!spring) continue;
+      spring->tool = static_cast<int>(t);
+      springs.push_back(*spring);
+    }
   }
   return springs;
 }

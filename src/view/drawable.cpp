@@ -107,6 +107,16 @@ void add_tube(DrawMesh& mesh, const glm::vec3& from_m, const glm::vec3& to_m, fl
   add_ring(mesh, {to_m, radius_m}, axis, colour, true);
 }
 
+void add_cone(DrawMesh& mesh, const glm::vec3& from_m, const glm::vec3& to_m, const EndRadii& radii,
+              const glm::vec4& colour) {
+  const float length = glm::length(to_m - from_m);
+  if (length < 1e-7f) return;
+  const glm::vec3 axis = (to_m - from_m) / length;
+  const float slope = (radii.from_m - radii.to_m) / length;
+  add_ring(mesh, {from_m, radii.from_m, slope}, axis, colour, false);
+  add_ring(mesh, {to_m, radii.to_m, slope}, axis, colour, true);
+}
+
 void add_arrow(DrawMesh& mesh, const glm::vec3& from_m, const glm::vec3& to_m, float radius_m,
                const glm::vec4& colour) {
   const float length = glm::length(to_m - from_m);

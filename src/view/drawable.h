@@ -40,6 +40,12 @@ class Drawable {
 // Shapes, appended to a mesh; world metres.
 void add_sphere(DrawMesh& mesh, const glm::vec3& centre_m, float radius_m, const glm::vec4& colour);
 void add_tube(DrawMesh& mesh, const glm::vec3& from_m, const glm::vec3& to_m, float radius_m, const glm::vec4& colour);
+struct EndRadii {
+  float from_m = 0.0f, to_m = 0.0f;
+};
+/// Open at both ends, thinner towards `to_m`.
+void add_cone(DrawMesh& mesh, const glm::vec3& from_m, const glm::vec3& to_m, const EndRadii& radii,
+              const glm::vec4& colour);
 void add_arrow(DrawMesh& mesh, const glm::vec3& from_m, const glm::vec3& to_m, float radius_m, const glm::vec4& colour);
 
 }  // namespace myotact::view

@@ -10,6 +10,7 @@
 #include "view/colour_map.h"
 #include "view/joint_panel.h"
 #include "view/key_bindings.h"
+#include "view/tool_drawing.h"
 
 namespace myotact::view {
 
@@ -101,9 +102,21 @@ void draw_legend() {
   ImGui::TextUnformatted("0 .. 1");
 }
 
-void draw_force_bar(double force_N, double peak_N) {
-  const std::string text = fmt::format("force {:.2f} of {:.1f} N", force_N, peak_N);
-  ImGui::ProgressBar(static_cast<float>(force_N / peak_N), ImVec2(-1, 0), text.c_str());
+double force_N(const messages::ToolFrame& tool) {
+  const auto& f = tool.force_world_N;
+  return std::hypot(f[0], f[1], f[2]);
+}
+
+void draw_force_bars(const messages::SceneFrame& frame, const std::vector<double>& peaks_N) {
+  for (std::size_t t = 0; t < frame.tools.size() && t < peaks_N.size(); ++t) {
+    const messages::ToolFrame& tool = frame.tools[t];
+    const char* whose = frame.tools.size() == 1 ? "" : tool.left ? "left " : "right ";
+    const std::string text = fmt::format("{}force {:.2f} of {:.1f} N", whose, force_N(tool), peaks_N[t]);
+    const glm::vec3 colour = tool_colour(tool);
+    ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImVec4(colour.r, colour.g, colour.b, 1.0f));
+    ImGui::ProgressBar(static_cast<float>(force_N(tool) / peaks_N[t]), ImVec2(-1, 0), text.c_str());
+    ImGui::PopStyleColor();
+  }
 }
 
 void draw_rates(const messages::SceneFrame& frame) {
@@ -135,10 +148,9 @@ void update_plots(const messages::SceneFrame& frame, PanelState& state) {
     state.angle.add(frame.time_s, joint.angle_rad * kDegrees);
     state.stiffness.add(frame.time_s, joint.stiffness_Nm_rad);
   }
-  if (!frame.tools.empty()) {
-    const auto& f = frame.tools[0].force_world_N;
-    state.force.add(frame.time_s, std::hypot(f[0], f[1], f[2]));
-  }
+  double sum_N = 0.0;
+  for (const messages::ToolFrame& tool : frame.tools) sum_N += force_N(tool);
+  if (!frame.tools.empty()) state.force.add(frame.time_s, sum_N);
 }
 
 }  // namespace
@@ -152,7 +164,8 @@ void draw_panels(const anatomy::Specimen& specimen, const messages::SceneFrame& 
   ImGui::Begin(
       "Myotact", nullptr,
       ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar);
-  const bool stopped = !frame.tools.empty() && frame.tools[0].forces_stopped;
+  const bool stopped = std::any_of(frame.tools.begin(), frame.tools.end(),
+                                   [](const messages::ToolFrame& tool) { return tool.forces_stopped; });
   draw_play(stopped, controls);
   if (stopped) draw_wrapped("FORCES STOPPED. Enter, or the button, turns them on again.", kWarning);
   ImGui::Separator();
@@ -176,10 +189,7 @@ void draw_panels(const anatomy::Specimen& specimen, const messages::SceneFrame& 
     ImGui::Text("joint stiffness: %s", messages::kPreviewMark);
   }
   state.force.draw(kPlotHeight);
-  if (!frame.tools.empty()) {
-    const auto& f = frame.tools[0].force_world_N;
-    draw_force_bar(std::hypot(f[0], f[1], f[2]), state.device_peak_N);
-  }
+  draw_force_bars(frame, state.device_peaks_N);
   ImGui::Separator();
   draw_rates(frame);
   draw_wrapped(state.note, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "anatomy/specimen.h"
 #include "messages/scene_frame.h"
@@ -16,11 +17,11 @@ inline constexpr float kPanelWidth = 400.0f;  // pixels
 struct PanelState {
   Plot angle{"joint angle q [deg]", 4.0};
   Plot stiffness{"joint stiffness [N m/rad]", 1.0};
-  Plot force{"tool force [N]", 1.0};
+  Plot force{"tool force [N]", 1.0};  // of all tools, added up
   std::string note;
   JointReadings readings;
-  double device_peak_N = 3.3;
-  int joint = 0;  // shown in the plots
+  std::vector<double> device_peaks_N{3.3};  // of the tools' devices
+  int joint = 0;                            // shown in the plots
   bool help = false;
 };
 

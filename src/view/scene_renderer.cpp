@@ -6,6 +6,7 @@
 #include <epoxy/gl.h>
 
 #include "view/colour_map.h"
+#include "view/tool_drawing.h"
 
 namespace myotact::view {
 
@@ -14,10 +15,7 @@ namespace {
 constexpr glm::vec4 kBone{0.91f, 0.87f, 0.77f, 1.0f};
 constexpr glm::vec3 kBackground{0.955f, 0.96f, 0.965f};
 constexpr glm::vec4 kLine{0.80f, 0.18f, 0.12f, 1.0f};
-constexpr glm::vec4 kTool{0.10f, 0.10f, 0.12f, 0.55f};
-constexpr glm::vec4 kProxy{0.00f, 0.62f, 0.45f, 1.0f};  // Okabe-Ito green
-constexpr glm::vec4 kForce{0.84f, 0.37f, 0.00f, 1.0f};  // Okabe-Ito vermilion
-constexpr float kMuscleOpacity = 0.82f;                 // bones shine through
+constexpr float kMuscleOpacity = 0.82f;  // bones shine through
 constexpr float kLineRadius_m = 0.9e-3f;
 
 glm::vec3 to_glm(const Vec3& v) {
@@ -111,7 +109,9 @@ SceneRenderer::SceneRenderer(const anatomy::Specimen& specimen)
     bones_.emplace_back();
     bones_.back().upload(bone_mesh(bone));
   }
-  grid_.upload(grid_mesh(bounds_of(specimen)));
+  const ViewBox bounds = bounds_of(specimen);
+  middle_m_ = 0.5f * (bounds.lowest_m + bounds.highest_m);
+  grid_.upload(grid_mesh(bounds));
 }
 
 void SceneRenderer::draw(const messages::SceneFrame& frame, const Camera& camera, int width, int height,
@@ -169,16 +169,7 @@ void SceneRenderer::draw_lines_and_tools(const messages::SceneFrame& frame) {
     }
   }
   for (const messages::ToolFrame& tool : frame.tools) {
-    const glm::vec3 proxy = to_glm(tool.proxy_world_m);
-    const auto radius = static_cast<float>(tool.radius_m);
-    add_sphere(scratch_, proxy, radius, kProxy);
-    add_sphere(scratch_, to_glm(tool.tool_world_m), 0.6f * radius, kTool);
-    if (tool.grabbed_body >= 0) {
-      const glm::vec3 grip = to_glm(tool.grip_world_m);
-      add_sphere(scratch_, grip, radius, kLine);
-      add_tube(scratch_, grip, to_glm(tool.tool_world_m), kLineRadius_m, kTool);
-    }
-    add_arrow(scratch_, proxy, proxy + kArrowLength_m_N * to_glm(tool.force_world_N), 0.4f * radius, kForce);
+    add_tool(scratch_, tool, middle_m_);
   }
   overlay_.upload(scratch_);
   overlay_.draw(GL_TRIANGLES);

@@ -13,13 +13,10 @@
 
 namespace myotact::view {
 
-/// Lengths and colours of the picture that its legend must tell.
-inline constexpr float kArrowLength_m_N = 0.02f;  // the force arrow
-
 /// Box around the specimen at the file pose.
 ViewBox bounds_of(const anatomy::Specimen& specimen);
 
-/// Draws bones, muscles coloured by activation, muscle lines, tool, proxy, force arrow and marks into the bound
+/// Draws bones, muscles coloured by activation, muscle lines, tools with their force arrows and marks into the bound
 /// framebuffer.
 /// Needs a current OpenGL 3.3 core context from first to last.
 class SceneRenderer {
@@ -36,6 +33,7 @@ class SceneRenderer {
   void draw_marks(const std::vector<SceneMark>& marks);
 
   const anatomy::Specimen* specimen_;
+  glm::vec3 middle_m_{0.0f};  // of the specimen
   GlProgram surface_, flat_;
   std::vector<Drawable> bones_;
   std::vector<Drawable> muscles_;

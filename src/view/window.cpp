@@ -108,7 +108,7 @@ const char* view_of(KeyAction action) {
 struct Window::Impl {
   Impl(const anatomy::Specimen& given, const WindowSettings& settings)
       : specimen(&given), window(settings), imgui(window.get()), renderer(given), bounds(bounds_of(given)) {
-    panels.device_peak_N = settings.device_peak_N;
+    panels.device_peaks_N = settings.device_peaks_N;
     panels.note = settings.note;
     panels.joint = settings.joint;
     controls = settings.start;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "anatomy/specimen.h"
 #include "messages/scene_frame.h"
@@ -16,7 +17,7 @@ struct WindowSettings {
   std::string title = "Myotact";
   std::string note;  // about the scene, shown above the rates
   int width = 1280, height = 800;
-  double device_peak_N = 3.3;
+  std::vector<double> device_peaks_N{3.3};     // of the tools' devices
   int joint = 0;                               // shown in the plots
   ViewControls start;                          // what the sliders show at first
   std::array<double, 3> hand_start_world_m{};  // where the mouse takes the hand up

@@ -46,7 +46,7 @@ struct Outcome {
 Outcome play(int workers, RecordingWriter* recorder = nullptr) {
   const Scene scene = lifted_rod(workers);
   simulation::Simulation simulation(scene.specimen, scene.settings);
-  SampleTable samples(scene.specimen, 1);
+  SampleTable samples(scene.specimen, hands_of(scene), 1);
   LockstepSession session(scene, simulation, samples, recorder);
   Outcome outcome;
   for (int step = 0; step < 190; ++step) {
@@ -89,13 +89,13 @@ TEST(GrabScript, ARecordingRunsAgainToTheSameStatesAndForces) {
   hand.feel(simulation);
   for (std::size_t i = 0; i < recording.steps.size(); ++i) {
     apply(recording.steps[i], simulation);
-    simulation.step({&recording.steps[i].tool, 1});
+    simulation.step(recording.steps[i].tools);
     ASSERT_EQ(simulation.state_hash(), recording.steps[i].state_hash) << "step " << i;
     hand.feel(simulation);
-    ASSERT_EQ(hand.largest_difference_N(), 0.0) << "step " << i;
+    ASSERT_EQ(hand.comparison().largest_difference_N, 0.0) << "step " << i;
   }
-  EXPECT_EQ(hand.compared(), recording.steps.size());
-  EXPECT_GT(hand.largest_force_N(), 0.5);  // something was felt
+  EXPECT_EQ(hand.comparison().compared, recording.steps.size());
+  EXPECT_GT(hand.comparison().largest_force_N, 0.5);  // something was felt
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ struct ScriptRun {
   explicit ScriptRun(const char* name)
       : scene(load_scene(name)),
         simulation(scene.specimen, scene.settings),
-        samples(scene.specimen, 1),
+        samples(scene.specimen, hands_of(scene), 1),
         session(scene, simulation, samples, nullptr) {}
 
   /// The hand's force as it is at that time.
@@ -29,7 +29,7 @@ struct ScriptRun {
 TEST(PlainScene, the_hand_starts_above_what_has_no_muscles) {
   for (const char* name : {"plane", "plate"}) {
     const Scene scene = load_scene(name);
-    const Vec3 start_m = start_of_hand(scene.specimen);
+    const Vec3 start_m = start_of_hand(scene, 0);
     ASSERT_TRUE(start_m.allFinite());
     for (const anatomy::Bone& bone : scene.specimen.bones)
       for (const Vec3& x : bone.surface.positions_m) EXPECT_GT(start_m.z(), x.z() + 0.04);

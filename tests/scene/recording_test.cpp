@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "scene/recording_header.h"
 #include "support/complaint.h"
 
 namespace myotact::scene {
@@ -26,7 +27,8 @@ StepRecord sample_step(std::uint64_t number) {
   step.excitations = {0.25, 0.5};
   step.joint_torques_Nm = {static_cast<double>(number)};
   step.gravity_m_s2 = {0.0, 0.0, -9.81};
-  step.tool.sequence = number;
+  step.tools.resize(1);
+  step.tools[0].sequence = number;
   step.state_hash = 1000 + number;
   return step;
 }
@@ -38,7 +40,7 @@ std::filesystem::path write_sample(const std::string& name) {
   TickRecord tick;
   tick.device.buttons = 1;
   tick.model_sequence = 7;
-  writer.add(std::vector<TickRecord>{tick, tick});
+  writer.add(0, std::vector<TickRecord>{tick, tick});
   writer.add(sample_step(2));
   writer.close();
   return path;
@@ -53,10 +55,10 @@ TEST(Recording, ReadsBackWhatWasWritten) {
   ASSERT_EQ(recording.steps.size(), 2u);
   EXPECT_EQ(recording.steps[1].excitations, (std::vector<double>{0.25, 0.5}));
   EXPECT_EQ(recording.steps[1].joint_torques_Nm, std::vector<double>{2.0});
-  EXPECT_EQ(recording.steps[1].tool.sequence, 2u);
+  EXPECT_EQ(recording.steps[1].tools.at(0).sequence, 2u);
   EXPECT_EQ(recording.steps[1].state_hash, 1002u);
-  ASSERT_EQ(recording.ticks.size(), 2u);
-  EXPECT_EQ(recording.ticks[0].model_sequence, 7u);
+  ASSERT_EQ(recording.tools.at(0).ticks.size(), 2u);
+  EXPECT_EQ(recording.tools[0].ticks[0].model_sequence, 7u);
 }
 
 /// A chunk as the format has it: length, type, payload, checksum of the last two.
@@ -111,12 +113,13 @@ TEST(Recording, CutAnywhereIsReadableUpToTheLastWholeChunk) {
 TEST(Recording, MustFitTheSpecimen) {
   Recording recording;
   recording.steps = {sample_step(0), sample_step(1)};
-  anatomy::Specimen specimen;
-  specimen.muscles.resize(2);
-  specimen.joints.resize(1);
-  EXPECT_NO_THROW(require_fit(recording, specimen, "r"));
+  Scene scene;
+  scene.specimen.muscles.resize(2);
+  scene.specimen.joints.resize(1);
+  scene.tools.resize(1);
+  EXPECT_NO_THROW(require_fit(recording, scene, "r"));
   recording.steps[1].excitations.push_back(1.0);
-  EXPECT_THAT(testing::complaint(ExitStatus::BadData, [&] { require_fit(recording, specimen, "r"); }),
+  EXPECT_THAT(testing::complaint(ExitStatus::BadData, [&] { require_fit(recording, scene, "r"); }),
               ::testing::HasSubstr("step 1: is for 3 muscles and 1 joints; the specimen has 2 and 1"));
 }
 

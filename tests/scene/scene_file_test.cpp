@@ -56,6 +56,53 @@ TEST_F(SceneFile, FillsDefaultsAndResolvesNames) {
   EXPECT_DOUBLE_EQ(scene.activations[static_cast<std::size_t>(anatomy::find_muscle(scene.specimen, "extensor"))], 0.25);
 }
 
+constexpr const char* kTwoTools =
+    R"(, "tools": [{"device": "simulated"}, {"device": "simulated", "hand": "left", "shape": "clamp"}], "script": )";
+
+TEST_F(SceneFile, AnActionIsTheFirstToolsUnlessItNamesAHand) {
+  const Scene scene = parse(kTwoTools + std::string(R"([
+    {"t_s": 0, "do": "grab_bone", "hand": "left", "bone": "lower", "from": [1, 0, 0], "drag_m": [0, 0, 0], "duration_s": 3},
+    {"t_s": 1, "do": "release", "duration_s": 1}, {"t_s": 1.5, "do": "activate", "muscle": "flexor", "to": 1},
+    {"t_s": 2, "do": "release", "hand": "right"}])"));
+  ASSERT_EQ(scene.tools.size(), 2u);
+  EXPECT_EQ(scene.tools[1].shape, messages::ToolShape::Clamp);
+  ASSERT_EQ(scene.script.size(), 4u);
+  EXPECT_EQ(scene.script[0].tool, 1u);
+  EXPECT_EQ(scene.script[1].tool, 0u);
+  EXPECT_EQ(scene.script[3].tool, 0u);
+}
+
+TEST_F(SceneFile, OneHandCannotDoTwoThingsAtOnce) {
+  const std::string release = R"({"t_s": 0, "do": "release", "duration_s": 2}, )";
+  EXPECT_THAT(complaint(kTwoTools + ("[" + release + R"({"t_s": 1, "do": "release", "hand": "right"}])")),
+              HasSubstr("/script/1: starts at 1 s, before the same hand's action 0 ends at 2 s"));
+  EXPECT_EQ(complaint(kTwoTools + ("[" + release + R"({"t_s": 1, "do": "release", "hand": "left"}])")), "nothing");
+  EXPECT_EQ(complaint(kTwoTools + ("[" + release + R"({"t_s": 2, "do": "release"}])")), "nothing");
+}
+
+TEST_F(SceneFile, HandsMustBeThere) {
+  EXPECT_THAT(complaint(R"(, "script": [{"t_s": 0, "do": "release", "hand": "left"}])"),
+              HasSubstr("/script/0/hand: the scene has no tool for the left hand"));
+  EXPECT_THAT(complaint(kTwoTools + std::string(R"([{"t_s": 0, "do": "picture", "view": "lateral", "hand": "left"}])")),
+              HasSubstr("hand"));  // no hand takes pictures
+  EXPECT_THAT(complaint(R"(, "tools": [{"device": "simulated"}, {"device": "simulated"}])"),
+              HasSubstr("both tools are for the right hand"));
+  EXPECT_THAT(complaint(R"(, "tools": [{"device": "a"}, {"device": "b", "hand": "left"}, {"device": "c"}])"),
+              HasSubstr("/tools/2"));
+}
+
+TEST_F(SceneFile, APointIsFinerThanABall) {
+  const auto radius = [&](const std::string& key) {
+    return parse(R"(, "tools": [{"device": "simulated", )" + key + "}]").tools.front().radius_m;
+  };
+  EXPECT_EQ(radius(R"("shape": "point")"), 0.5e-3);
+  EXPECT_EQ(radius(R"("shape": "ball")"), 3e-3);
+  EXPECT_EQ(radius(R"("shape": "point", "radius_m": 0.0004)"), 0.4e-3);
+  EXPECT_THAT(complaint(R"(, "tools": [{"device": "simulated", "shape": "point", "radius_m": 0.003}])"),
+              HasSubstr("/tools/0/radius_m"));
+  EXPECT_THAT(complaint(R"(, "tools": [{"device": "simulated", "shape": "cube"}])"), HasSubstr("ball"));
+}
+
 TEST_F(SceneFile, AToolsForcesAreBounded) {
   const auto tool = [](const std::string& key) { return R"(, "tools": [{"device": "simulated", )" + key + "}]"; };
   EXPECT_EQ(parse("").tools.front().force_limit, 0.5);

@@ -15,6 +15,7 @@
 #include "scene/force_replay.h"
 #include "scene/free_session.h"
 #include "scene/lockstep_session.h"
+#include "scene/recording_header.h"
 #include "simulation/simulation.h"
 
 namespace myotact::measure {
@@ -38,9 +39,9 @@ class TemporaryFile {
 };
 
 void record(const scene::Scene& scene, double end_s, const std::filesystem::path& path) {
-  scene::RecordingWriter writer(path, scene::recording_header(scene, 1, device::DeviceProfile{}));
+  scene::RecordingWriter writer(path, scene::recording_header(scene, 1, {device::DeviceProfile{}}));
   simulation::Simulation simulation(scene.specimen, scene.settings);
-  scene::SampleTable samples(scene.specimen, 1'000'000);
+  scene::SampleTable samples(scene.specimen, scene::hands_of(scene), 1'000'000);
   scene::LockstepSession session(scene, simulation, samples, &writer);
   const double length_s = std::min(end_s, session.conductor().script_end_s());
   const auto steps = static_cast<int>(std::llround(length_s / scene.settings.dt_s));
@@ -50,10 +51,11 @@ void record(const scene::Scene& scene, double end_s, const std::filesystem::path
 
 /// The same with its own threads: when models arrive is up to the scheduler, and recorded.
 void record_free(const scene::Scene& scene, double seconds, const std::filesystem::path& path) {
-  device::SimulatedDevice device(scene.tools.front().device, scene::start_of_hand(scene.specimen));
-  scene::RecordingWriter writer(path, scene::recording_header(scene, 1, device.profile()));
+  device::SimulatedDevice device(scene.tools.front().device, scene::start_of_hand(scene, 0));
+  scene::RecordingWriter writer(path, scene::recording_header(scene, 1, {device.profile()}));
   simulation::Simulation simulation(scene.specimen, scene.settings);
-  scene::FreeSession session(scene, simulation, device, &device, &writer);
+  const scene::ToolDevice tool{&device, &device};
+  scene::FreeSession session(scene, simulation, {&tool, 1}, &writer);
   session.start();
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
   session.stop();
@@ -71,18 +73,19 @@ Comparison feel_again(const std::filesystem::path& path) {
   const scene::Scene scene = scene::scene_of_recording(header, path, {});
   simulation::Simulation simulation(scene.specimen, scene.settings);
   const scene::Conductor start(scene, simulation);
-  scene::ForceReplay hand(scene, recording, scene::device_of_recording(header, path));
+  scene::ForceReplay hand(scene, recording, scene::devices_of_recording(header, path));
   Comparison result;
   hand.feel(simulation);
   for (const scene::StepRecord& step : recording.steps) {
     scene::apply(step, simulation);
-    simulation.step({&step.tool, 1});
+    simulation.step(step.tools);
     result.unlike_states += simulation.state_hash() != step.state_hash ? 1 : 0;
     hand.feel(simulation);
   }
-  result.compared = hand.compared();
-  result.largest_difference_N = hand.largest_difference_N();
-  result.largest_force_N = hand.largest_force_N();
+  const scene::ForceComparison forces = hand.comparison();
+  result.compared = forces.compared;
+  result.largest_difference_N = forces.largest_difference_N;
+  result.largest_force_N = forces.largest_force_N;
   return result;
 }
 
