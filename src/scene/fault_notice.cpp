@@ -7,10 +7,9 @@ namespace myotact::scene {
 namespace {
 
 constexpr std::uint64_t kShown_ns = 3'000'000'000;  // long enough to be read
-constexpr std::uint32_t kMinor = haptics::bit(haptics::Fault::MissedDeadline) |
-                                 haptics::bit(haptics::Fault::ProxyBudget) |
-                                 haptics::bit(haptics::Fault::ProxyRescued) |
-                                 haptics::bit(haptics::Fault::EnergyInjected);
+constexpr std::uint32_t kMinor =
+    haptics::bit(haptics::Fault::MissedDeadline) | haptics::bit(haptics::Fault::ProxyBudget) |
+    haptics::bit(haptics::Fault::ProxyRescued) | haptics::bit(haptics::Fault::EnergyInjected);
 
 }  // namespace
 
