@@ -151,10 +151,11 @@ Pose BulletEngine::body_pose(int surface) const {
 void BulletEngine::write_surface(int tool, messages::LocalModel& model) const {
   const messages::ToolState& state = tools_[at(tool)];
   surfaces_.patch().write(to_vec3(state.proxy_position_world_m), model);
-  model.grip = simulation::local_grip(limb_, specimen_, surfaces_.patch(), state);
+  model.grip = simulation::local_grip(limb_, specimen_, surfaces_.patch(), {state, tool});
   if (model.grip.body < 0) return;
   const int joints = limb_.skeleton.joint_count();
-  write_grip_motion(limb_, Eigen::MatrixXd::Zero(joints, joints), settings_.step_s, model.grip);
+  const Eigen::MatrixXd no_damping = Eigen::MatrixXd::Zero(joints, joints);  // of muscles: there are none
+  write_grip_motion(limb_, {no_damping, tool, settings_.step_s}, model.grip);
 }
 
 }  // namespace
