@@ -16,6 +16,7 @@
 #include "measure/fidelity/safety_goals.h"
 #include "measure/fidelity/stability_goals.h"
 #include "measure/fidelity/texture_goals.h"
+#include "measure/fidelity/two_hand_goals.h"
 
 namespace myotact::measure {
 
@@ -42,6 +43,7 @@ constexpr std::array kGoals = {
     Goal{18, "impulse of the hand against that of the tissue", measure_impulse_balance},
     Goal{20, "force within its limit, and gone at once, whatever goes wrong", measure_safety},
     Goal{21, "a recorded session comes out again", measure_replay},
+    Goal{22, "two hands on one mesh feel what each feels alone", measure_two_hands},
 };
 
 }  // namespace
