@@ -37,12 +37,10 @@ class HapticThread {
   const std::string& refused() const noexcept { return permission_.why_not; }
   // ---- any thread, while it runs
   const realtime::PeriodHistogram& periods() const noexcept { return periods_; }  // from round to round
-  const realtime::PeriodHistogram& ticks() const noexcept {
-    return durations_;
-  }  // how long a round takes, from its wake
-  const realtime::PeriodHistogram& ticks(std::size_t loop) const noexcept {
-    return loop_durations_[loop];
-  }                                                                                             // one loop's
+  /// How long a round takes, from its wake.
+  const realtime::PeriodHistogram& ticks() const noexcept { return durations_; }
+  /// How long the tick of one loop takes; the first one's from the wake.
+  const realtime::PeriodHistogram& ticks(std::size_t loop) const noexcept { return loop_durations_[loop]; }
   std::uint64_t tick_count() const noexcept { return count_.load(std::memory_order_relaxed); }  // rounds
   std::uint64_t missed_count() const noexcept { return missed_.load(std::memory_order_relaxed); }
 
