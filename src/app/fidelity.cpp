@@ -15,6 +15,7 @@
 #include "device/profile_file.h"
 #include "measure/fidelity/scene_fidelity_report.h"
 #include "measure/fidelity/suite_report.h"
+#include "scene/recording_header.h"
 
 namespace myotact::app {
 
@@ -50,9 +51,9 @@ Subject subject_of(const Options& options) {
     subject.recording = scene::read_recording(*options.recording);
     const nlohmann::json header = parse_json(subject.recording->header_json, options.recording->string() + " (header)");
     subject.scene = scene::scene_of_recording(header, *options.recording, overrides_of(options));
-    scene::require_fit(*subject.recording, subject.scene.specimen, *options.recording);
+    scene::require_fit(*subject.recording, subject.scene, *options.recording);
     if (options.devices.empty())
-      subject.device = {"recorded", "the recorded device", scene::device_of_recording(header, *options.recording)};
+      subject.device = {"recorded", "the recorded device", scene::devices_of_recording(header, *options.recording).front()};
   } else {
     subject.scene = scene::load_scene(options.scene, overrides_of(options));
     scene::set_seed(subject.scene, options.seed);

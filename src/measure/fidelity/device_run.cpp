@@ -24,9 +24,10 @@ class StepBook {
         model_(std::make_unique<messages::LocalModel>()) {}
 
   void add(const scene::StepRecord& input, const simulation::Simulation& simulation, DeviceRun& run) {
-    simulation.write_local_model(input.tool, *model_);
+    const messages::ToolState& measured = input.tools.front();
+    simulation.write_local_model(measured, *model_);
     run.steps.push_back(input);
-    run.step_force_N.push_back(simulated_force_N(*model_, input.tool, force_scale_));
+    run.step_force_N.push_back(simulated_force_N(*model_, measured, force_scale_));
     if (joint_ >= 0) run.joints.push_back(simulation.joint(joint_));
   }
 
@@ -56,6 +57,30 @@ std::vector<Vec3> smoothed_path_m(const std::vector<haptics::HapticTick>& ticks)
     path_m.emplace_back(sum_m / weight);
   }
   return path_m;
+}
+
+/// A simulated device a tool, all of the same profile.
+struct ScriptedDevices {
+  ScriptedDevices(const scene::Conductor& conductor, std::size_t count, const device::DeviceProfile& profile) {
+    for (std::size_t t = 0; t < count; ++t) {
+      owned.push_back(
+          std::make_unique<device::SimulatedDevice>("simulated", conductor.hand(t, 0.0).position_world_m, profile));
+      pointers.push_back(owned.back().get());
+    }
+  }
+  void aim(const scene::Conductor& conductor, double time_s) {
+    for (std::size_t t = 0; t < owned.size(); ++t) {
+      const scene::HandTarget hand = conductor.hand(t, time_s);
+      owned[t]->set_hand_target({to_array(hand.position_world_m), {}, hand.buttons});
+    }
+  }
+
+  std::vector<std::unique_ptr<device::SimulatedDevice>> owned;
+  std::vector<device::Device*> pointers;
+};
+
+void publish_models(const simulation::Simulation& simulation, scene::LockstepHaptics& haptics) {
+  for (std::size_t t = 0; t < haptics.tool_count(); ++t) haptics.publish_model(t, simulation);
 }
 
 bool goes_on(const RunWatch& watch, std::size_t done, std::size_t all) {
@@ -90,13 +115,13 @@ DeviceRun run_scripted(const scene::Scene& scene, const device::DeviceProfile& p
                        const RunWatch& watch) {
   simulation::Simulation simulation(scene.specimen, scene.settings);
   scene::Conductor conductor(scene, simulation);
-  device::SimulatedDevice device("simulated", conductor.hand(0.0).position_world_m, profile);
-  scene::LockstepHaptics haptics(device, scene);
-  device.set_hand_target({to_array(conductor.hand(0.0).position_world_m), {}, 0});
-  haptics.publish_model(simulation);
+  ScriptedDevices devices(conductor, scene.tools.size(), profile);
+  scene::LockstepHaptics haptics(devices.pointers, scene);
+  devices.aim(conductor, 0.0);
+  publish_models(simulation, haptics);
   for (int i = 0; i < kGateOpens_ticks; ++i) {
     haptics.tick();
-    if ((i + 1) % haptics.ticks_a_step() == 0) haptics.publish_model(simulation);
+    if ((i + 1) % haptics.ticks_a_step() == 0) publish_models(simulation, haptics);
   }
   const double start_s = haptics.time_s();
   StepBook book(scene);
@@ -108,18 +133,18 @@ DeviceRun run_scripted(const scene::Scene& scene, const device::DeviceProfile& p
   for (std::size_t step = 0; step < steps && goes_on(watch, step, steps); ++step) {
     conductor.prepare_step(simulation.time_s(), input);
     for (int i = 0; i < haptics.ticks_a_step(); ++i) {
-      const scene::HandTarget hand = conductor.hand(haptics.time_s() - start_s);
-      device.set_hand_target({to_array(hand.position_world_m), {}, hand.buttons});
+      devices.aim(conductor, haptics.time_s() - start_s);
       haptics.tick();
-      run.ticks.push_back(haptics.last_tick());
-      run.hand_m.push_back(device.position_world_m());
+      run.ticks.push_back(haptics.last_tick(0));
+      run.hand_m.push_back(devices.owned.front()->position_world_m());
       run.step_of_tick.push_back(step);
     }
-    input.tool = haptics.tool();
+    input.tools.clear();
+    for (std::size_t t = 0; t < haptics.tool_count(); ++t) input.tools.push_back(haptics.last_tick(t).tool);
     scene::apply(input, simulation);
-    simulation.step({&input.tool, 1});
+    simulation.step(input.tools);
     book.add(input, simulation, run);
-    haptics.publish_model(simulation);
+    publish_models(simulation, haptics);
   }
   return run;
 }
@@ -128,18 +153,18 @@ DeviceRun run_recorded(const scene::Scene& scene, const scene::Recording& record
                        const device::DeviceProfile& profile, const RunWatch& watch) {
   simulation::Simulation simulation(scene.specimen, scene.settings);
   const scene::Conductor start(scene, simulation);  // puts the simulation where the recording began
-  scene::ForceReplay replay(scene, recording, profile);
+  scene::ForceReplay replay(scene, recording, std::vector(scene.tools.size(), profile));
   StepBook book(scene);
   DeviceRun run;
   const std::size_t steps = recording.steps.size();
   for (std::size_t step = 0; step < steps && goes_on(watch, step, steps); ++step) {
     replay.feel(simulation);
-    for (haptics::HapticTick tick; replay.ticks().pop(tick);) {
+    for (haptics::HapticTick tick; replay.tool_count() > 0 && replay.ticks(0).pop(tick);) {
       run.ticks.push_back(tick);
       run.step_of_tick.push_back(step);
     }
     scene::apply(recording.steps[step], simulation);
-    simulation.step({&recording.steps[step].tool, 1});
+    simulation.step(recording.steps[step].tools);
     book.add(recording.steps[step], simulation, run);
   }
   run.hand_m = smoothed_path_m(run.ticks);

@@ -18,7 +18,8 @@ struct RunWatch {
   std::function<bool()> stopped;  // true, once and for good: end here, with what there is
 };
 
-/// What was felt along a path of the device, and what the simulation was told and gave meanwhile.
+/// What the first tool's hand felt along a path of its device, and what the simulation was told and gave meanwhile. A
+/// second hand acts beside it.
 struct DeviceRun {
   std::vector<haptics::HapticTick> ticks;  // 1 ms apart
   /// Where the hand was at each tick: of a simulated device the truth behind its encoder; of a recorded one its counts

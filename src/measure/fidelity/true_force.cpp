@@ -81,8 +81,11 @@ std::vector<Vec3> true_force_by_ticks(const scene::Scene& scene, const DeviceRun
     now_ns += haptics::kTickPeriod_ns;
     for (haptics::HapticTick tick; loop.ticks().pop(tick);) {  // nobody else empties the queue here
     }
-    scene::apply(run.steps[run.step_of_tick[k]], simulation);
-    simulation.step({&loop.tool_state(), 1});
+    const scene::StepRecord& step = run.steps[run.step_of_tick[k]];
+    std::vector<messages::ToolState> tools = step.tools;  // another hand holds what it held in that step
+    tools.front() = loop.tool_state();
+    scene::apply(step, simulation);
+    simulation.step(tools);
   }
   messages::LocalModel& last = loop.models().back();
   simulation.write_local_model(loop.tool_state(), last);
