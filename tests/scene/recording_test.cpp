@@ -71,9 +71,9 @@ void append_chunk(std::string& bytes, const std::string& type_and_payload) {
   bytes.append(reinterpret_cast<const char*>(&sum), sizeof sum);
 }
 
-/// Steps were shorter once: the tool's last member was not there.
+/// Steps were shorter once: no number of tools, and the tool's last member was not there.
 TEST(Recording, ReadsStepsOfEarlierVersions) {
-  constexpr std::uint32_t kStep = 2;
+  constexpr std::uint32_t kStepOfOne = 2, kStep = 7;
   const auto path = write_sample("earlier.rec");
   const std::string now = read_file(path);
   std::string earlier = now.substr(0, 8);
@@ -83,7 +83,12 @@ TEST(Recording, ReadsStepsOfEarlierVersions) {
     std::memcpy(&type, now.data() + at + 4, sizeof type);
     std::string chunk = now.substr(at + 4, 4 + length);
     constexpr std::size_t kNew = sizeof(messages::ToolState::touched_world_m);
-    if (type == kStep) chunk.erase(chunk.size() - sizeof(std::uint64_t) - kNew, kNew);
+    if (type == kStep) {
+      constexpr std::size_t kHash = sizeof(std::uint64_t), kCount = sizeof(std::uint32_t);
+      chunk.erase(chunk.size() - kHash - kNew, kNew);
+      chunk.erase(chunk.size() - kHash - (sizeof(messages::ToolState) - kNew) - kCount, kCount);
+      std::memcpy(chunk.data(), &kStepOfOne, sizeof kStepOfOne);
+    }
     append_chunk(earlier, chunk);
     at += 12 + length;
   }
@@ -92,7 +97,7 @@ TEST(Recording, ReadsStepsOfEarlierVersions) {
   std::filesystem::remove(path);
   EXPECT_TRUE(recording.complete);
   ASSERT_EQ(recording.steps.size(), 2u);
-  EXPECT_EQ(recording.steps[1].tool.sequence, 2u);
+  EXPECT_EQ(recording.steps[1].tools.at(0).sequence, 2u);
   EXPECT_EQ(recording.steps[1].state_hash, 1002u);
 }
 

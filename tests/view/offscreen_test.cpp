@@ -84,5 +84,25 @@ TEST_F(Offscreen, ABoneInHandIsMarkedWhereItIsHeld) {
   EXPECT_GT(different_pixels(empty_hand, renderer_->render(frame, camera)), 10u);
 }
 
+TEST_F(Offscreen, EachHandAndEachShapeLooksItsOwn) {
+  messages::SceneFrame frame = frame_of(specimen_, 0.0);
+  frame.tools.resize(2);
+  for (messages::ToolFrame& tool : frame.tools) tool.radius_m = 6e-3;
+  frame.tools[0].tool_world_m = frame.tools[0].proxy_world_m = {0.15, 0.0, 0.03};
+  frame.tools[1].tool_world_m = frame.tools[1].proxy_world_m = {-0.1, 0.0, 0.08};
+  frame.tools[1].left = true;
+  const auto camera = *standard_view("lateral", true, bounds_of(specimen_), 4.0f / 3.0f);
+  const Image balls = renderer_->render(frame, camera);
+  frame.tools[1].left = false;
+  EXPECT_GT(different_pixels(balls, renderer_->render(frame, camera)), 10u);  // of another colour
+  frame.tools[1].left = true;
+  for (const messages::ToolShape shape : {messages::ToolShape::Point, messages::ToolShape::Clamp}) {
+    frame.tools[1].shape = shape;
+    EXPECT_GT(different_pixels(balls, renderer_->render(frame, camera)), 10u);
+  }
+  frame.tools.resize(1);
+  EXPECT_GT(different_pixels(balls, renderer_->render(frame, camera)), 10u);  // both were there
+}
+
 }  // namespace
 }  // namespace myotact::view

@@ -25,7 +25,7 @@ namespace {
 constexpr std::uint64_t kTick_ns = haptics::kTickPeriod_ns, kStep_ns = 10 * kTick_ns;
 constexpr double kBall_m = 0.025;
 constexpr int kBallLevels = 4;    // 5120 triangles
-constexpr double kDeep_m = 4e-3;  // of the hands' targets below the skin: some 1 N at 300 N/m
+constexpr double kDeep_m = 3e-3;  // of the hands' targets below the skin: some 1 N at 300 N/m
 constexpr Swelling kBreathing{2e-3, 0.02, 0.0, 0.5e-3};
 
 haptics::HapticSettings settings() {
@@ -237,7 +237,7 @@ GoalFigures measure_two_hands(Effort effort) {
       {"on the wall clock, p99 of the first hand's tick over that alone", two.tick_p99_us[0] / one.tick_p99_us[0], "",
        1.2, false, true}};
   result.note = fmt::format(
-      "one ball of {} triangles that breathes by 2 mm, a hand on each side, 4 mm deep; p99 of a tick {:.1f} us alone, "
+      "one ball of {} triangles that breathes by 2 mm, a hand on each side, 3 mm deep; p99 of a tick {:.1f} us alone, "
       "{:.1f} and {:.1f} us beside each other; in the haptic thread, from its wake, {:.1f} us alone, {:.1f} us and "
       "{:.1f} us more for the second; {:.1f} us a round",
       20 << (2 * kBallLevels), p99_us(a_alone->durations), p99_us(a->durations), p99_us(b->durations),
