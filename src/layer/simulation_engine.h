@@ -9,6 +9,10 @@
 
 namespace myotact::layer {
 
+/// Names the triangle of a contact that is known by its place alone, as for other engines (engine_surfaces.h): the
+/// springs of a tool hang on triangles.
+void name_touched_triangle(const simulation::Simulation& simulation, messages::ToolState& tool);
+
 /// Our own simulation behind the adapter. It has no collision detection of its own: what a sphere would meet is the
 /// point of each surface that is deepest in it, among the triangles of the local model.
 class SimulationEngine final : public Engine {

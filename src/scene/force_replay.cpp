@@ -36,6 +36,7 @@ ToolReplay::ToolReplay(const Scene& scene, const Recording& recording, const dev
     : recording_(recording),
       tool_(tool),
       step_ns_(static_cast<std::uint64_t>(std::llround(scene.settings.dt_s * 1e9))),
+      report_radius_m_(report_radius_m(scene.tools[tool])),
       device_(device_states(recording.tools[tool].ticks), device),
       loop_(device_, haptic_settings(scene.tools[tool])) {
   const std::vector<TickRecord>& ticks = recording.tools[tool].ticks;
@@ -59,7 +60,7 @@ void ToolReplay::publish(const ModelRecord& record, const simulation::Simulation
   messages::ToolState state;  // before the first step the hand touches nothing
   state.tool_position_world_m = state.proxy_position_world_m = record.tool_position_world_m;
   if (record.step > 0) state = recording_.steps[record.step - 1].tools[tool_];
-  write_model(simulation, {state, static_cast<int>(tool_), record, step_ns_}, loop_.models().back());
+  write_model(simulation, {state, static_cast<int>(tool_), record, step_ns_, report_radius_m_}, loop_.models().back());
   loop_.models().publish();
 }
 

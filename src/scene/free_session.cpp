@@ -8,6 +8,7 @@
 
 #include "haptics/faults.h"
 #include "haptics/haptic_group.h"
+#include "layer/simulation_engine.h"
 #include "realtime/periodic_loop.h"
 #include "scene/lockstep_haptics.h"
 #include "scene/model_writer.h"
@@ -169,6 +170,7 @@ void FreeSession::step() {
   for (haptics::HapticLoop* loop : loops_) {
     loop->tool_states().update();
     input_.tools.push_back(loop->tool_states().front());
+    layer::name_touched_triangle(*simulation_, input_.tools.back());
   }
   apply(input_, *simulation_);
   simulation_->step(input_.tools);
@@ -200,7 +202,8 @@ void FreeSession::publish_models() {
     const messages::ToolState& state = loop.tool_states().front();
     const ModelRecord record{++tools_[t]->model_sequence, realtime::steady_now_ns(), obeyed_.paused,
                              state.tool_position_world_m, 0};
-    write_model(*simulation_, {state, static_cast<int>(t), record, step_ns}, loop.models().back());
+    write_model(*simulation_, {state, static_cast<int>(t), record, step_ns, report_radius_m(scene_->tools[t])},
+                loop.models().back());
     loop.models().publish();
     if (recorder_ != nullptr) recorder_->add(t, record);
   }

@@ -41,6 +41,7 @@ LockstepHaptics::LockstepHaptics(std::span<device::Device* const> devices, const
   for (std::size_t t = 0; t < devices.size(); ++t) {
     owned_.push_back(std::make_unique<haptics::HapticLoop>(*devices[t], haptic_settings(scene.tools[t])));
     loops_.push_back(owned_.back().get());
+    report_radii_m_.push_back(report_radius_m(scene.tools[t]));
     loops_.back()->prepare(clock_ns_);
   }
   notice_ = stiffness_notices(loops_, scene);
@@ -67,7 +68,8 @@ ModelRecord LockstepHaptics::publish_model(std::size_t tool, const simulation::S
   haptics::HapticLoop& loop = *loops_[tool];
   const messages::ToolState& state = loop.tool_state();
   const ModelRecord record{++model_sequences_[tool], clock_ns_, false, state.tool_position_world_m, 0};
-  write_model(simulation, {state, static_cast<int>(tool), record, step_ns_}, loop.models().back());
+  write_model(simulation, {state, static_cast<int>(tool), record, step_ns_, report_radii_m_[tool]},
+              loop.models().back());
   loop.models().publish();
   return record;
 }

@@ -46,6 +46,7 @@ class LockstepHaptics {
   std::string notice_;
   std::uint64_t clock_ns_ = haptics::kTickPeriod_ns;  // time 0 means "never" to a device
   std::vector<std::uint64_t> model_sequences_;        // one a tool
+  std::vector<double> report_radii_m_;                // likewise (model_writer.h)
 };
 
 }  // namespace myotact::scene

@@ -1,5 +1,6 @@
 #include "scene/lockstep_session.h"
 
+#include "layer/simulation_engine.h"
 #include "scene/tool_frame.h"
 
 namespace myotact::scene {
@@ -76,7 +77,10 @@ void LockstepSession::step() {
   conductor_.prepare_step(simulation_->time_s(), input_);
   run_ticks();
   input_.tools.clear();
-  for (std::size_t t = 0; t < devices_.size(); ++t) input_.tools.push_back(tool(t));
+  for (std::size_t t = 0; t < devices_.size(); ++t) {
+    input_.tools.push_back(tool(t));
+    layer::name_touched_triangle(*simulation_, input_.tools.back());
+  }
   apply(input_, *simulation_);
   simulation_->step(input_.tools);
   extremes_.add_step(*scene_, *simulation_);
