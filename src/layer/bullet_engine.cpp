@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "layer/bullet_contacts.h"
+#include "layer/bullet_tissue.h"
 #include "layer/bullet_world.h"
 #include "layer/engine_surfaces.h"
 #include "simulation/local_grip.h"
@@ -21,6 +23,11 @@ std::size_t at(int i) {
 std::unique_ptr<btConvexShape> shape_of(const ToolBody& tool) {
   if (tool.shape == ToolBody::Shape::Sphere) return std::make_unique<btSphereShape>(tool.radius_m);
   return std::make_unique<btBoxShape>(btVector3(tool.radius_m, tool.radius_m, tool.radius_m));
+}
+
+/// Of every muscle: our own simulation does not move it.
+std::vector<simulation::TissueModel> shapes_only(const anatomy::Specimen& specimen) {
+  return std::vector<simulation::TissueModel>(specimen.muscles.size(), simulation::TissueModel::Rigid);
 }
 
 class BulletEngine final : public Engine {
@@ -45,6 +52,7 @@ class BulletEngine final : public Engine {
   const anatomy::Specimen specimen_;
   BulletSettings settings_;
   BulletWorld world_;
+  BulletTissue tissue_;
   EngineSurfaces surfaces_;
   /// Angles and rates as Bullet has them, in the form from which our own simulation tells how a body in hand moves.
   simulation::Limb limb_;
@@ -58,8 +66,9 @@ BulletEngine::BulletEngine(const anatomy::Specimen& specimen, const BulletSettin
     : specimen_(specimen),
       settings_(settings),
       world_(specimen_, settings.gravity_m_s2),
+      tissue_(specimen_, settings.gravity_m_s2),
       surfaces_(specimen_),
-      limb_(specimen_),
+      limb_(specimen_, shapes_only(specimen_), simulation::Tendon::Elastic, false),
       tools_(settings.tools.size()) {
   for (const ToolBody& tool : settings.tools) shapes_.push_back(shape_of(tool));
   limb_.gravity_m_s2 = settings.gravity_m_s2;
@@ -83,6 +92,7 @@ void BulletEngine::push_spring(const simulation::ToolSpring& spring, double h_s,
 void BulletEngine::move_tool(int tool, const messages::ToolState& state) {
   messages::ToolState& taken = tools_[at(tool)];
   taken = state;
+  taken.grabbed_line = -1;  // Bullet knows no muscle lines
   if (taken.contact.surface < 0 || taken.contact.triangle >= 0) return;
   surfaces_.patch().write(to_vec3(state.touched_world_m), around_);
   name_touched_triangle(around_, taken);
@@ -92,16 +102,17 @@ void BulletEngine::advance() {
   const double h_s = settings_.step_s / settings_.substeps;
   limb_.before = limb_.last;
   limb_.last = limb_.now;
-  limb_.springs = simulation::tool_springs(tools_, {specimen_, {}}, limb_);
+  limb_.springs = simulation::tool_springs(tools_, {specimen_, tissue_.skins()}, limb_);
   limb_.spring_force_N.assign(limb_.springs.size(), Vec3::Zero());
   for (int substep = 0; substep < settings_.substeps; ++substep) {
     for (std::size_t s = 0; s < limb_.springs.size(); ++s) {
-      push_spring(limb_.springs[s], h_s, limb_.spring_force_N[s]);
+      if (limb_.springs[s].muscle < 0) push_spring(limb_.springs[s], h_s, limb_.spring_force_N[s]);
     }
     push_joints(h_s);
     world_.advance(h_s);
     take_angles();
   }
+  if (!specimen_.muscles.empty()) tissue_.advance(settings_.step_s, limb_.springs, limb_.spring_force_N);
   follow();
 }
 
@@ -130,7 +141,9 @@ void BulletEngine::take_angles() {
 
 void BulletEngine::follow() {
   simulation::read_out(limb_);
-  for (int s = 0; s < surfaces_.count(); ++s) surfaces_.follow(s, body_pose(s));
+  const int muscles = surfaces_.muscle_count();
+  for (int s = 0; s < muscles; ++s) surfaces_.follow(s, tissue_.skin_world_m(s));
+  for (int s = muscles; s < surfaces_.count(); ++s) surfaces_.follow(s, body_pose(s));
 }
 
 void BulletEngine::report_contacts(int tool, messages::ReportedContacts& reported) const {
@@ -138,14 +151,20 @@ void BulletEngine::report_contacts(int tool, messages::ReportedContacts& reporte
   reported.tool_world_m = tools_[at(tool)].tool_position_world_m;
   const Vec3 middle_m = to_vec3(reported.tool_world_m);
   if (!middle_m.allFinite()) return;
-  const std::vector<messages::ReportedContact> contacts = world_.contacts(*shapes_[at(tool)], middle_m);
+  std::vector<messages::ReportedContact> contacts = tissue_.contacts(*shapes_[at(tool)], middle_m);
+  for (messages::ReportedContact contact : world_.contacts(*shapes_[at(tool)], middle_m)) {
+    contact.surface += surfaces_.muscle_count();  // bones are numbered after them
+    contacts.push_back(contact);
+  }
+  sort_by_depth(contacts);
   const std::size_t count = std::min(contacts.size(), reported.contacts.size());
   std::copy_n(contacts.begin(), count, reported.contacts.begin());
   reported.count = static_cast<std::int32_t>(count);
 }
 
 Pose BulletEngine::body_pose(int surface) const {
-  return world_.body_pose(surfaces_.body_of(surface));
+  const int body = surfaces_.body_of(surface);
+  return body < 0 ? Pose{} : world_.body_pose(body);
 }
 
 void BulletEngine::write_surface(int tool, messages::LocalModel& model) const {
@@ -165,9 +184,6 @@ bool has_bullet() {
 }
 
 std::unique_ptr<Engine> make_bullet_engine(const anatomy::Specimen& specimen, const BulletSettings& settings) {
-  if (!specimen.muscles.empty()) {
-    throw bad_data(specimen.name, "/muscles", "are soft, which this adapter to Bullet does not hold; leave them out");
-  }
   const bool usable = settings.step_s > 0.0 && settings.step_s <= 0.1 && settings.substeps >= 1;
   if (!usable) {
     throw bad_data("bullet", "",

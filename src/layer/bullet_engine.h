@@ -42,8 +42,12 @@ bool has_bullet();
 /// for hulls and meshes: a sphere on a face is then reported exactly (1e-9 m), while a box, which Bullet tests by
 /// supporting points, is taken with the margin of its own that its maker needs, inside of its faces.
 ///
-/// Reads `specimen` when called only; throws Error BadData for what it cannot hold (muscles, joints other than hinges
-/// and welds), Unavailable (69) when built without Bullet. Same calls, same bits.
+/// Muscles are deformable bodies on the specimen's own tets, one implicit step a step with the springs inside of it;
+/// they have the matrix of ours but for its volume, no fibres, and hang on bodies that stand still. Their skins are
+/// triangle meshes to the collision detection. What a press yields (LocalContact) is not told.
+///
+/// Reads `specimen` when called only; throws Error BadData for what it cannot hold (joints other than hinges and welds,
+/// muscles on bodies that a joint moves), Unavailable (69) when built without Bullet. Same calls, same bits.
 std::unique_ptr<Engine> make_bullet_engine(const anatomy::Specimen& specimen, const BulletSettings& settings = {});
 
 }  // namespace myotact::layer

@@ -1,6 +1,5 @@
 #include "layer/bullet_world.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
@@ -8,6 +7,8 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "layer/bullet_contacts.h"
+#include "layer/bullet_vectors.h"
 
 namespace myotact::layer {
 namespace {
@@ -16,25 +17,6 @@ namespace {
 constexpr double kMargin_m = 0.0;
 /// Of the constraints in a substep; ten are Bullet's own choice, five times that keeps a chain of hinges together.
 constexpr int kSolverIterations = 50;
-
-btVector3 to_bullet(const Vec3& v) {
-  return {v.x(), v.y(), v.z()};
-}
-Vec3 from_bullet(const btVector3& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
-btTransform to_bullet(const Pose& pose) {
-  const Mat3& r = pose.rotation;
-  const btMatrix3x3 basis(r(0, 0), r(0, 1), r(0, 2), r(1, 0), r(1, 1), r(1, 2), r(2, 0), r(2, 1), r(2, 2));
-  return btTransform(basis, to_bullet(pose.translation_m));
-}
-Pose from_bullet(const btTransform& t) {
-  Pose pose;
-  for (int row = 0; row < 3; ++row) pose.rotation.row(row) = from_bullet(t.getBasis().getRow(row)).transpose();
-  pose.translation_m = from_bullet(t.getOrigin());
-  return pose;
-}
 
 /// The body frame at rest: centre of mass and axes of inertia, right-handed. `inertia_kg_m2`: about these axes.
 Pose inertia_frame(const anatomy::Body& body, Vec3& inertia_kg_m2) {
@@ -65,34 +47,6 @@ std::vector<bool> moving_bodies(const anatomy::Specimen& specimen) {
   }
   return moves;
 }
-
-/// Takes every point at which the tool's body is inside of another one.
-struct Collector : btCollisionWorld::ContactResultCallback {
-  explicit Collector(const btCollisionObject& tool) : tool(&tool) {}
-
-  // NOLINTNEXTLINE(readability-function-size): the seven parameters are Bullet's
-  btScalar addSingleResult(btManifoldPoint& point, const btCollisionObjectWrapper* a, int, int index_a,
-                           const btCollisionObjectWrapper* b, int, int index_b) override {
-    if (!(point.getDistance() <= 0.0)) return 0.0;
-    const bool tool_first = a->getCollisionObject() == tool;  // the normal points from b to a
-    messages::ReportedContact contact;
-    const btVector3 normal = tool_first ? point.m_normalWorldOnB : -point.m_normalWorldOnB;
-    const btVector3 place = tool_first ? point.getPositionWorldOnB() : point.getPositionWorldOnA();
-    contact.normal_world = to_array(from_bullet(normal));
-    contact.point_world_m = to_array(from_bullet(place));
-    contact.penetration_m = -point.getDistance();
-    found.push_back({contact, (tool_first ? b : a)->getCollisionObject(), tool_first ? index_b : index_a});
-    return 0.0;
-  }
-
-  struct Found {
-    messages::ReportedContact contact;
-    const btCollisionObject* touched;
-    int child;  // of a compound shape
-  };
-  const btCollisionObject* tool;
-  std::vector<Found> found;
-};
 
 }  // namespace
 
@@ -250,13 +204,13 @@ std::vector<messages::ReportedContact> BulletWorld::contacts(btConvexShape& shap
   btCollisionObject tool;
   tool.setCollisionShape(&shape);
   tool.setWorldTransform(to_bullet(Pose{Mat3::Identity(), middle_m}));
-  Collector collector(tool);
+  ContactCollector collector(tool);
   for (const auto& object : fixed_) world_->contactPairTest(&tool, object.get(), collector);
   for (const Body& body : bodies_) {
     if (body.rigid) world_->contactPairTest(&tool, body.rigid.get(), collector);
   }
   std::vector<messages::ReportedContact> contacts;
-  for (Collector::Found& found : collector.found) {
+  for (ContactCollector::Found& found : collector.found) {
     const bool is_fixed = btRigidBody::upcast(found.touched) == nullptr;
     found.contact.surface = found.touched->getUserIndex();
     if (!is_fixed) {
@@ -265,8 +219,6 @@ std::vector<messages::ReportedContact> BulletWorld::contacts(btConvexShape& shap
     }
     contacts.push_back(found.contact);
   }
-  std::stable_sort(contacts.begin(), contacts.end(),
-                   [](const auto& a, const auto& b) { return a.penetration_m > b.penetration_m; });
   return contacts;
 }
 

@@ -41,8 +41,8 @@ class BulletWorld {
   double angle_rad(int joint) const;
   double velocity_rad_s(int joint) const;
 
-  /// What a body of that shape at `middle_m` would meet: all points where it is inside of a bone, the deepest first,
-  /// surfaces numbered from 0 for the first bone.
+  /// What a body of that shape at `middle_m` would meet: all points where it is inside of a bone, in no order; the
+  /// surface is the bone's number.
   std::vector<messages::ReportedContact> contacts(btConvexShape& shape, const Vec3& middle_m) const;
 
  private:

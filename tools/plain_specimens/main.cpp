@@ -8,6 +8,7 @@
 #include "anatomy/specimen.h"
 #include "core/error.h"
 #include "core/log.h"
+#include "geometry/box_mesh.h"
 #include "geometry/plain_surfaces.h"
 
 namespace {
@@ -77,6 +78,37 @@ anatomy::Specimen plate() {
   return specimen;
 }
 
+/// A block of relaxed muscle on the plane, clamped at its lower face, fibres along x.
+anatomy::Specimen pad() {
+  anatomy::Specimen specimen = plane();
+  specimen.name = "pad";
+  const Vec3 size_m{0.06, 0.06, 0.03};
+  const Vec3 corner_m{-0.5 * size_m.x(), -0.5 * size_m.y(), 0.0};
+  anatomy::Muscle muscle;
+  muscle.key = muscle.name_la = muscle.name_en = "pad";
+  muscle.material = "muscle";
+  const double section_m2 = size_m.y() * size_m.z();
+  muscle.peak_force_N = 300e3 * section_m2;  // 300 kPa: the usual specific tension
+  muscle.optimal_fibre_m = size_m.x() / muscle.rest_stretch;
+  muscle.estimated = {"rest_stretch"};
+  muscle.sources = {"made up"};
+  muscle.tets = geometry::make_box_mesh(size_m, {4, 4, 2});
+  for (Vec3& x : muscle.tets.nodes_m) x += corner_m;
+  muscle.fibres.assign(muscle.tets.corners.size(), Vec3::UnitX());
+  muscle.sections_m2.assign(muscle.tets.corners.size(), section_m2);
+  muscle.regions.assign(muscle.tets.corners.size(), anatomy::TissueRegion::Belly);
+  for (const Vec3& x : muscle.tets.nodes_m) muscle.attachments.push_back(x.z() < 1e-9 ? 0 : -1);
+  muscle.skin = geometry::make_box(size_m, kCells);
+  for (Vec3& x : muscle.skin.positions_m) x += corner_m + 0.5 * size_m;
+  specimen.muscles.push_back(std::move(muscle));
+  const Vec3 end_m{0.5 * size_m.x(), 0.0, 0.5 * size_m.z()};
+  specimen.lines.push_back({0,
+                            {{0, {-end_m.x(), 0.0, end_m.z()}, anatomy::LinePointKind::Origin},
+                             {0, end_m, anatomy::LinePointKind::Insertion}},
+                            {}});
+  return specimen;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -84,7 +116,7 @@ int main(int argc, char** argv) {
     start_log("info");
     if (argc != 2) throw Error(ExitStatus::Usage, "give the folder to write into, such as meshes");
     const std::filesystem::path folder = argv[1];
-    for (const anatomy::Specimen& specimen : {plane(), plate()}) {
+    for (const anatomy::Specimen& specimen : {plane(), plate(), pad()}) {
       anatomy::save_specimen(specimen, folder / specimen.name);
     }
     return 0;
