@@ -1,3 +1,8 @@
+#if defined(__GNUC__) && !defined(__clang__)
+// g++ 12 takes an empty allocator inside of Bullet's arrays for an uninitialised value.
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
+
 #include "layer/bullet_tissue.h"
 
 #include <algorithm>
