@@ -30,8 +30,13 @@ void leave_time_to_the_simulation(std::chrono::steady_clock::duration drawing) {
   std::this_thread::sleep_for(std::max<std::chrono::steady_clock::duration>(kPicture - drawing, drawing));
 }
 
+/// The joint that is co-contracted, else the first that turns.
 int watched_joint(const scene::Scene& scene) {
-  return scene.co_contraction ? scene.co_contraction->joint : 0;
+  if (scene.co_contraction) return scene.co_contraction->joint;
+  const auto& joints = scene.specimen.joints;
+  const auto turns = [](const anatomy::Joint& joint) { return !joint.axes.empty(); };
+  const auto found = std::find_if(joints.begin(), joints.end(), turns);
+  return found == joints.end() ? 0 : static_cast<int>(found - joints.begin());
 }
 
 /// The devices of a scene's tools, and which of them the script moves.
