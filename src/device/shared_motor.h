@@ -2,6 +2,7 @@
 
 #include <array>
 #include <atomic>
+#include <cstddef>
 
 #include "core/vector.h"
 #include "realtime/shared_page.h"
@@ -30,6 +31,18 @@ class SharedMotor : public realtime::ForceCutout {
   static_assert(std::atomic<double>::is_always_lock_free);
 
   realtime::SharedPage<Motor> motor_;
+};
+
+/// The motors of the devices in a person's hands: one watchdog takes the force from all of them.
+class MotorGroup : public realtime::ForceCutout {
+ public:
+  SharedMotor& operator[](std::size_t device) noexcept { return motors_[device]; }
+  void cut() noexcept override {
+    for (SharedMotor& motor : motors_) motor.cut();
+  }
+
+ private:
+  std::array<SharedMotor, 2> motors_;  // a person has two hands
 };
 
 }  // namespace myotact::device

@@ -83,6 +83,13 @@ TEST_F(BadInput, UnknownDeviceIsUnavailable) {
   EXPECT_EQ(run_program("run elbow --device falcon" + out()).status, 69);
 }
 
+TEST_F(BadInput, MoreDevicesThanToolsAreRefused) {
+  const Outcome outcome = run_program("run elbow --device simulated,simulated" + out());
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("2 devices named, but the scene \"elbow\" has 1 tool"));
+  EXPECT_EQ(run_program("run bimanual --device mouse,mouse" + out()).status, 2);
+}
+
 TEST_F(BadInput, ReplayRefusesWhatIsNoRecording) {
   EXPECT_EQ(run_program("replay " + scene("{}")).status, 65);
   EXPECT_EQ(run_program("replay " + (folder_.path() / "nothing").string()).status, 66);

@@ -63,6 +63,24 @@ TEST(Run, TouchIsFeltInTheTable) {
   EXPECT_GT(touching, 100);
 }
 
+TEST(Run, TwoHandsOnEitherClockAreFeltAgain) {
+  for (const char* clock : {"", " --realtime"}) {
+    TemporaryFolder folder;
+    const std::string run = "run bimanual --set tissue.default=line --device simulated,simulated --seconds 3.5" +
+                            std::string(clock) + " --out " + at(folder, "out") + " --record " + at(folder, "two.rec");
+    const Outcome outcome = run_program(run);
+    ASSERT_EQ(outcome.status, 0) << outcome.output;
+    const auto summary = nlohmann::json::parse(content(folder.path() / "out" / "summary.json"));
+    EXPECT_GT(summary.at("left").at("bone_in_hand_s"), 0.5) << run;
+    EXPECT_GT(summary.at("right").at("largest_force_N"), 0.1) << run;
+    EXPECT_EQ(summary.at("right").at("bone_in_hand_s"), 0.0) << run;
+    const Outcome replayed = run_program("replay --json " + at(folder, "two.rec"));
+    EXPECT_EQ(replayed.status, 0) << replayed.output;
+    EXPECT_THAT(replayed.output, HasSubstr("\"left_largest_force_difference_N\": 0.0"));
+    EXPECT_THAT(replayed.output, HasSubstr("\"right_largest_force_difference_N\": 0.0"));
+  }
+}
+
 TEST(Run, SummaryTellsTheTouchOnEitherClock) {
   for (const char* clock : {"", " --realtime"}) {
     TemporaryFolder folder;

@@ -170,5 +170,15 @@ TEST(Watchdog, EndsWithItsOwnerAndCutsOnceMore) {
   EXPECT_TRUE(is_gone(process));
 }
 
+TEST(Watchdog, CutsTheMotorsOfBothHands) {
+  MotorGroup motors;
+  realtime::Watchdog watchdog(motors);
+  motors[0].set_force(Vec3(1, 0, 0));
+  motors[1].set_force(Vec3(0, 2, 0));
+  watchdog.beat();
+  ASSERT_TRUE(wait_until([&] { return watchdog.tripped(); }));
+  EXPECT_EQ(motors[0].force_world_N().norm() + motors[1].force_world_N().norm(), 0.0);
+}
+
 }  // namespace
 }  // namespace myotact::device
