@@ -31,8 +31,6 @@ class SimulationEngine final : public Engine {
   Pose body_pose(int surface) const override;
   void write_surface(int tool, messages::LocalModel& model) const override;
 
-  simulation::Simulation& simulation() { return simulation_; }
-
  private:
   simulation::Simulation simulation_;
   double step_s_;
