@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "app/fidelity_page.h"
 #include "app/interruption.h"
 #include "app/options.h"
 #include "app/progress.h"
@@ -68,6 +69,7 @@ int scene_fidelity(const Options& options) {
   if (!options.plant.empty()) request.planted = measure::parse_planted_faults(options.plant);
   request.truth = options.truth == "steps" ? measure::Truth::Steps : measure::Truth::Ticks;
   const Subject subject = subject_of(options);
+  request.device = subject.device.name;
   request.profile = subject.device.profile;
   if (options.seconds) request.seconds = *options.seconds;
   if (subject.recording) request.recording = &*subject.recording;
@@ -81,6 +83,7 @@ int scene_fidelity(const Options& options) {
   const std::string json = measure::scene_fidelity_json(found);
   write_file(options.out / "fidelity.json", json);
   write_file(options.out / "fidelity.csv", measure::scene_fidelity_csv(found));
+  write_file(options.out / "fidelity.html", fidelity_page(found));
   std::cout << (options.json ? json : measure::scene_fidelity_text(found)) << std::flush;
   if (interruption() != 0) return interruption();
   const bool passed =

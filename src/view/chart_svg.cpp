@@ -112,16 +112,17 @@ std::string dash_of(Stroke stroke) {
 
 std::string curve_svg(const ChartSeries& series, const Axes& axes, const std::string& colour) {
   std::string svg;
-  if (series.stroke != Stroke::Rings) {
+  const bool ring = series.stroke == Stroke::Rings, dots = series.stroke == Stroke::Dots;
+  if (!ring && !dots) {
     svg += fmt::format(R"(<polyline points="{}" fill="none" stroke="{}" stroke-width="2"{}/>)",
                        points_text(series.x, series.y, axes), colour, dash_of(series.stroke));
   }
-  const bool ring = series.stroke == Stroke::Rings;
-  const bool marked = ring || (series.stroke == Stroke::Line && series.x.size() <= kMostMarked);
+  const bool marked = ring || dots || (series.stroke == Stroke::Line && series.x.size() <= kMostMarked);
+  const double radius_px = ring ? 5.5 : dots ? 1.5 : 3.0;
   for (std::size_t i = 0; i < series.x.size() && i < series.y.size() && marked; ++i) {
     if (!std::isfinite(series.x[i]) || !std::isfinite(series.y[i])) continue;
     svg += fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="{}" fill="{}" stroke="{}"/>)", axes.px(series.x[i]),
-                       axes.py(series.y[i]), ring ? 5.5 : 3.0, ring ? "none" : colour, colour);
+                       axes.py(series.y[i]), radius_px, ring ? "none" : colour, colour);
   }
   return svg + "\n";
 }
@@ -133,8 +134,9 @@ std::string legend_svg(const ChartSeries& series, double y, const std::string& c
     svg +=
         fmt::format(R"(<rect x="{}" y="{}" width="24" height="12" fill="{}" fill-opacity="0.14"/>)", x, y - 6, colour);
   }
-  if (series.stroke == Stroke::Rings) {
-    svg += fmt::format(R"(<circle cx="{}" cy="{}" r="5.5" fill="none" stroke="{}"/>)", x + 12, y, colour);
+  if (series.stroke == Stroke::Rings || series.stroke == Stroke::Dots) {
+    svg += fmt::format(R"(<circle cx="{}" cy="{}" r="5.5" fill="{}" stroke="{}"/>)", x + 12, y,
+                       series.stroke == Stroke::Dots ? colour : "none", colour);
   } else {
     svg += fmt::format(R"(<line x1="{0}" y1="{1}" x2="{2}" y2="{1}" stroke="{3}" stroke-width="2"{4}/>)", x, y, x + 24,
                        colour, dash_of(series.stroke));

@@ -5,7 +5,8 @@
 
 namespace myotact::view {
 
-enum class Stroke { Line, Dashed, Rings };
+/// Rings and Dots are markers alone.
+enum class Stroke { Line, Dashed, Rings, Dots };
 
 struct ChartSeries {
   std::string name;          // of its line in the legend; empty: none

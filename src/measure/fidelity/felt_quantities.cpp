@@ -14,7 +14,8 @@ namespace myotact::measure {
 namespace {
 
 constexpr std::size_t kWindow_ticks = 50;
-constexpr double kSlips_m_s = 5e-3;  // below, sticking to moving tissue and slipping are hard to tell apart
+constexpr std::size_t kFewest_ticks = 20;  // for a slope
+constexpr double kSlips_m_s = 5e-3;        // below, sticking to moving tissue and slipping are hard to tell apart
 constexpr double kTick_s = 1e-3;
 
 Vec3 place_m(const haptics::HapticTick& tick) {
@@ -75,6 +76,20 @@ double slope(const std::vector<double>& x, const std::vector<double>& y) {
   return product / square;
 }
 
+/// The first tick from `first` on in which the touch is over, or the hand went along the surface more than into it for
+/// the last 50 ms.
+std::size_t end_of_loading(const DeviceRun& run, const ForceSeries& series, std::size_t first) {
+  const Vec3 normal = normal_of(run.ticks[first]);
+  std::size_t end = first;
+  for (; end < run.ticks.size() && holds_contact(run.ticks[end]) && series.judged[end]; ++end) {
+    if (end < first + kWindow_ticks) continue;
+    const Vec3 way_m = series.hand_m[end] - series.hand_m[end - kWindow_ticks];
+    const double into_m = -way_m.dot(normal);
+    if ((way_m + into_m * normal).norm() > into_m) break;
+  }
+  return end;
+}
+
 /// The loading of the touch [first, end): from where the true normal force passes a fifth of its most to nine tenths.
 std::optional<PressStiffness> press_of(const DeviceRun& run, const ForceSeries& series, std::size_t first,
                                        std::size_t end) {
@@ -91,7 +106,7 @@ std::optional<PressStiffness> press_of(const DeviceRun& run, const ForceSeries& 
     felt_N.push_back(series.commanded_N[i].dot(normal));
     true_N.push_back(true_at(i));
   }
-  if (depth_m.size() < kWindow_ticks) return std::nullopt;
+  if (depth_m.size() < kFewest_ticks) return std::nullopt;
   const auto [low, high] = std::minmax_element(depth_m.begin(), depth_m.end());
   if (true_at(most) < kLeast_N || *high - *low < kLeast_m) return std::nullopt;
   return PressStiffness{kTick_s * static_cast<double>(first), *high, slope(depth_m, felt_N), slope(depth_m, true_N)};
@@ -99,20 +114,13 @@ std::optional<PressStiffness> press_of(const DeviceRun& run, const ForceSeries& 
 
 }  // namespace
 
-std::vector<PressStiffness> press_stiffness(const scene::Scene& scene, const DeviceRun& run,
-                                            const ForceSeries& series) {
-  const std::vector<double> speeds_m_s = slip_speeds_m_s(scene, run);
+std::vector<PressStiffness> press_stiffness(const DeviceRun& run, const ForceSeries& series) {
   std::vector<PressStiffness> presses;
   bool before = false;
   for (std::size_t i = 0; i < run.ticks.size(); ++i) {
     const bool touches = holds_contact(run.ticks[i]) && series.judged[i];
     if (touches && !before) {
-      std::size_t end = i;
-      while (end < run.ticks.size() && holds_contact(run.ticks[end]) && series.judged[end] &&
-             speeds_m_s[end] < kSlips_m_s) {
-        ++end;
-      }
-      if (const auto press = press_of(run, series, i, end)) presses.push_back(*press);
+      if (const auto press = press_of(run, series, i, end_of_loading(run, series, i))) presses.push_back(*press);
     }
     before = touches;
   }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "device/profile_file.h"
 #include "measure/fidelity/felt_masks.h"
 #include "measure/fidelity/true_force.h"
 
@@ -60,6 +61,13 @@ std::vector<ComparedForce> compare_all(const ForceSeries& series, const DeviceRu
   for (const ComparedForce& one : parts)
     if (std::isfinite(one.found.gain)) compared.push_back(one);
   return compared;
+}
+
+std::vector<StiffnessRange> all_ranges(const FidelityRequest& request) {
+  std::vector<StiffnessRange> ranges = {stiffness_range(request.device, request.profile)};
+  for (const std::string& name : device::built_in_profiles())
+    if (name != request.device) ranges.push_back(stiffness_range(name, device::load_profile(name).profile));
+  return ranges;
 }
 
 PlantedReport report_planted(const SceneFidelity& fidelity, const PlantedFaults& faults) {
@@ -132,6 +140,7 @@ SceneFidelity measure_scene_fidelity(const scene::Scene& whole, const FidelityRe
   SceneFidelity result;
   result.scene = scene.name;
   result.title = scene.title;
+  result.device = request.device;
   result.truth = request.truth;
   const ForceSeries steps = felt_series(run, by_steps_N, ticks.judged);
   result.force = steps;
@@ -148,10 +157,12 @@ SceneFidelity measure_scene_fidelity(const scene::Scene& whole, const FidelityRe
   result.limit_ticks = ticks.at_limit;
   result.compared = compare_all(result.force, run);
   if (result.force.true_N.size() == run.ticks.size()) {
-    result.presses = press_stiffness(scene, run, result.force);
+    result.presses = press_stiffness(run, result.force);
     result.friction = sliding_friction(scene, run, result.force);
     result.joint = joint_in_hand(scene, run, result.force);
   }
+  result.answer = answer_time(request.profile);
+  result.ranges = all_ranges(request);
   if (request.planted.any()) result.planted = report_planted(result, request.planted);
   result.notes = notes_of(result, run, request);
   return result;
@@ -171,6 +182,8 @@ std::vector<JudgedFigure> judge(const SceneFidelity& fidelity) {
                        100.0 * std::abs(press.felt_N_m / press.true_N_m - 1.0), 5.0, 15.0,
                        "5 %: goal 8; 15 %: the least change that is noticed (from memory)"});
   }
+  figures.push_back(
+      {"answer to a step of the hand", "ms", 1e3 * fidelity.answer.total_s, 2.0, 30.0, "2 ms: goal 17; 30 ms: goal 9"});
   if (fidelity.friction) {
     figures.push_back({"friction while sliding off by", "%",
                        100.0 * std::abs(fidelity.friction->felt / fidelity.friction->asked - 1.0), 4.0, 15.0,

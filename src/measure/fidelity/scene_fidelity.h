@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "measure/fidelity/device_figures.h"
 #include "measure/fidelity/felt_quantities.h"
 #include "measure/fidelity/planted_faults.h"
 
@@ -13,6 +14,7 @@ namespace myotact::measure {
 enum class Truth { Ticks, Steps };
 
 struct FidelityRequest {
+  std::string device = "simulated";
   device::DeviceProfile profile;
   double seconds = 1e9;                         // of a script at most
   const scene::Recording* recording = nullptr;  // in place of the script
@@ -48,7 +50,7 @@ struct PlantedReport {
 };
 
 struct SceneFidelity {
-  std::string scene, title;
+  std::string scene, title, device;
   Truth truth = Truth::Ticks;
   ForceSeries force;  // commanded (as felt, nothing planted) and true, one entry a tick; shorter when stopped
   std::size_t gate_ticks = 0, hand_ticks = 0, limit_ticks = 0;  // left out, and why (felt_masks.h)
@@ -60,6 +62,8 @@ struct SceneFidelity {
   std::vector<PressStiffness> presses;
   std::optional<SlidingFriction> friction;
   std::optional<JointInHand> joint;
+  AnswerTime answer;                   // of the device
+  std::vector<StiffnessRange> ranges;  // the device first, then those of assets/devices
   std::optional<PlantedReport> planted;
   std::vector<std::string> notes;  // what a reader has to know
 };

@@ -65,6 +65,29 @@ std::string quantities_text(const SceneFidelity& fidelity) {
   return text;
 }
 
+std::string device_text(const SceneFidelity& fidelity) {
+  std::string text = fmt::format("device {}: answers a step of the hand after {} ticks of the loop and {} of its own\n",
+                                 fidelity.device, fidelity.answer.loop_ticks, fidelity.answer.device_ticks);
+  text += fmt::format("\n  {:<30} {:>9} {:>9} {:>9} {:>9} {:>10}\n", "stiffest calm wall [N/m]", "in hand", "bound",
+                      "no hand", "bound", "rendered");
+  for (const StiffnessRange& range : fidelity.ranges)
+    text += fmt::format("  {:<30} {:>9.0f} {:>9.0f} {:>9.0f} {:>9.0f} {:>10.0f}\n", range.device, range.in_hand_N_m,
+                        range.in_hand_bound_N_m, range.no_hand_N_m, range.no_hand_bound_N_m, range.allowed_N_m);
+  return text;
+}
+
+nlohmann::json ranges_json(const SceneFidelity& fidelity) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const StiffnessRange& range : fidelity.ranges)
+    list.push_back({{"device", range.device},
+                    {"in_hand_N_m", range.in_hand_N_m},
+                    {"no_hand_N_m", range.no_hand_N_m},
+                    {"in_hand_bound_N_m", range.in_hand_bound_N_m},
+                    {"no_hand_bound_N_m", range.no_hand_bound_N_m},
+                    {"rendered_at_most_N_m", range.allowed_N_m}});
+  return list;
+}
+
 nlohmann::json quantities_json(const SceneFidelity& fidelity) {
   nlohmann::json json = {{"presses", nlohmann::json::array()}, {"friction", nullptr}, {"joint", nullptr}};
   for (const PressStiffness& press : fidelity.presses)
@@ -112,6 +135,7 @@ std::string scene_fidelity_text(const SceneFidelity& fidelity) {
   text += fmt::format("net work on the hand: commanded {:.2f} mJ, true {:.2f} mJ\n", 1e3 * whole.commanded_work_J,
                       1e3 * whole.true_work_J);
   text += quantities_text(fidelity);
+  text += device_text(fidelity);
   if (fidelity.planted) {
     text += fmt::format("\n  {:<50} {:>8} {:>8} {:>8} {:>8}\n", "planted into the recorded force", "ms", "scale",
                         "degrees", "mN");
@@ -144,6 +168,10 @@ std::string scene_fidelity_json(const SceneFidelity& fidelity) {
   for (const ComparedForce& one : fidelity.compared) json["compared"][one.key] = comparison_json(one.found);
   json["parts"]["felt_on_own_steps"] = comparison_json(fidelity.haptic_part);
   if (fidelity.step_part) json["parts"]["own_steps_on_truth"] = comparison_json(*fidelity.step_part);
+  json["device"] = {{"profile", fidelity.device},
+                    {"answer_loop_ticks", fidelity.answer.loop_ticks},
+                    {"answer_device_ticks", fidelity.answer.device_ticks}};
+  json["stiffness_ranges"] = ranges_json(fidelity);
   json["quantities"] = quantities_json(fidelity);
   if (fidelity.planted)
     json["planted"] = {{"planted", faults_json(fidelity.planted->planted)},

@@ -1,15 +1,14 @@
 #include "measure/fidelity/stability_goals.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <random>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "haptics/faults.h"
-#include "haptics/stiffness_bound.h"
+#include "device/profile_file.h"
+#include "measure/fidelity/calm_stiffness.h"
 #include "measure/fidelity/virtual_touch.h"
 #include "scene/texture_file.h"
 
@@ -18,84 +17,6 @@ namespace myotact::measure {
 namespace {
 
 constexpr double kTick_s = 1e-3;
-
-// ---- 10: the stiffest calm wall
-
-struct NamedDevice {
-  const char* name;
-  double inertia_kg, viscous_Ns_m, coulomb_N, resolution_m;
-};
-
-/// Reference 3 and 3.1: identified ranges 0.05-0.25 kg, 0.05-0.5 N s/m, 0.05-0.3 N, 10-55 um, and the two devices of
-/// its own measurements.
-constexpr std::array kDevices = {
-    NamedDevice{"frictionless ideal", 0.07, 0.2, 0.0, 0.0},
-    NamedDevice{"stylus of 3 N", 0.07, 0.05, 0.2, 55e-6},
-    NamedDevice{"desktop default", 0.07, 0.05, 0.1, 20e-6},
-    NamedDevice{"lightest of the class", 0.05, 0.05, 0.05, 55e-6},
-    NamedDevice{"heaviest of the class", 0.25, 0.5, 0.3, 10e-6},
-};
-constexpr double kPush_N = 1.5;
-constexpr double kHighest_N_m = 40e3;
-constexpr device::HandProfile kHand{0.1, 4.0, 150.0};
-constexpr device::HandProfile kNoHand{0.0, 0.0, 0.0};
-
-device::DeviceProfile profile_of(const NamedDevice& device, int delay_ticks) {
-  device::DeviceProfile profile;
-  profile.peak_force_N = profile.continuous_force_N = 20.0;  // a force that is cut would hide an instability
-  profile.max_stiffness_N_m = kHighest_N_m;
-  profile.inertia_kg = device.inertia_kg;
-  profile.viscous_Ns_m = device.viscous_Ns_m;
-  profile.coulomb_N = device.coulomb_N;
-  profile.resolution_m = device.resolution_m;
-  profile.delay_ticks = delay_ticks;
-  return profile;
-}
-
-/// Whether a stylus that is pushed onto a wall with 1.5 N comes to rest: within 4 counts and 20 um (reference 3.1), and
-/// never softened by the buzz detector.
-bool is_calm(const device::DeviceProfile& profile, const device::HandProfile& hand, double stiffness_N_m) {
-  haptics::HapticSettings settings;
-  settings.limit_stiffness = false;
-  settings.gate.ramp_s = 0.05;
-  settings.gate.force_limit = 1.0;
-  settings.contact.stiffness_N_m = stiffness_N_m;
-  const double start_m = settings.contact.radius_m + 2e-4;
-  VirtualTouch touch({}, Vec3(0.0, 0.0, start_m), profile, hand, settings);
-  for (int i = 0; i < 100; ++i) touch.tick();
-  double lowest_m = 1.0, highest_m = -1.0;
-  constexpr int kTicks = 2500, kJudged = 500;
-  for (int i = 0; i < kTicks; ++i) {
-    device::HandTarget target{{0.0, 0.0, start_m}, {}, 0};
-    target.push_world_N = {0.0, 0.0, -kPush_N};
-    touch.device.set_hand_target(target);
-    touch.tick();
-    if ((touch.loop.tool_state().faults & haptics::bit(haptics::Fault::Buzz)) != 0) return false;
-    if (i < kTicks - kJudged) continue;
-    lowest_m = std::min(lowest_m, touch.device.position_world_m().z());
-    highest_m = std::max(highest_m, touch.device.position_world_m().z());
-  }
-  return highest_m - lowest_m < std::max(4.0 * profile.resolution_m, 20e-6);
-}
-
-/// Largest stiffness up to which every one tried is calm, within 2 %.
-double stiffest_calm_N_m(const device::DeviceProfile& profile, const device::HandProfile& hand) {
-  double calm = 20.0;
-  while (calm < kHighest_N_m && is_calm(profile, hand, 1.25 * calm)) calm *= 1.25;
-  if (calm >= kHighest_N_m) return calm;
-  double restless = 1.25 * calm;
-  while (restless / calm > 1.02) {
-    const double middle = std::sqrt(calm * restless);
-    (is_calm(profile, hand, middle) ? calm : restless) = middle;
-  }
-  return calm;
-}
-
-/// The bound of reference 2.6 for this hand; without friction or counts the second one does not exist.
-double bound_N_m(const device::DeviceProfile& profile, const device::HandProfile& hand) {
-  const haptics::StiffnessBound bound = haptics::stiffness_bound(profile, hand.damping_Ns_m);
-  return std::min(bound.damping_N_m, bound.quantisation_N_m);
-}
 
 // ---- 15: energy
 
@@ -174,24 +95,25 @@ EnergyGiven poke(double seconds) {
 
 GoalFigures measure_stable_stiffness(Effort effort) {
   GoalFigures result;
-  for (const NamedDevice& device : kDevices) {
-    const bool in_short_form = &device == &kDevices[0] || &device == &kDevices[1];
-    if (effort == Effort::Short && !in_short_form) continue;
-    for (const auto& [hand, name] : {std::pair{kHand, "in a hand"}, std::pair{kNoHand, "no hand"}}) {
+  for (const std::string& name : device::built_in_profiles()) {
+    if (effort == Effort::Short && name != "ideal" && name != "stylus") continue;
+    device::DeviceProfile profile = device::load_profile(name).profile;
+    for (const auto& [hand, held] : {std::pair{kHoldingHand, "in a hand"}, std::pair{kNoHand, "no hand"}}) {
       double worst = 1e9;
       std::string stiffest;
-      for (const int delay : {0, 1, 2}) {
-        const device::DeviceProfile profile = profile_of(device, delay);
+      for (profile.delay_ticks = 0; profile.delay_ticks <= 2; ++profile.delay_ticks) {
         const double calm_N_m = stiffest_calm_N_m(profile, hand);
-        worst = std::min(worst, calm_N_m / bound_N_m(profile, hand));
+        worst = std::min(worst, calm_N_m / stiffness_bound_N_m(profile, hand));
         stiffest += fmt::format("{}{:.0f}", stiffest.empty() ? "" : "/", calm_N_m);
       }
       result.figures.push_back(
-          {fmt::format("{}, {}: {} N/m over the bound", device.name, name, stiffest), worst, "", 0.9, true});
+          {fmt::format("{}, {}: {} N/m over the bound", name, held, stiffest), worst, "", 0.9, true});
     }
   }
   result.note =
-      "1.5 N onto a wall, delay 0/1/2 ticks, calm within max(4 counts, 20 um); worst of the three beside the goal";
+      "devices of assets/devices, 1.5 N onto a wall, delay 0/1/2 ticks in place of their own, calm within max(4 "
+      "counts, "
+      "20 um); worst of the three beside the goal";
   return result;
 }
 
