@@ -122,13 +122,17 @@ std::string bar(double x_px, double y_px, double length_px, const char* colour, 
 /// Stiffness by device: in a hand, with no hand, and what is rendered at most. The axis is one of decades: from 100
 /// N/m.
 std::string range_chart(const SceneFidelity& fidelity) {
-  constexpr double kLeft_px = 120.0, kDecade_px = 220.0, kRow_px = 52.0, kWidth_px = 880.0;
+  constexpr double kLeft_px = 120.0, kDecade_px = 220.0, kRow_px = 52.0, kWidth_px = 880.0, kTitle_px = 36.0;
   const auto length_px = [](double N_m) { return kDecade_px * std::max(0.0, std::log10(N_m / 100.0)); };
-  const double height_px = kRow_px * static_cast<double>(fidelity.ranges.size()) + 10.0;
+  const double height_px = kRow_px * static_cast<double>(fidelity.ranges.size()) + kTitle_px;
   std::string svg = fmt::format(
       R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="{1}" viewBox="0 0 {0} {1}" font-family="sans-serif" font-size="12" fill="#222222">)",
       kWidth_px, height_px);
-  double y_px = 6.0;
+  svg += fmt::format(
+             R"(<text x="{}" y="20" font-size="16" font-weight="bold">Stiffness that a device renders [N/m]</text>)",
+             kLeft_px) +
+         "\n";
+  double y_px = kTitle_px;
   for (const measure::StiffnessRange& range : fidelity.ranges) {
     svg += fmt::format(R"(<text x="{}" y="{}" text-anchor="end">{}</text>)", kLeft_px - 8.0, y_px + 24.0,
                        escape_markup(range.device)) +
@@ -167,7 +171,7 @@ std::string summary(const SceneFidelity& fidelity, const std::vector<JudgedFigur
         100.0 * fidelity.step_part->error_rms_share);
   html += fmt::format(
       ". Left out: {:.2f} s while the force gate was not open, {:.2f} s while a hand closed or opened, "
-      "{:.2f} s in which the device gave all that it may. Texture and the snap of lines were off: they "
+      "{:.2f} s in which the true force is more than the device may give. Texture and the snap of lines were off: they "
       "are for the hand alone.</p>\n",
       1e-3 * static_cast<double>(fidelity.gate_ticks), 1e-3 * static_cast<double>(fidelity.hand_ticks),
       1e-3 * static_cast<double>(fidelity.limit_ticks));

@@ -68,8 +68,8 @@ CLI::App* add_fidelity(CLI::App& program, Options& options) {
   fidelity
       ->add_option(
           "--truth", options.truth,
-          "what is true: ticks (the path again, simulated with a step of 1 ms) or steps (the scene's own steps, "
-          "five times faster)")
+          "what is true: steps (what the scene's own steps gave) or ticks (the path again, simulated with a step of "
+          "1 ms: five times slower, and tells besides what the scene's step leaves out)")
       ->check(CLI::IsMember({"ticks", "steps"}))
       ->capture_default_str();
   fidelity->add_option("--plant", options.plant,

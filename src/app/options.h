@@ -39,7 +39,7 @@ struct Options {
   std::vector<int> goals;                          // fidelity: these goals
   bool brief = false;                              // fidelity: seconds instead of minutes
   std::optional<std::filesystem::path> recording;  // fidelity: its path in place of the script
-  std::string truth = "ticks";                     // fidelity
+  std::string truth = "steps";                     // fidelity
   std::string plant;                               // fidelity: faults to be found again; empty: none
   std::filesystem::path path;                      // probe: where the device goes
   std::optional<std::filesystem::path> frames;     // probe: folder of a deforming surface

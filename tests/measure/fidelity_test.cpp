@@ -18,7 +18,7 @@ class EveryGoal : public testing::TestWithParam<Goal> {};
 TEST_P(EveryGoal, IsMetButForTime) {
   const MeasuredGoal measured = measure_goal(GetParam(), Effort::Short);
   std::printf("%s", goal_text(measured).c_str());
-  EXPECT_FALSE(measured.result.figures.empty());
+  EXPECT_EQ(measured.result.figures.empty(), measured.result.note.starts_with("not measured: "));
   EXPECT_TRUE(measured.passed());
 }
 

@@ -23,8 +23,8 @@ struct Figure {
 };
 
 struct GoalFigures {
-  std::vector<Figure> figures;
-  std::string note;  // under which conditions; where a figure misses its goal, why
+  std::vector<Figure> figures;  // empty: it cannot be measured yet, the note says why
+  std::string note;             // under which conditions; where a figure misses its goal, why
 };
 
 /// One numbered goal of how true and safe the rendering is.

@@ -8,6 +8,7 @@
 #include "measure/fidelity/drag_goals.h"
 #include "measure/fidelity/friction_goals.h"
 #include "measure/fidelity/goal.h"
+#include "measure/fidelity/joint_goals.h"
 #include "measure/fidelity/loop_goals.h"
 #include "measure/fidelity/proxy_cost_goals.h"
 #include "measure/fidelity/proxy_force_goals.h"
@@ -21,6 +22,10 @@
 namespace myotact::measure {
 
 namespace {
+
+GoalFigures measure_network(Effort) {
+  return {{}, "not measured: there is no server yet"};
+}
 
 constexpr std::array kGoals = {
     Goal{1, "no fall-through on deforming meshes", measure_deforming_contact},
@@ -41,6 +46,7 @@ constexpr std::array kGoals = {
     Goal{16, "spectrum and strength of texture", measure_texture_spectrum},
     Goal{17, "force of a line in hand against a strand", measure_line_drag},
     Goal{18, "impulse of the hand against that of the tissue", measure_impulse_balance},
+    Goal{19, "stability and force over a slow network", measure_network},
     Goal{20, "force within its limit, and gone at once, whatever goes wrong", measure_safety},
     Goal{21, "a recorded session comes out again", measure_replay},
     Goal{22, "two hands on one mesh feel what each feels alone", measure_two_hands},

@@ -108,4 +108,28 @@ PlantedFaults found_faults(const ForceComparison& before, const ForceComparison&
   return found;
 }
 
+bool PlantedReport::all_found() const {
+  constexpr double kTenth = 0.1;
+  const auto within = [](double found, double was) { return std::abs(found - was) <= kTenth * std::abs(was) + 1e-9; };
+  const auto near = [&](double found, double was, double floor) {
+    return was == 0.0 ? std::abs(found) <= floor : within(found, was);
+  };
+  // Floors for what was not planted: a tenth of the smallest fault that the tests plant.
+  return near(alone.delay_s, planted.delay_s, 5e-4) && near(1.0 - alone.scale, 1.0 - planted.scale, 0.01) &&
+         near(alone.rotate_rad, std::abs(planted.rotate_rad), 0.5 * kDegree_rad) &&
+         near(alone.noise_N, planted.noise_N, 2e-3);
+}
+
+PlantedReport report_planted(const ForceSeries& series, const PlantedFaults& faults) {
+  const std::vector<Vec3> planted_N = plant(faults, series.commanded_N);
+  ForceSeries planted = series;
+  planted.commanded_N = planted_N;
+  ForceSeries same = series;  // beside itself
+  same.true_N = series.commanded_N;
+  ForceSeries alone = same;
+  alone.commanded_N = planted_N;
+  return {faults, found_faults(compare_forces(same), compare_forces(alone)),
+          found_faults(compare_forces(series), compare_forces(planted))};
+}
+
 }  // namespace myotact::measure

@@ -29,4 +29,16 @@ std::vector<Vec3> plant(const PlantedFaults& faults, const std::vector<Vec3>& fo
 /// subtracted, gains divided, turns undone, noise less the square of the noise there was.
 PlantedFaults found_faults(const ForceComparison& before, const ForceComparison& after);
 
+/// What planted faults were, and what was found of them.
+struct PlantedReport {
+  PlantedFaults planted;
+  PlantedFaults alone;     // the force with the faults beside the same force without: nothing else differs
+  PlantedFaults on_truth;  // beside the truth, less what it differs by anyway
+  /// Whether `alone` holds each within a tenth of what was planted.
+  bool all_found() const;
+};
+
+/// Plants into the commanded force of a series and compares.
+PlantedReport report_planted(const ForceSeries& series, const PlantedFaults& faults);
+
 }  // namespace myotact::measure

@@ -17,16 +17,15 @@ namespace {
 constexpr double kTick_s = 1e-3;
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
-ForceSeries felt_series(const DeviceRun& run, std::vector<Vec3> true_N, std::vector<bool> judged) {
+ForceSeries felt_series(const DeviceRun& run, const std::vector<Vec3>& true_N, const std::vector<bool>& judged) {
   ForceSeries series;
-  series.true_N = std::move(true_N);
-  const std::size_t ticks = series.true_N.size();  // fewer than of the run when stopped
+  series.true_N = true_N;
+  series.judged = judged;
+  const std::size_t ticks = true_N.size();  // fewer than of the run when stopped
   for (std::size_t i = 0; i < ticks; ++i) {
     series.commanded_N.push_back(to_vec3(run.ticks[i].tool.force_world_N));
     series.hand_m.push_back(to_vec3(run.ticks[i].device.stylus_position_world_m));
   }
-  judged.resize(ticks);
-  series.judged = std::move(judged);
   return series;
 }
 
@@ -70,17 +69,6 @@ std::vector<StiffnessRange> all_ranges(const FidelityRequest& request) {
   return ranges;
 }
 
-PlantedReport report_planted(const SceneFidelity& fidelity, const PlantedFaults& faults) {
-  ForceSeries planted = fidelity.force;
-  planted.commanded_N = plant(faults, fidelity.force.commanded_N);
-  PlantedReport report{faults, {}, found_faults(fidelity.compared.front().found, compare_forces(planted))};
-  ForceSeries same = fidelity.force;
-  same.true_N = fidelity.force.commanded_N;
-  planted.true_N = fidelity.force.commanded_N;
-  report.alone = found_faults(compare_forces(same), compare_forces(planted));
-  return report;
-}
-
 std::vector<std::string> notes_of(const SceneFidelity& fidelity, const DeviceRun& run, const FidelityRequest& request) {
   std::vector<std::string> notes;
   if (!run.notice.empty()) notes.push_back(run.notice);
@@ -119,42 +107,31 @@ void judge_force(const ComparedForce& force, std::vector<JudgedFigure>& figures)
 
 }  // namespace
 
-bool PlantedReport::all_found() const {
-  constexpr double kTenth = 0.1;
-  const auto within = [](double found, double was) { return std::abs(found - was) <= kTenth * std::abs(was) + 1e-9; };
-  const auto near = [&](double found, double was, double floor) {
-    return was == 0.0 ? std::abs(found) <= floor : within(found, was);
-  };
-  // Floors for what was not planted: a tenth of the smallest fault that the tests plant.
-  return near(alone.delay_s, planted.delay_s, 5e-4) && near(1.0 - alone.scale, 1.0 - planted.scale, 0.01) &&
-         near(alone.rotate_rad, std::abs(planted.rotate_rad), 0.5 / kDegrees) &&
-         near(alone.noise_N, planted.noise_N, 2e-3);
-}
-
 SceneFidelity measure_scene_fidelity(const scene::Scene& whole, const FidelityRequest& request, const RunWatch& watch) {
   const scene::Scene scene = without_effects(whole);
   const DeviceRun run = request.recording != nullptr ? run_recorded(scene, *request.recording, request.profile, watch)
                                                      : run_scripted(scene, request.profile, request.seconds, watch);
-  const JudgedTicks ticks = judged_ticks(scene, run, request.profile);
   const std::vector<Vec3> by_steps_N = true_force_by_steps(run);
   SceneFidelity result;
   result.scene = scene.name;
   result.title = scene.title;
   result.device = request.device;
   result.truth = request.truth;
-  const ForceSeries steps = felt_series(run, by_steps_N, ticks.judged);
-  result.force = steps;
-  if (request.truth == Truth::Ticks) {
-    result.force = felt_series(run, true_force_by_ticks(scene, run, request.profile, watch), ticks.judged);
-    ForceSeries between = result.force;
-    between.commanded_N.assign(by_steps_N.begin(),
-                               by_steps_N.begin() + static_cast<std::ptrdiff_t>(between.true_N.size()));
-    result.step_part = compare_forces(between);
-  }
-  result.haptic_part = compare_forces(steps);
+  const std::vector<Vec3> true_N =
+      request.truth == Truth::Ticks ? true_force_by_ticks(scene, run, request.profile, watch) : by_steps_N;
+  const JudgedTicks ticks = judged_ticks(scene, run, request.profile, true_N);
+  result.force = felt_series(run, true_N, ticks.judged);
   result.gate_ticks = ticks.gate;
   result.hand_ticks = ticks.hand;
   result.limit_ticks = ticks.at_limit;
+  ForceSeries steps = result.force;
+  steps.true_N.assign(by_steps_N.begin(), by_steps_N.begin() + static_cast<std::ptrdiff_t>(true_N.size()));
+  result.haptic_part = compare_forces(steps);
+  if (request.truth == Truth::Ticks) {
+    steps.commanded_N = steps.true_N;
+    steps.true_N = true_N;
+    result.step_part = compare_forces(steps);
+  }
   result.compared = compare_all(result.force, run);
   if (result.force.true_N.size() == run.ticks.size()) {
     result.presses = press_stiffness(run, result.force);
@@ -163,7 +140,7 @@ SceneFidelity measure_scene_fidelity(const scene::Scene& whole, const FidelityRe
   }
   result.answer = answer_time(request.profile);
   result.ranges = all_ranges(request);
-  if (request.planted.any()) result.planted = report_planted(result, request.planted);
+  if (request.planted.any()) result.planted = report_planted(result.force, request.planted);
   result.notes = notes_of(result, run, request);
   return result;
 }

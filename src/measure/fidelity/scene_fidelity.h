@@ -11,14 +11,14 @@
 namespace myotact::measure {
 
 /// What counts as the true force; true_force.h says how each is got.
-enum class Truth { Ticks, Steps };
+enum class Truth { Steps, Ticks };
 
 struct FidelityRequest {
   std::string device = "simulated";
   device::DeviceProfile profile;
   double seconds = 1e9;                         // of a script at most
   const scene::Recording* recording = nullptr;  // in place of the script
-  Truth truth = Truth::Ticks;
+  Truth truth = Truth::Steps;
   PlantedFaults planted;
 };
 
@@ -40,18 +40,9 @@ struct JudgedFigure {
   Grade grade() const { return value <= good ? Grade::Good : value <= fair ? Grade::Fair : Grade::Poor; }
 };
 
-/// What planted faults were, and what was found of them.
-struct PlantedReport {
-  PlantedFaults planted;
-  PlantedFaults alone;     // the force with the faults beside the same force without: nothing else differs
-  PlantedFaults on_truth;  // beside the truth, less what it differs by anyway
-  /// Whether `alone` holds each within a tenth of what was planted.
-  bool all_found() const;
-};
-
 struct SceneFidelity {
   std::string scene, title, device;
-  Truth truth = Truth::Ticks;
+  Truth truth = Truth::Steps;
   ForceSeries force;  // commanded (as felt, nothing planted) and true, one entry a tick; shorter when stopped
   std::size_t gate_ticks = 0, hand_ticks = 0, limit_ticks = 0;  // left out, and why (felt_masks.h)
   std::vector<ComparedForce> compared;                          // the first is the whole force

@@ -121,7 +121,7 @@ std::string scene_fidelity_text(const SceneFidelity& fidelity) {
   text += fmt::format("truth: {}\n", truth_text(fidelity.truth));
   text += fmt::format(
       "judged: {:.2f} s near touch; left out {:.2f} s of gate, {:.2f} s of a closing or opening hand, "
-      "{:.2f} s at the device's limit\n\n",
+      "{:.2f} s of more force than the device may give\n\n",
       1e-3 * static_cast<double>(whole.ticks), 1e-3 * static_cast<double>(fidelity.gate_ticks),
       1e-3 * static_cast<double>(fidelity.hand_ticks), 1e-3 * static_cast<double>(fidelity.limit_ticks));
   for (const JudgedFigure& figure : figures)

@@ -30,8 +30,8 @@ MeasuredGoal measure_goal(const Goal& goal, Effort effort) {
 }
 
 std::string goal_text(const MeasuredGoal& measured) {
-  std::string text = fmt::format("{:>2}  {:<62} {}\n", measured.goal.number, measured.goal.title,
-                                 all_met(measured) ? "met" : "MISSED");
+  const char* verdict = measured.result.figures.empty() ? "not measured" : all_met(measured) ? "met" : "MISSED";
+  std::string text = fmt::format("{:>2}  {:<62} {}\n", measured.goal.number, measured.goal.title, verdict);
   for (const Figure& figure : measured.result.figures) {
     text += fmt::format("      {:<58} {:>11.4g} {:<6} goal {} {:<9.4g} {}{}\n", figure.what, figure.value, figure.unit,
                         figure.at_least ? ">=" : "<=", figure.goal, figure.met() ? "met" : "MISSED",
@@ -58,7 +58,8 @@ std::string suite_json(std::span<const MeasuredGoal> goals) {
     passed = passed && measured.passed();
     list.push_back({{"number", measured.goal.number},
                     {"title", measured.goal.title},
-                    {"met", all_met(measured)},
+                    {"measured", !figures.empty()},
+                    {"met", !figures.empty() && all_met(measured)},
                     {"wall_s", measured.wall_s},
                     {"figures", figures},
                     {"note", measured.result.note}});
