@@ -162,15 +162,14 @@ std::string summary(const SceneFidelity& fidelity, const std::vector<JudgedFigur
       100.0 * std::abs(whole.gain - 1.0), whole.gain >= 1.0 ? "strong" : "weak", 1e3 * std::abs(whole.lag_s),
       whole.lag_s >= 0.0 ? "late" : "early", 57.29577951 * whole.turn_angle_rad(), 1e3 * whole.noise_rms_N);
   html += fmt::format("<p>The truth is {}. ", measure::truth_text(fidelity.truth));
-  html += fmt::format("Beside what the scene's own steps gave, the force differed by {:.1f} %",
-                      100.0 * fidelity.haptic_part.error_rms_share);
-  if (fidelity.step_part)
+  if (fidelity.haptic_part && fidelity.step_part)
     html += fmt::format(
-        ", and those steps differed from the truth by {:.1f} %: the first is the rendering's part, the "
-        "second that of the simulation's step",
-        100.0 * fidelity.step_part->error_rms_share);
+        "Beside what the scene's own steps gave, the force differed by {:.1f} %, and those steps differed from the "
+        "truth "
+        "by {:.1f} %: the first is the rendering's part, the second that of the simulation's step. ",
+        100.0 * fidelity.haptic_part->error_rms_share, 100.0 * fidelity.step_part->error_rms_share);
   html += fmt::format(
-      ". Left out: {:.2f} s while the force gate was not open, {:.2f} s while a hand closed or opened, "
+      "Left out: {:.2f} s while the force gate was not open, {:.2f} s while a hand closed or opened, "
       "{:.2f} s in which the true force is more than the device may give. Texture and the snap of lines were off: they "
       "are for the hand alone.</p>\n",
       1e-3 * static_cast<double>(fidelity.gate_ticks), 1e-3 * static_cast<double>(fidelity.hand_ticks),
@@ -206,7 +205,7 @@ std::string comparison_table(const SceneFidelity& fidelity) {
     html += fmt::format(R"(<th class="number">{}</th>)", head);
   html += "</tr>\n";
   for (const measure::ComparedForce& one : fidelity.compared) html += comparison_row(one.name, one.found);
-  html += comparison_row("of it: felt, on the scene's own steps", fidelity.haptic_part);
+  if (fidelity.haptic_part) html += comparison_row("of it: felt, on the scene's own steps", *fidelity.haptic_part);
   if (fidelity.step_part) html += comparison_row("of it: own steps, on the truth", *fidelity.step_part);
   return html +
          "</table>\n<p class=\"why\">Gain, lag and turn are fitted together; noise is what they do not explain, "

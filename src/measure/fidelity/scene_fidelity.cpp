@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "device/profile_file.h"
+#include "haptics/faults.h"
 #include "measure/fidelity/felt_masks.h"
 #include "measure/fidelity/true_force.h"
 
@@ -82,6 +84,9 @@ std::vector<std::string> notes_of(const SceneFidelity& fidelity, const DeviceRun
     const double ticks_a_step = static_cast<double>(run.ticks.size()) / stepped_s;
     notes.push_back(fmt::format("{:.1f} ticks a step: the truth gives every tick one millisecond", ticks_a_step));
   }
+  std::uint32_t faults = 0;
+  for (const haptics::HapticTick& tick : run.ticks) faults |= tick.tool.faults;
+  for (const std::string& fault : haptics::describe_faults(faults)) notes.push_back(fmt::format("raised while felt: {}", fault));
   if (!std::isfinite(fidelity.compared.front().found.gain))
     notes.push_back("the hand felt nothing that could be judged: no force over 20 mN for 50 ms");
   return notes;
@@ -124,12 +129,11 @@ SceneFidelity measure_scene_fidelity(const scene::Scene& whole, const FidelityRe
   result.gate_ticks = ticks.gate;
   result.hand_ticks = ticks.hand;
   result.limit_ticks = ticks.at_limit;
-  ForceSeries steps = result.force;
-  steps.true_N.assign(by_steps_N.begin(), by_steps_N.begin() + static_cast<std::ptrdiff_t>(true_N.size()));
-  result.haptic_part = compare_forces(steps);
   if (request.truth == Truth::Ticks) {
-    steps.commanded_N = steps.true_N;
-    steps.true_N = true_N;
+    ForceSeries steps = result.force;
+    steps.true_N.assign(by_steps_N.begin(), by_steps_N.begin() + static_cast<std::ptrdiff_t>(true_N.size()));
+    result.haptic_part = compare_forces(steps);
+    steps.commanded_N = std::exchange(steps.true_N, true_N);
     result.step_part = compare_forces(steps);
   }
   result.compared = compare_all(result.force, run);

@@ -46,10 +46,9 @@ struct SceneFidelity {
   ForceSeries force;  // commanded (as felt, nothing planted) and true, one entry a tick; shorter when stopped
   std::size_t gate_ticks = 0, hand_ticks = 0, limit_ticks = 0;  // left out, and why (felt_masks.h)
   std::vector<ComparedForce> compared;                          // the first is the whole force
-  /// Of the whole difference: what the haptic side adds to its simulation, and what the simulation's step leaves out
-  /// (the latter only with Truth::Ticks).
-  ForceComparison haptic_part;
-  std::optional<ForceComparison> step_part;
+  /// With Truth::Ticks, of the whole difference: what the haptic side adds to its simulation, and what the simulation's
+  /// step leaves out.
+  std::optional<ForceComparison> haptic_part, step_part;
   std::vector<PressStiffness> presses;
   std::optional<SlidingFriction> friction;
   std::optional<JointInHand> joint;

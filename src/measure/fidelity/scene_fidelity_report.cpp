@@ -130,7 +130,7 @@ std::string scene_fidelity_text(const SceneFidelity& fidelity) {
   text += fmt::format("\n  {:<30} {:>7} {:>8} {:>8} {:>7} {:>8} {:>7} {:>8}\n", "", "N RMS", "% RMS", "% worst", "gain",
                       "lag ms", "turn", "mN noise");
   for (const ComparedForce& one : fidelity.compared) text += comparison_text(one.name, one.found);
-  text += comparison_text("of it: felt on own steps", fidelity.haptic_part);
+  if (fidelity.haptic_part) text += comparison_text("of it: felt on own steps", *fidelity.haptic_part);
   if (fidelity.step_part) text += comparison_text("of it: own steps on truth", *fidelity.step_part);
   text += fmt::format("net work on the hand: commanded {:.2f} mJ, true {:.2f} mJ\n", 1e3 * whole.commanded_work_J,
                       1e3 * whole.true_work_J);
@@ -166,7 +166,7 @@ std::string scene_fidelity_json(const SceneFidelity& fidelity) {
                                {"verdict", grade_text(figure.grade())},
                                {"source", figure.source}});
   for (const ComparedForce& one : fidelity.compared) json["compared"][one.key] = comparison_json(one.found);
-  json["parts"]["felt_on_own_steps"] = comparison_json(fidelity.haptic_part);
+  if (fidelity.haptic_part) json["parts"]["felt_on_own_steps"] = comparison_json(*fidelity.haptic_part);
   if (fidelity.step_part) json["parts"]["own_steps_on_truth"] = comparison_json(*fidelity.step_part);
   json["device"] = {{"profile", fidelity.device},
                     {"answer_loop_ticks", fidelity.answer.loop_ticks},
