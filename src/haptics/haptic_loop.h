@@ -28,8 +28,8 @@ namespace myotact::haptics {
 inline constexpr std::uint64_t kTickPeriod_ns = 1'000'000;
 
 struct HapticSettings {
-  /// Penetration and Plane have no friction, damping, texture or compliance; their stiffness is the contact's, and is
-  /// lowered to what the device may send over the way out of the contact.
+  /// Penetration and Plane have no friction, damping, texture or compliance. Their k is the contact's stiffness, as far
+  /// as the device bears it (stiffness_bound.h), and no more than the force that may be sent over the way out.
   ForceMethod method = ForceMethod::Proxy;
   ContactSettings contact;
   LineDragSettings line;

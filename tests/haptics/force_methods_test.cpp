@@ -1,5 +1,6 @@
 #include "haptics/force_methods.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -255,6 +256,34 @@ class FloorLoop {
   std::uint64_t now_ns_ = kTickPeriod_ns, sequence_ = 0;
   int tick_ = 0;
 };
+
+TEST(PullingMethod, ATickOfItsLoopNeverAllocates) {
+  HapticSettings settings;
+  settings.method = ForceMethod::Pulling;
+  settings.gate.ramp_s = 0.1;
+  device::SimulatedDevice device("simulated", Vec3(0, 0, 0.02));
+  HapticLoop loop(device, settings);
+  loop.prepare(kTickPeriod_ns);
+  std::uint64_t allocations = 0;
+  double most_N = 0.0;
+  for (std::uint64_t tick = 1; tick <= 500; ++tick) {
+    if (tick % 17 == 1) {
+      loop.models().back() = {};
+      loop.models().back().grip.body = 2;
+      loop.models().back().published_at_ns = tick * kTickPeriod_ns;
+      loop.models().back().dt_ns = 17 * kTickPeriod_ns;
+      loop.models().publish();
+    }
+    device.set_hand_target({{0, 0, tick > 200 ? 0.025 : 0.02}, {}, tick > 200 ? messages::kGrabBoneButton : 0u});
+    const support::AllocationGuard guard;
+    loop.tick(tick * kTickPeriod_ns);
+    allocations += guard.allocations();
+    most_N = std::max(most_N, to_vec3(loop.tool_state().force_world_N).norm());
+  }
+  EXPECT_EQ(allocations, 0u);
+  EXPECT_GT(most_N, 0.5);
+  EXPECT_EQ(loop.tool_state().grabbed_body, 2);
+}
 
 class FeltByReports : public testing::TestWithParam<ForceMethod> {};
 
