@@ -128,7 +128,7 @@ class SlowPart {
       const double turns = kNoiseAbove_Hz / kRate_Hz * k;
       const double angle_rad = 2.0 * std::numbers::pi * turns;
       const double window = 0.5 + 0.5 * std::cos(std::numbers::pi * k / (kHalf + 1));
-      weights_[static_cast<std::size_t>(k + kHalf)] = window * (k == 0 ? 1.0 : std::sin(angle_rad) / angle_rad);
+      weights_[index(k)] = window * (k == 0 ? 1.0 : std::sin(angle_rad) / angle_rad);
     }
   }
   Vec3 at(const std::vector<Vec3>& signal, const std::vector<bool>& used, std::size_t tick) const {
@@ -137,7 +137,7 @@ class SlowPart {
     for (int k = -kHalf; k <= kHalf; ++k) {
       const long other = static_cast<long>(tick) + k;
       if (other < 0 || other >= static_cast<long>(signal.size()) || !used[static_cast<std::size_t>(other)]) continue;
-      const double share = weights_[static_cast<std::size_t>(k + kHalf)];
+      const double share = weights_[index(k)];
       sum += share * signal[static_cast<std::size_t>(other)];
       weight += share;
     }
@@ -145,6 +145,11 @@ class SlowPart {
   }
 
  private:
+  static std::size_t index(int k) {
+    const int from_first = k + kHalf;
+    return static_cast<std::size_t>(from_first);
+  }
+
   static constexpr int kHalf = 75;  // passes 10 Hz, stops 30 Hz
   std::array<double, 2 * kHalf + 1> weights_{};
 };
