@@ -54,7 +54,8 @@ Subject subject_of(const Options& options) {
     subject.scene = scene::scene_of_recording(header, *options.recording, overrides_of(options));
     scene::require_fit(*subject.recording, subject.scene, *options.recording);
     if (options.devices.empty())
-      subject.device = {"recorded", "the recorded device", scene::devices_of_recording(header, *options.recording).front()};
+      subject.device = {"recorded", "the recorded device",
+                        scene::devices_of_recording(header, *options.recording).front()};
   } else {
     subject.scene = scene::load_scene(options.scene, overrides_of(options));
     scene::set_seed(subject.scene, options.seed);
@@ -87,7 +88,7 @@ int scene_fidelity(const Options& options) {
   std::cout << (options.json ? json : measure::scene_fidelity_text(found)) << std::flush;
   if (interruption() != 0) return interruption();
   const bool passed =
-      found.planted ? found.planted->all_found() : measure::worst_grade(measure::judge(found)) != measure::Grade::Poor;
+      found.planted ? found.planted->all_found() : measure::worst_grade(measure::judge(found)) < measure::Grade::Poor;
   return static_cast<int>(passed ? ExitStatus::Done : ExitStatus::CheckFailed);
 }
 

@@ -78,7 +78,8 @@ struct Cursor {
 /// With dots for what no terminal shows.
 std::string printable(std::string_view bytes) {
   std::string text(bytes);
-  std::replace_if(text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '.');
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '.');
   return text;
 }
 
@@ -264,10 +265,11 @@ Recording read_recording(const std::filesystem::path& path) {
   if (!rest.starts_with(kMagic)) {
     const bool other = rest.starts_with(kMagic.substr(0, 6));
     throw bad_data(path.string(), "byte 0",
-                   other ? fmt::format("is a recording of another version, \"{}\"; this program reads \"{}\". Record it "
-                                       "again, or take the program that wrote it",
-                                       printable(rest.substr(0, kMagic.size())), kMagic)
-                         : fmt::format("is no recording (\"{}\" is missing)", kMagic));
+                   other
+                       ? fmt::format("is a recording of another version, \"{}\"; this program reads \"{}\". Record it "
+                                     "again, or take the program that wrote it",
+                                     printable(rest.substr(0, kMagic.size())), kMagic)
+                       : fmt::format("is no recording (\"{}\" is missing)", kMagic));
   }
   rest.remove_prefix(kMagic.size());
   const auto header = take_chunk(rest);

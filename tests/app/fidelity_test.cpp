@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/file.h"
 #include "app/program.h"
+#include "core/file.h"
 
 namespace myotact::testing {
 namespace {

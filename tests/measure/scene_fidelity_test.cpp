@@ -133,6 +133,7 @@ TEST(SceneFidelity, AScriptThatTouchesNothingSaysSo) {
   scene.script[0] = {0.0, 0.2, scene::MoveHand{Vec3(0.0, 0.0, 0.5)}};
   const SceneFidelity fidelity = measure_scene_fidelity(scene, {}, {});
   EXPECT_TRUE(std::isnan(fidelity.compared.front().found.gain));
+  EXPECT_EQ(worst_grade(judge(fidelity)), Grade::Unknown);
   EXPECT_FALSE(fidelity.notes.empty());
   EXPECT_EQ(nlohmann::json::parse(scene_fidelity_json(fidelity))["compared"]["force"]["gain"], nullptr);
 }

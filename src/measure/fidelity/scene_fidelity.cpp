@@ -1,6 +1,7 @@
 #include "measure/fidelity/scene_fidelity.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -86,14 +87,15 @@ std::vector<std::string> notes_of(const SceneFidelity& fidelity, const DeviceRun
   }
   std::uint32_t faults = 0;
   for (const haptics::HapticTick& tick : run.ticks) faults |= tick.tool.faults;
-  for (const std::string& fault : haptics::describe_faults(faults)) notes.push_back(fmt::format("raised while felt: {}", fault));
+  for (const std::string& fault : haptics::describe_faults(faults))
+    notes.push_back(fmt::format("raised while felt: {}", fault));
   if (!std::isfinite(fidelity.compared.front().found.gain))
     notes.push_back("the hand felt nothing that could be judged: no force over 20 mN for 50 ms");
   return notes;
 }
 
-/// Of the reference's goals (haptics.md 3.2), and where it has none, of the change of stiffness that a hand begins to
-/// notice, 15 to 20 % there, from memory.
+/// Of the numbered goals (goals.cpp), and where they have none, of the change of stiffness that a hand begins to
+/// notice, 15 to 20 % (from memory).
 constexpr const char* kShareSource = "3 %: goal 17; 15 %: the least change of stiffness that is noticed (from memory)";
 
 void judge_force(const ComparedForce& force, std::vector<JudgedFigure>& figures) {
@@ -151,13 +153,12 @@ SceneFidelity measure_scene_fidelity(const scene::Scene& whole, const FidelityRe
 
 std::vector<JudgedFigure> judge(const SceneFidelity& fidelity) {
   std::vector<JudgedFigure> figures;
-  judge_force(fidelity.compared.front(), figures);
   const ForceComparison& whole = fidelity.compared.front().found;
-  if (std::isfinite(whole.gain)) {
-    figures.push_back({"energy given to the hand beyond the true force's", "mJ",
-                       1e3 * std::max(0.0, whole.commanded_work_J - whole.true_work_J), 1.0, 5.0,
-                       "1 mJ: goal 15; 5 mJ: the least store of an observer of energy (reference 2.6)"});
-  }
+  if (!std::isfinite(whole.gain)) return figures;
+  judge_force(fidelity.compared.front(), figures);
+  figures.push_back({"energy given to the hand beyond the true force's", "mJ",
+                     1e3 * std::max(0.0, whole.commanded_work_J - whole.true_work_J), 1.0, 5.0,
+                     "1 mJ: goal 15; 5 mJ: the least store of an observer of energy (reference 2.6)"});
   for (const PressStiffness& press : fidelity.presses) {
     figures.push_back({fmt::format("stiffness of the press at {:.2f} s off by", press.start_s), "%",
                        100.0 * std::abs(press.felt_N_m / press.true_N_m - 1.0), 5.0, 15.0,
@@ -179,13 +180,15 @@ std::vector<JudgedFigure> judge(const SceneFidelity& fidelity) {
 }
 
 Grade worst_grade(const std::vector<JudgedFigure>& figures) {
+  if (figures.empty()) return Grade::Unknown;
   Grade worst = Grade::Good;
   for (const JudgedFigure& figure : figures) worst = std::max(worst, figure.grade());
   return worst;
 }
 
 const char* grade_text(Grade verdict) {
-  return verdict == Grade::Good ? "good" : verdict == Grade::Fair ? "fair" : "poor";
+  constexpr std::array kTexts = {"good", "fair", "poor", "nothing to judge"};
+  return kTexts[static_cast<std::size_t>(verdict)];
 }
 
 }  // namespace myotact::measure

@@ -29,7 +29,7 @@ struct ComparedForce {
   ForceComparison found;
 };
 
-enum class Grade { Good, Fair, Poor };
+enum class Grade { Good, Fair, Poor, Unknown };
 
 /// One figure beside the two bounds that make it good or fair.
 struct JudgedFigure {
@@ -62,10 +62,11 @@ struct SceneFidelity {
 /// out. Throws Error.
 SceneFidelity measure_scene_fidelity(const scene::Scene& scene, const FidelityRequest& request, const RunWatch& watch);
 
-/// The figures that make the verdict; those that the run says nothing about are left out.
+/// The figures that make the verdict; those that the run says nothing about are left out, and all
+/// where nothing was felt.
 std::vector<JudgedFigure> judge(const SceneFidelity& fidelity);
 
-/// The worst of them; Good for none.
+/// The worst of them; Unknown for none: nothing was felt.
 Grade worst_grade(const std::vector<JudgedFigure>& figures);
 const char* grade_text(Grade verdict);
 
