@@ -209,8 +209,7 @@ LayerFidelity measure_plane(const scene::Scene& scene, Effort effort) {
   add_goals(runs, fidelity);
   fidelity.notes = {
       "mN, um: jitter of the force on the hand, and of the place of the stylus less where the hand wants it: what is",
-      "left above 20 Hz (first order), as root of its mean square, once the speed is constant; beside a goal: all "
-      "axes.",
+      "left above 20 Hz (first order), as root of its mean square, once the speed is constant; in a goal: all axes.",
       "step: largest change of the force from tick to tick; one count of the encoder is 20 mN.",
       "A trembling hand wants 0.2 mm at 9 Hz; what that leaves above 20 Hz is the same for all.",
       "A, B and proxy are the spring alone, the proxy as set has the scene's friction and damping.",

@@ -169,43 +169,48 @@ std::vector<Place> random_places(const geometry::TriangleMesh& mesh, int count, 
   return places;
 }
 
+/// One move of a surface: from the mesh's own places to others.
+struct Move {
+  const geometry::TriangleMesh& mesh;
+  const std::vector<Vec3>& moved_m;
+};
+
 /// Whether there is outside, as far as the sphere's centre, over the touched point of the moved surface.
-bool has_room(const geometry::TriangleMesh& mesh, const std::vector<Vec3>& moved_m,
-              const haptics::ProxyContact& contact, double radius_m) {
-  const auto& triangle = mesh.triangles[static_cast<std::size_t>(contact.triangle)];
-  const auto corner = [&](std::size_t k) { return moved_m[static_cast<std::size_t>(triangle[k])]; };
+bool has_room(const Move& move, const haptics::ProxyContact& contact, double radius_m) {
+  const auto& triangle = move.mesh.triangles[static_cast<std::size_t>(contact.triangle)];
+  const auto corner = [&](std::size_t k) { return move.moved_m[static_cast<std::size_t>(triangle[k])]; };
   const Vec3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
   Vec3 point_m = Vec3::Zero();
   for (std::size_t k = 0; k < 3; ++k) point_m += contact.barycentric[k] * corner(k);
   for (const double share : {0.01, 0.5, 1.0}) {
-    if (geometry::winding_number(mesh, moved_m, point_m + share * radius_m * normal) > 0.5) return false;
+    if (geometry::winding_number(move.mesh, move.moved_m, point_m + share * radius_m * normal) > 0.5) return false;
   }
   return true;
 }
 
 /// Settles at the place, moves the surface once within one tick, waits 16 ticks. Left out: places without sound
 /// contact, and those where the moved surface passes through itself (a cleft that closes), so that nothing is outside.
-void run_frame(SurfaceTouch& touch, const geometry::TriangleMesh& mesh, const std::vector<Vec3>& moved_m,
-               const Place& place, std::uint64_t& now_ns, Tally& tally) {
+void run_frame(SurfaceTouch& touch, const Move& move, const Place& place, std::uint64_t& now_ns, Tally& tally) {
+  const std::vector<Vec3>& rest_m = move.mesh.positions_m;
   constexpr int kSettle = 6;
   constexpr int kAfter = 16;
   const double radius_m = touch.contact().radius_m;
-  touch.play(mesh.positions_m, mesh.positions_m, now_ns, kTick_ns);
+  touch.play(rest_m, rest_m, now_ns, kTick_ns);
   touch.restart(touch.contact());
   const haptics::ProxyGoal pressed{place.point_m + (radius_m - kDeep_m) * place.normal, Vec3::Zero()};
   touch.tick({place.point_m + (radius_m + 1e-3) * place.normal, Vec3::Zero()}, now_ns += kTick_ns);
   for (int tick = 0; tick < kSettle; ++tick) touch.tick(pressed, now_ns += kTick_ns);
   const haptics::ProxyContact contact = touch.proxy().contact();
-  if (!contact.active || geometry::winding_number(mesh, mesh.positions_m, touch.proxy().position_m()) > 0.5) return;
-  if (!has_room(mesh, moved_m, contact, radius_m)) {
+  if (!contact.active || geometry::winding_number(move.mesh, rest_m, touch.proxy().position_m()) > 0.5) return;
+  if (!has_room(move, contact, radius_m)) {
     ++tally.without_room;
     return;
   }
-  touch.play(mesh.positions_m, moved_m, now_ns, kTick_ns);
+  touch.play(rest_m, move.moved_m, now_ns, kTick_ns);
   for (int tick = 0; tick < kAfter; ++tick) touch.tick(pressed, now_ns += kTick_ns);
   ++tally.trials;
   tally.ticks += kSettle + kAfter;
-  tally.inside += geometry::winding_number(mesh, touch.positions_m(), touch.proxy().position_m()) > 0.5 ? 1 : 0;
+  tally.inside += geometry::winding_number(move.mesh, touch.positions_m(), touch.proxy().position_m()) > 0.5 ? 1 : 0;
   tally.count(touch);
 }
 
@@ -222,7 +227,7 @@ Tally measure_frames(const geometry::TriangleMesh& mesh, int points) {
     for (const double delta_m : {0.1e-3, 1e-3, 2e-3, 5e-3}) {
       std::vector<Vec3> moved_m = mesh.positions_m;
       for (std::size_t i = 0; i < moved_m.size(); ++i) moved_m[i] += delta_m * outward[i];
-      for (const Place& place : places) run_frame(touch, mesh, moved_m, place, now_ns, tally);
+      for (const Place& place : places) run_frame(touch, {mesh, moved_m}, place, now_ns, tally);
     }
   }
   return tally;
