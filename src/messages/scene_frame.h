@@ -10,6 +10,17 @@ namespace myotact::messages {
 /// What a tool looks and feels like: a fingertip, the tip of a stylus, a clamp that takes bones.
 enum class ToolShape { Ball, Point, Clamp };
 
+/// Of what the force on the hand is made [N, world]. The parts add up to ToolFrame::force_world_N.
+struct ForceParts {
+  std::array<double, 3> contact{};   // across the surface
+  std::array<double, 3> friction{};  // along it
+  std::array<double, 3> texture{};
+  std::array<double, 3> line{};     // of the muscle line in hand, or strummed
+  std::array<double, 3> bone{};     // in hand
+  std::array<double, 3> damping{};  // what keeps the loop passive
+  std::array<double, 3> limits{};   // what ramp, fade, clamp and slew limit of the gate change
+};
+
 /// One tool as the view draws it.
 struct ToolFrame {
   std::array<double, 3> tool_world_m{};
@@ -23,6 +34,13 @@ struct ToolFrame {
   int grabbed_line = -1;                 // muscle, or -1
   int grabbed_body = -1;                 // body, or -1
   std::array<double, 3> grip_world_m{};  // its point in hand
+  int touched_muscle = -1;               // or -1
+  int touched_body = -1;                 // whose bone is touched, or -1
+  ForceParts parts;
+  double line_tension_N = 0.0;  // of the line in hand
+  double force_scale = 1.0;     // felt over simulated force
+  double motion_scale = 1.0;    // way of the tool over way of the hand
+  double model_age_s = 0.0;     // of what the hand feels now
 };
 
 /// What stands beside a joint's stiffness that mass-spring muscles have a part in.
@@ -63,6 +81,7 @@ struct SceneFrame {
   std::vector<std::vector<std::array<float, 3>>> skins_world_m;   // muscles x skin vertices
   std::vector<double> activations;                                // muscles, 0 .. 1
   std::vector<double> tensions_N;                                 // muscles
+  std::vector<double> stretches;                                  // muscles, fibre length over optimal, mean
   std::vector<double> volume_ratios;                              // muscles, volume now over rest
   std::vector<double> smallest_volume_ratios;                     // muscles, over the integration points
   std::vector<std::vector<std::array<double, 3>>> lines_world_m;  // muscles x line points

@@ -28,6 +28,8 @@ struct Camera {
   glm::vec3 right_world() const;
   glm::vec3 up_world() const;
   glm::vec3 forward_world() const;
+
+  bool operator==(const Camera&) const = default;
 };
 
 /// Standard views of a limb: lateral, medial, cranial, caudal, dorsal, palmar; nothing for another name. `left_limb`:

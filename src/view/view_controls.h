@@ -3,17 +3,13 @@
 #include <array>
 #include <cstdint>
 
+#include "view/scene_state.h"
+
 namespace myotact::view {
 
 /// What the person at the window asks for, as of this picture. The window knows neither simulation nor device.
 struct ViewControls {
-  double flexors = 0.0, extensors = 0.0;  // 0 .. 1
-  double common = 0.0;                    // 0 .. 1
-  double difference = 0.0;                // -1 .. 1
-  bool levels_changed = false;            // one of the first two was moved, ever; the last group moved counts
-  bool balance_changed = false;           // one of the second two was
-  bool hold_posture = false;
-  bool gravity = false;
+  SceneState scene;
   bool paused = false;
   std::uint32_t stops = 0;   // emergency stops asked for so far
   std::uint32_t arms = 0;    // times that forces were enabled again

@@ -1,0 +1,131 @@
+#include "view/ui/controls.h"
+
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "view/ui/text.h"
+
+namespace myotact::view::ui {
+
+namespace {
+
+struct Places {
+  std::vector<ControlPlace> last, next;
+};
+
+Places& places() {
+  static Places all;
+  return all;
+}
+
+/// The text that is shown, then what ImGui knows the control by, whatever the language.
+std::string label(const char* key) {
+  return fmt::format("{}##{}", tr(key), key);
+}
+
+void show_tip(const char* key) {
+  if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  const std::string tip = fmt::format("{}.tip", key);
+  if (!has_text(tip)) return;
+  constexpr float kWidth_em = 22.0f;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(kWidth_em * ImGui::GetFontSize());
+  ImGui::TextUnformatted(tr(tip));
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+void finish(const char* key, const std::string& value) {
+  show_tip(key);
+  note_control(key, value);
+}
+
+}  // namespace
+
+void begin_controls() {
+  std::swap(places().last, places().next);
+  places().next.clear();
+}
+
+const std::vector<ControlPlace>& controls_of_last_picture() {
+  return places().last;
+}
+
+void note_control(const char* key, const std::string& value) {
+  if (!ImGui::IsItemVisible()) return;
+  const ImVec2 low = ImGui::GetItemRectMin(), size = ImGui::GetItemRectSize();
+  places().next.push_back({key, value, low.x, low.y, size.x, size.y});
+}
+
+bool button(const char* key) {
+  const bool pressed = ImGui::Button(label(key).c_str());
+  finish(key, "");
+  return pressed;
+}
+
+bool toggle_button(const char* key, bool on) {
+  if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+  const bool pressed = ImGui::Button(label(key).c_str());
+  if (on) ImGui::PopStyleColor();
+  finish(key, on ? "on" : "off");
+  return pressed;
+}
+
+bool checkbox(const char* key, bool& value) {
+  const bool changed = ImGui::Checkbox(label(key).c_str(), &value);
+  finish(key, value ? "on" : "off");
+  return changed;
+}
+
+bool slider(const char* key, double& value, const Range& range, const char* format) {
+  auto number = static_cast<float>(value);
+  const bool moved = ImGui::SliderFloat(label(key).c_str(), &number, range.lowest, range.highest, format);
+  if (moved) value = static_cast<double>(number);
+  finish(key, fmt::format("{:.4g}", value));
+  return moved;
+}
+
+bool choice(const char* key, int& value, std::span<const char* const> option_keys) {
+  const auto count = static_cast<int>(option_keys.size());
+  const char* shown = value >= 0 && value < count ? option_keys[static_cast<std::size_t>(value)] : nullptr;
+  bool changed = false;
+  const bool open = ImGui::BeginCombo(label(key).c_str(), shown != nullptr ? tr(shown) : "");
+  finish(key, shown != nullptr ? shown : "");
+  if (!open) return false;
+  for (int i = 0; i < count; ++i) {
+    const char* option = option_keys[static_cast<std::size_t>(i)];
+    if (ImGui::Selectable(label(option).c_str(), i == value) && i != value) {
+      value = i;
+      changed = true;
+    }
+    finish(option, "");
+  }
+  ImGui::EndCombo();
+  return changed;
+}
+
+bool input_text(const char* key, std::string& value) {
+  const bool changed = ImGui::InputTextWithHint(fmt::format("##{}", key).c_str(), tr(key), &value);
+  finish(key, value);
+  return changed;
+}
+
+void text(const char* key) {
+  ImGui::TextUnformatted(tr(key));
+}
+
+void paragraph(const std::string& text) {
+  ImGui::PushTextWrapPos(0.0f);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+}
+
+void heading(const char* key) {
+  ImGui::Spacing();
+  ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_PlotHistogram), "%s", tr(key));
+  ImGui::Separator();
+}
+
+}  // namespace myotact::view::ui

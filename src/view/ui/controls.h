@@ -1,0 +1,44 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+// The controls of the window. Each is named by the key of its text, which is also its identity: the language may change
+// while it is held. "KEY.tip", where there is such a text, is shown when the pointer rests on it. All can be reached and
+// moved by keyboard. Call between ImGui's NewFrame and Render.
+
+namespace myotact::view::ui {
+
+bool button(const char* key);
+/// Looks pressed while `on`.
+bool toggle_button(const char* key, bool on);
+bool checkbox(const char* key, bool& value);
+struct Range {
+  float lowest = 0.0f, highest = 1.0f;
+};
+/// `format`: of the number, with its unit, e.g. "%.1f N".
+bool slider(const char* key, double& value, const Range& range, const char* format = "%.2f");
+/// One of several; `option_keys`: keys of their texts.
+bool choice(const char* key, int& value, std::span<const char* const> option_keys);
+/// A line of text to be typed; true at every change.
+bool input_text(const char* key, std::string& value);
+
+void text(const char* key);
+/// Any text, broken at the panel's edge.
+void paragraph(const std::string& text);
+void heading(const char* key);
+
+/// Enters the control just drawn into the list below, for controls that are made by hand.
+void note_control(const char* key, const std::string& value = "");
+
+/// Where a control was in the last picture, so that tour, tests and other programs find it.
+struct ControlPlace {
+  std::string key, value;
+  float x = 0.0f, y = 0.0f, width = 0.0f, height = 0.0f;  // pixels of the window, from its top left corner
+};
+const std::vector<ControlPlace>& controls_of_last_picture();
+/// At the start of each picture.
+void begin_controls();
+
+}  // namespace myotact::view::ui
