@@ -52,6 +52,7 @@ struct MuscleJointFrame {
   double stiffness_Nm_rad = 0.0;      // of its tissue
   double line_muscle_Nm_rad = 0.0;    // r^2 k of its line
   double line_geometry_Nm_rad = 0.0;  // -(dr/dq) F of its line
+  double lever_m = 0.0;               // r of its line, the moment arm; positive flexes
 };
 
 /// Numbers of a joint for plots and panels.

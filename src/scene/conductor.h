@@ -34,6 +34,10 @@ class Conductor {
   /// The picture that the script asked for since the last call, if any.
   std::optional<TakePicture> take_picture();
 
+  /// Begins an action that the script does not hold; its start is a time of the script's clock, which begins at 0 and
+  /// with every restart. For a hand that decides as it goes.
+  void begin(const ScriptAction& action);
+
   // What the window's sliders ask for; they overrule the script from then on.
   void ask_levels(double flexors, double extensors);
   void ask_co_contraction(double common, double difference);
@@ -56,7 +60,6 @@ class Conductor {
   };
 
   void settle();
-  void begin(const ScriptAction& action);
   bool posture_is_held(double time_s) const;
   void trim_posture(double time_s);
   void drive_co_contraction(double time_s, std::vector<double>& excitations);

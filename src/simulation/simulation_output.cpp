@@ -69,7 +69,8 @@ void Simulation::Impl::write_joint(int index, const std::vector<LineReading>& li
   frame.muscles.resize(lines_now.size());
   for (std::size_t m = 0; m < frame.muscles.size(); ++m) {
     const MuscleAtJoint part = at_joint(static_cast<int>(m), index, lines_now[m]);
-    frame.muscles[m] = {part.torque_Nm, part.stiffness_Nm_rad, part.line_muscle_Nm_rad, part.line_geometry_Nm_rad};
+    frame.muscles[m] = {part.torque_Nm, part.stiffness_Nm_rad, part.line_muscle_Nm_rad, part.line_geometry_Nm_rad,
+                        part.lever_m};
   }
 }
 

@@ -48,6 +48,7 @@ struct ViewState {
   NameStyle names = NameStyle::English;
   SectionPlane section;
   bool labels = false;
+  bool names_hidden = false;  // of all parts, wherever they would be named: something is to be recognised
   bool lines = true;
   bool fibres = false;
   bool attachments = false;  // areas of origin and insertion, of the selected muscle or of all

@@ -28,13 +28,14 @@ const std::map<std::string, Folders> kMayInclude = {
     {"net", {"realtime", "messages"}},
     {"haptics", {"realtime", "messages", "geometry", "device"}},
     {"simulation", {"realtime", "messages", "geometry", "anatomy"}},
-    {"view", {"messages", "geometry", "anatomy"}},
+    {"learn", {"messages", "geometry", "anatomy"}},
+    {"view", {"messages", "geometry", "anatomy", "learn"}},
     {"layer", {"simulation", "haptics", "device", "anatomy", "realtime", "messages", "geometry"}},
     {"scene", {"layer", "simulation", "haptics", "device", "anatomy", "realtime", "messages", "geometry"}},
     {"measure", {"scene", "layer", "simulation", "haptics", "device", "anatomy", "realtime", "messages", "geometry"}},
     {"app",
      {"measure", "scene", "layer", "simulation", "haptics", "device", "anatomy", "realtime", "messages", "geometry",
-      "view", "net"}},
+      "view", "learn", "net"}},
 };
 
 /// The paths between quotes after #include; system headers stand between angle brackets.
