@@ -88,7 +88,11 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
   const auto bind = [&](CLI::App* command, int (*function)(const Options&)) {
     command->callback([&action, function] { action = function; });
   };
-  bind(add_scene_command(program, options, "view", "the window (default)"), myotact::app::view);
+  CLI::App* view = add_scene_command(program, options, "view", "the window (default)");
+  view->add_option("--report-state", options.report_state,
+                   "keep this JSON file up to date with what the window shows and where its controls are, for programs "
+                   "that assist a person");
+  bind(view, myotact::app::view);
   CLI::App* run =
       add_scene_command(program, options, "run", "no window: a scripted hand acts, tables and a picture come out");
   run->add_flag("--realtime", options.realtime,

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include <spdlog/spdlog.h>
 
@@ -98,34 +100,45 @@ std::string device_notes(const scene::Scene& scene, const Hands& hands) {
   return notes;
 }
 
+view::SceneState start_of(const scene::Scene& scene) {
+  view::SceneState start;
+  start.gravity = scene.settings.gravity_m_s2.norm() > 0.0;
+  if (scene.co_contraction) {
+    start.common = scene.co_contraction->common;
+    start.difference = scene.co_contraction->difference;
+    start.hold_posture = scene.co_contraction->hold_posture;
+  }
+  return start;
+}
+
 view::WindowSettings window_settings(const scene::Scene& scene, const Hands& hands) {
   view::WindowSettings settings;
-  settings.title = "Myotact: " + scene.title;
-  settings.note = device_notes(scene, hands) + scene.note;
+  settings.facts.name = scene.name;
+  settings.facts.title = "Myotact: " + scene.title;
+  settings.facts.note = device_notes(scene, hands) + scene.note;
+  settings.facts.device_peaks_N.clear();
   for (const scene::ToolDevice& tool : hands.devices) {
-    settings.device_peaks_N.push_back(tool.device->profile().peak_force_N);
+    settings.facts.device_peaks_N.push_back(tool.device->profile().peak_force_N);
   }
-  settings.joint = watched_joint(scene);
+  settings.facts.joint = watched_joint(scene);
   settings.hand_start_world_m = to_array(scene::start_of_hand(scene, hands.led < scene.tools.size() ? hands.led : 0));
-  settings.start.gravity = scene.settings.gravity_m_s2.norm() > 0.0;
-  if (scene.co_contraction) {
-    settings.start.common = scene.co_contraction->common;
-    settings.start.difference = scene.co_contraction->difference;
-    settings.start.hold_posture = scene.co_contraction->hold_posture;
-  }
+  settings.start = start_of(scene);
   return settings;
 }
 
-scene::Requests requests_of(const view::ViewControls& controls) {
+/// `driven`: the person took over from the script before; where undo goes back to the script's, the levels that the
+/// scene started with stand for it.
+scene::Requests requests_of(const view::ViewControls& controls, bool driven) {
+  const view::SceneState& state = controls.scene;
   scene::Requests requests;
-  requests.flexors = controls.flexors;
-  requests.extensors = controls.extensors;
-  requests.common = controls.common;
-  requests.difference = controls.difference;
-  requests.levels_changed = controls.levels_changed;
-  requests.balance_changed = controls.balance_changed;
-  requests.hold_posture = controls.hold_posture;
-  requests.gravity = controls.gravity;
+  requests.flexors = state.flexors;
+  requests.extensors = state.extensors;
+  requests.common = state.common;
+  requests.difference = state.difference;
+  requests.levels_changed = state.drive == view::Drive::Levels;
+  requests.balance_changed = state.drive == view::Drive::Balance || (state.drive == view::Drive::Script && driven);
+  requests.hold_posture = state.hold_posture;
+  requests.gravity = state.gravity;
   requests.paused = controls.paused;
   requests.stops = controls.stops;
   requests.arms = controls.arms;
@@ -134,6 +147,23 @@ scene::Requests requests_of(const view::ViewControls& controls) {
   requests.shoves = controls.shoves;
   return requests;
 }
+
+/// Tells what the window shows, a few times a second, where a file was named for it.
+class WindowReport {
+ public:
+  explicit WindowReport(std::optional<std::filesystem::path> path) : path_(std::move(path)) {}
+
+  void write(view::Window& window, const messages::SceneFrame& frame) {
+    if (!path_ || std::chrono::steady_clock::now() < next_) return;
+    constexpr std::chrono::milliseconds kPeriod(100);
+    next_ = std::chrono::steady_clock::now() + kPeriod;
+    write_file(*path_, window.describe(frame));
+  }
+
+ private:
+  std::optional<std::filesystem::path> path_;
+  std::chrono::steady_clock::time_point next_;
+};
 
 }  // namespace
 
@@ -156,7 +186,9 @@ int view(const Options& options) {
   session.start();
   messages::SceneFrame frame;
   JointWatch watch(scene);
+  WindowReport report(options.report_state);
   double common = scene.co_contraction ? scene.co_contraction->common : 0.0;
+  bool driven = false;
   const double end_s = options.seconds.value_or(kForever_s);
   while (!window.should_close() && session.running() && interruption() == 0) {
     session.fetch_frame(frame);
@@ -165,9 +197,11 @@ int view(const Options& options) {
     const auto drawing_since = std::chrono::steady_clock::now();
     window.set_readings(watch.read(frame, common, session));
     const view::ViewControls& controls = window.draw(frame);
-    common = controls.common;
+    report.write(window, frame);
+    common = controls.scene.common;
+    driven = driven || controls.scene.drive != view::Drive::Script;
     leave_time_to_the_simulation(std::chrono::steady_clock::now() - drawing_since);
-    session.request(requests_of(controls));
+    session.request(requests_of(controls, driven));
     hands.mouse.set_pointer(to_vec3(controls.hand_world_m), controls.hand_buttons);
     if (last) break;
   }

@@ -112,7 +112,7 @@ Image OffscreenRenderer::render(const messages::SceneFrame& frame, const Camera&
   const int height = impl_->height;
   impl_->context.make_current();
   glBindFramebuffer(GL_FRAMEBUFFER, impl_->sampled.frame());
-  impl_->renderer.draw(frame, camera, width, height, marks);
+  impl_->renderer.draw(frame, camera, {0, 0, width, height}, marks);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, impl_->sampled.frame());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, impl_->plain.frame());
   glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);

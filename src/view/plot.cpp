@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "view/ui/text.h"
+
 namespace myotact::view {
 
 namespace {
@@ -39,7 +41,7 @@ void Plot::draw(float height) const {
   lowest -= lowest < 0.0 ? 0.5 * missing : 0.0;
   highest = std::max(highest, lowest + smallest_range_);
   const double now_s = samples_.empty() ? 0.0 : samples_.back().time_s;
-  ImGui::Text("%s  %s", label_.c_str(), samples_.empty() ? "-" : fmt::format("{:.3f}", samples_.back().value).c_str());
+  ImGui::Text("%s  %s", ui::tr(label_), samples_.empty() ? "-" : fmt::format("{:.3f}", samples_.back().value).c_str());
 
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const ImVec2 size(ImGui::GetContentRegionAvail().x, height);

@@ -8,7 +8,7 @@ namespace myotact::view {
 /// A scrolling curve of the last seconds: keeps the samples, draws itself into the current ImGui window.
 class Plot {
  public:
-  /// `label` with its unit. The range of the axis is never smaller than `smallest_range`.
+  /// `label`: key of its text, which names the unit. The range of the axis is never smaller than `smallest_range`.
   Plot(std::string label, double smallest_range) : label_(std::move(label)), smallest_range_(smallest_range) {}
 
   void add(double time_s, double value);

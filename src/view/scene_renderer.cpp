@@ -114,16 +114,19 @@ SceneRenderer::SceneRenderer(const anatomy::Specimen& specimen)
   grid_.upload(grid_mesh(bounds));
 }
 
-void SceneRenderer::draw(const messages::SceneFrame& frame, const Camera& camera, int width, int height,
+void SceneRenderer::draw(const messages::SceneFrame& frame, const Camera& camera, const Viewport& viewport,
                          const std::vector<SceneMark>& marks) {
-  glViewport(0, 0, width, height);
+  glViewport(viewport.x, viewport.y, viewport.width, viewport.height);
+  glScissor(viewport.x, viewport.y, viewport.width, viewport.height);
+  glEnable(GL_SCISSOR_TEST);  // clearing keeps to the viewport
   glEnable(GL_DEPTH_TEST);
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glClearColor(kBackground.r, kBackground.g, kBackground.b, 1.0f);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  glDisable(GL_SCISSOR_TEST);
   const glm::mat4 clip_from_world =
-      camera.clip_from_world(static_cast<float>(width) / static_cast<float>(std::max(height, 1)));
+      camera.clip_from_world(static_cast<float>(viewport.width) / static_cast<float>(std::max(viewport.height, 1)));
   flat_.use();
   flat_.set("clip_from_world", clip_from_world);
   grid_.draw(GL_LINES);

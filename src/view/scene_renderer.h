@@ -16,6 +16,11 @@ namespace myotact::view {
 /// Box around the specimen at the file pose.
 ViewBox bounds_of(const anatomy::Specimen& specimen);
 
+/// A part of the framebuffer [pixels, from its bottom left corner].
+struct Viewport {
+  int x = 0, y = 0, width = 1, height = 1;
+};
+
 /// Draws bones, muscles coloured by activation, muscle lines, tools with their force arrows and marks into the bound
 /// framebuffer.
 /// Needs a current OpenGL 3.3 core context from first to last.
@@ -23,7 +28,7 @@ class SceneRenderer {
  public:
   explicit SceneRenderer(const anatomy::Specimen& specimen);
 
-  void draw(const messages::SceneFrame& frame, const Camera& camera, int width, int height,
+  void draw(const messages::SceneFrame& frame, const Camera& camera, const Viewport& viewport,
             const std::vector<SceneMark>& marks = {});
 
  private:

@@ -1,8 +1,6 @@
 #include "view/window.h"
 
 #include <algorithm>
-#include <cmath>
-#include <filesystem>
 #include <optional>
 #include <vector>
 
@@ -10,79 +8,29 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <imgui.h>
-#include <imgui_impl_glfw.h>
-#include <imgui_impl_opengl3.h>
 
-#include "core/error.h"
 #include "messages/device.h"
-#include "view/camera.h"
+#include "view/description.h"
+#include "view/glfw_window.h"
+#include "view/history.h"
+#include "view/imgui_session.h"
 #include "view/key_bindings.h"
+#include "view/layout.h"
 #include "view/offscreen.h"
-#include "view/panels.h"
+#include "view/panels/demonstrate_panel.h"
+#include "view/panels/feel_panel.h"
+#include "view/panels/find_panel.h"
+#include "view/panels/plots_panel.h"
+#include "view/panels/status_bar.h"
+#include "view/panels/toolbar.h"
+#include "view/pointer.h"
 #include "view/scene_renderer.h"
+#include "view/ui/controls.h"
+#include "view/ui/text.h"
 
 namespace myotact::view {
 
 namespace {
-
-constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
-constexpr float kFontSize = 15.0f;
-constexpr float kDepthStep_m = 0.005f;  // of the hand, a click of the wheel
-
-/// The GLFW library and one window with a current context.
-class GlfwWindow {
- public:
-  explicit GlfwWindow(const WindowSettings& settings) {
-    const Error unavailable(ExitStatus::Unavailable,
-                            "no display to open a window on (DISPLAY or WAYLAND_DISPLAY), or no OpenGL 3.3; \"myotact "
-                            "run elbow\" works without one");
-    if (glfwInit() != GLFW_TRUE) throw unavailable;
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
-    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-    glfwWindowHint(GLFW_SAMPLES, 4);
-    window_ = glfwCreateWindow(settings.width, settings.height, settings.title.c_str(), nullptr, nullptr);
-    if (window_ == nullptr) {
-      glfwTerminate();
-      throw unavailable;
-    }
-    glfwMakeContextCurrent(window_);
-    glfwSwapInterval(1);
-  }
-  ~GlfwWindow() {
-    glfwDestroyWindow(window_);
-    glfwTerminate();
-  }
-  GlfwWindow(const GlfwWindow&) = delete;
-  GlfwWindow& operator=(const GlfwWindow&) = delete;
-
-  GLFWwindow* get() const { return window_; }
-
- private:
-  GLFWwindow* window_ = nullptr;
-};
-
-class ImGuiSession {
- public:
-  explicit ImGuiSession(GLFWwindow* window) {
-    ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = nullptr;
-    ImGui::GetIO().LogFilename = nullptr;
-    if (std::filesystem::exists(kFont)) ImGui::GetIO().Fonts->AddFontFromFileTTF(kFont, kFontSize);
-    ImGui::StyleColorsDark();
-    ImGui::GetStyle().WindowRounding = 0.0f;
-    ImGui::GetStyle().FrameRounding = 3.0f;
-    ImGui_ImplGlfw_InitForOpenGL(window, true);
-    ImGui_ImplOpenGL3_Init("#version 330");
-  }
-  ~ImGuiSession() {
-    ImGui_ImplOpenGL3_Shutdown();
-    ImGui_ImplGlfw_Shutdown();
-    ImGui::DestroyContext();
-  }
-  ImGuiSession(const ImGuiSession&) = delete;
-  ImGuiSession& operator=(const ImGuiSession&) = delete;
-};
 
 const char* view_of(KeyAction action) {
   switch (action) {
@@ -103,29 +51,59 @@ const char* view_of(KeyAction action) {
   }
 }
 
+/// An ImGui window over one area; draws nothing into an empty one.
+template <typename Draw>
+void in_area(const char* id, const Area& area, const Draw& draw) {
+  if (area.empty()) return;
+  ImGui::SetNextWindowPos(ImVec2(area.x, area.y));
+  ImGui::SetNextWindowSize(ImVec2(area.width, area.height));
+  ImGui::Begin(id, nullptr,
+               ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
+                   ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoBringToFrontOnFocus);
+  draw();
+  ImGui::End();
+}
+
+void draw_help(bool& open) {
+  ImGui::Begin(fmt::format("{}###help", ui::tr("help.title")).c_str(), &open, ImGuiWindowFlags_AlwaysAutoResize);
+  for (const KeyBinding& binding : key_bindings()) {
+    ImGui::Text("%-10s %s", std::string(binding.name).c_str(), std::string(binding.what).c_str());
+  }
+  ImGui::Separator();
+  ui::text("help.mouse");
+  ImGui::End();
+}
+
 }  // namespace
 
 struct Window::Impl {
   Impl(const anatomy::Specimen& given, const WindowSettings& settings)
-      : specimen(&given), window(settings), imgui(window.get()), renderer(given), bounds(bounds_of(given)) {
-    panels.device_peaks_N = settings.device_peaks_N;
-    panels.note = settings.note;
-    panels.joint = settings.joint;
-    controls = settings.start;
+      : specimen(&given),
+        facts(settings.facts),
+        window(settings.facts.title.c_str(), settings.width, settings.height),
+        imgui(window.get()),
+        renderer(given),
+        state{start_view(given, 1.0f), settings.start},
+        history(state) {
     controls.hand_world_m = settings.hand_start_world_m;
-    look("lateral");
+    controls.scene = settings.start;
   }
 
   void look(const char* name) {
-    const ImVec2 display = ImGui::GetIO().DisplaySize;
-    const float aspect = display.x > kPanelWidth && display.y > 0.0f ? (display.x - kPanelWidth) / display.y : 1.0f;
-    camera = standard_view(name, specimen->side != "right", bounds, aspect).value_or(camera);
+    const float aspect = layout.scene.empty() ? 1.0f : layout.scene.width / layout.scene.height;
+    Camera& camera = state.view.camera;
+    camera = standard_view(name, specimen->side != "right", bounds_of(*specimen), aspect).value_or(camera);
+  }
+
+  void restore(const WorkState& earlier) {
+    state = earlier;
+    controls.scene = earlier.scene;
   }
 
   void act(KeyAction action) {
     switch (action) {
       case KeyAction::Help:
-        panels.help = !panels.help;
+        help = !help;
         return;
       case KeyAction::PauseOrPlay:
         controls.paused = !controls.paused;
@@ -150,7 +128,7 @@ struct Window::Impl {
         return;
       case KeyAction::GrabLine:
       case KeyAction::GrabBone:
-        return;  // held: read in move_hand()
+        return;  // held: read in hold_buttons()
       default:
         look(view_of(action));
         return;
@@ -158,9 +136,10 @@ struct Window::Impl {
   }
 
   void handle_keys() {
-    const bool types = ImGui::GetIO().WantTextInput;
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool taken = io.WantTextInput || io.NavVisible;  // typed, or meant for the control with the focus
     for (const KeyBinding& binding : key_bindings()) {
-      if (types && binding.action != KeyAction::StopForces) continue;  // a stop goes before anything else
+      if (taken && binding.action != KeyAction::StopForces) continue;  // a stop goes before anything else
       if (ImGui::IsKeyPressed(binding.key, false)) act(binding.action);
     }
   }
@@ -171,32 +150,62 @@ struct Window::Impl {
     });
   }
 
-  /// With Ctrl held the mouse moves the hand in the plane of the picture, the wheel in its depth.
-  void move_hand(const ImVec2& motion, float wheel) {
-    const ImVec2 display = ImGui::GetIO().DisplaySize;
-    const float metres_a_pixel = 2.0f * camera.distance_m * std::tan(0.5f * Camera::kFieldOfView_rad) / display.y;
-    const glm::vec3 step = metres_a_pixel * (motion.x * camera.right_world() - motion.y * camera.up_world()) +
-                           kDepthStep_m * wheel * camera.forward_world();
-    for (int k = 0; k < 3; ++k) controls.hand_world_m[static_cast<std::size_t>(k)] += static_cast<double>(step[k]);
-  }
-
-  void handle_mouse() {
-    const ImGuiIO& io = ImGui::GetIO();
-    controls.hand_moves = io.KeyCtrl;
+  void hold_buttons() {
     controls.hand_buttons = 0;
     if (is_down(KeyAction::GrabLine)) controls.hand_buttons |= messages::kGrabButton;
     if (is_down(KeyAction::GrabBone)) controls.hand_buttons |= messages::kGrabBoneButton;
-    if (io.WantCaptureMouse) return;
-    if (io.KeyCtrl) {
-      move_hand(io.MouseDelta, io.MouseWheel);
-      return;
-    }
-    if (ImGui::IsMouseDragging(ImGuiMouseButton_Left, 0.0f))
-      camera.orbit(-0.008f * io.MouseDelta.x, 0.008f * io.MouseDelta.y);
-    if (ImGui::IsMouseDragging(ImGuiMouseButton_Right, 0.0f)) {
-      camera.pan(io.MouseDelta.x / io.DisplaySize.y, -io.MouseDelta.y / io.DisplaySize.y);
-    }
-    if (io.MouseWheel != 0.0f) camera.zoom(std::pow(0.9f, io.MouseWheel));
+  }
+
+  void draw_tasks(PanelContext& context) {
+    if (!ImGui::BeginTabBar("tasks")) return;
+    const auto tab = [](const char* key, const auto& draw) {
+      const bool open = ImGui::BeginTabItem(fmt::format("{}###{}", ui::tr(key), key).c_str());
+      ui::note_control(key, open ? "on" : "off");
+      if (!open) return;
+      draw();
+      ImGui::EndTabItem();
+    };
+    tab("tasks.feel", [&] { feel.draw(context); });
+    tab("tasks.demonstrate", [&] { demonstrate.draw(context); });
+    tab("tasks.plots", [&] { plots.draw(); });
+    ImGui::EndTabBar();
+  }
+
+  void obey(const ToolbarAsks& asks) {
+    if (asks.standard_view != nullptr) look(asks.standard_view);
+    if (asks.help) help = !help;
+    if (asks.undo) restore(history.undo());
+    if (asks.redo) restore(history.redo());
+  }
+
+  void draw_panels(PanelContext& context) {
+    plots.add(context);
+    ToolbarAsks asks;
+    in_area("toolbar", layout.toolbar, [&] { asks = draw_toolbar(context, history.can_undo(), history.can_redo()); });
+    in_area("find", layout.find, [&] { find.draw(context); });
+    in_area("tasks", layout.tasks, [&] { draw_tasks(context); });
+    in_area("status", layout.status, [&] { draw_status_bar(context); });
+    if (help) draw_help(help);
+    handle_keys();
+    hold_buttons();
+    move_by_pointer(layout.scene, state.view, controls);
+    obey(asks);
+    state.scene = controls.scene;
+    history.note(state, ImGui::IsAnyItemActive() || ImGui::IsAnyMouseDown());
+  }
+
+  /// The scene's area is given in the window's pixels from the top, the framebuffer's from below.
+  void draw_scene(const messages::SceneFrame& frame, int width, int height) {
+    glViewport(0, 0, width, height);
+    glClearColor(0.0f, 0.0f, 0.0f, 1.0f);
+    glClear(GL_COLOR_BUFFER_BIT);
+    const Area& area = layout.scene;
+    if (area.empty()) return;
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const float scale = static_cast<float>(width) / std::max(display.x, 1.0f);
+    const auto pixels = [&](float length) { return static_cast<int>(length * scale); };
+    renderer.draw(frame, state.view.camera,
+                  {pixels(area.x), height - pixels(area.y + area.height), pixels(area.width), pixels(area.height)});
   }
 
   /// Read before the buffers are swapped: afterwards their content is undefined.
@@ -208,14 +217,43 @@ struct Window::Impl {
     screenshot.reset();
   }
 
+  void draw(const messages::SceneFrame& frame) {
+    glfwPollEvents();
+    imgui.begin();
+    ui::begin_controls();
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const bool first = layout.scene.empty();
+    layout = layout_of(display.x, display.y, ImGui::GetFontSize());
+    if (first) {
+      look("lateral");
+      history = History(state);
+    }
+    PanelContext context{*specimen, frame, facts, readings, state.view, controls};
+    draw_panels(context);
+    ImGui::Render();
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(window.get(), &width, &height);
+    draw_scene(frame, width, height);
+    imgui.end();
+    if (screenshot) save_picture(width, height);
+    glfwSwapBuffers(window.get());
+  }
+
   const anatomy::Specimen* specimen;
+  SceneFacts facts;
   GlfwWindow window;
   ImGuiSession imgui;
   SceneRenderer renderer;
-  ViewBox bounds;
-  Camera camera;
-  PanelState panels;
+  Layout layout;
+  WorkState state;
+  History history;
+  JointReadings readings;
   ViewControls controls;
+  FindPanel find;
+  FeelPanel feel;
+  DemonstratePanel demonstrate;
+  PlotsPanel plots;
+  bool help = false;
   std::optional<std::filesystem::path> screenshot;
 };
 
@@ -225,7 +263,7 @@ Window::Window(const anatomy::Specimen& specimen, const WindowSettings& settings
 Window::~Window() = default;
 
 void Window::set_readings(const JointReadings& readings) {
-  impl_->panels.readings = readings;
+  impl_->readings = readings;
 }
 
 bool Window::should_close() const {
@@ -236,22 +274,14 @@ void Window::save_next_picture(const std::filesystem::path& path) {
   impl_->screenshot = path;
 }
 
+std::string Window::describe(const messages::SceneFrame& frame) {
+  const PanelContext context{*impl_->specimen,  frame,          impl_->facts, impl_->readings,
+                             impl_->state.view, impl_->controls};
+  return view::describe(context, impl_->layout);
+}
+
 const ViewControls& Window::draw(const messages::SceneFrame& frame) {
-  glfwPollEvents();
-  ImGui_ImplOpenGL3_NewFrame();
-  ImGui_ImplGlfw_NewFrame();
-  ImGui::NewFrame();
-  draw_panels(*impl_->specimen, frame, impl_->panels, impl_->controls);
-  impl_->handle_keys();
-  impl_->handle_mouse();
-  ImGui::Render();
-  int width = 0, height = 0;
-  glfwGetFramebufferSize(impl_->window.get(), &width, &height);
-  const float scale = static_cast<float>(width) / std::max(ImGui::GetIO().DisplaySize.x, 1.0f);
-  impl_->renderer.draw(frame, impl_->camera, std::max(width - static_cast<int>(kPanelWidth * scale), 1), height);
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-  if (impl_->screenshot) impl_->save_picture(width, height);
-  glfwSwapBuffers(impl_->window.get());
+  impl_->draw(frame);
   return impl_->controls;
 }
 

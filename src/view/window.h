@@ -4,22 +4,19 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "anatomy/specimen.h"
 #include "messages/scene_frame.h"
 #include "view/joint_readings.h"
+#include "view/panels/panel.h"
 #include "view/view_controls.h"
 
 namespace myotact::view {
 
 struct WindowSettings {
-  std::string title = "Myotact";
-  std::string note;  // about the scene, shown above the rates
-  int width = 1280, height = 800;
-  std::vector<double> device_peaks_N{3.3};     // of the tools' devices
-  int joint = 0;                               // shown in the plots
-  ViewControls start;                          // what the sliders show at first
+  int width = 1280, height = 800;  // pixels
+  SceneFacts facts;
+  SceneState start;                            // what the controls show at first
   std::array<double, 3> hand_start_world_m{};  // where the mouse takes the hand up
 };
 
@@ -37,6 +34,9 @@ class Window {
   bool should_close() const;
   /// The next picture is also written to this PNG.
   void save_next_picture(const std::filesystem::path& path);
+  /// What the last picture showed, as JSON: view, scene and where every control is (pixels of the window). For programs
+  /// that assist a person, and for tests.
+  std::string describe(const messages::SceneFrame& frame);
 
  private:
   struct Impl;

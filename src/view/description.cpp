@@ -1,0 +1,83 @@
+#include "view/description.h"
+
+#include <nlohmann/json.hpp>
+
+#include "view/ui/controls.h"
+
+namespace myotact::view {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <typename Part>
+std::string key_of(const std::vector<Part>& parts, int index) {
+  return index >= 0 && index < static_cast<int>(parts.size()) ? parts[static_cast<std::size_t>(index)].key : "";
+}
+
+template <typename Part>
+Json keys_where(const std::vector<Part>& parts, const std::vector<PartLook>& looks, bool PartLook::*what) {
+  Json keys = Json::array();
+  for (std::size_t i = 0; i < parts.size() && i < looks.size(); ++i) {
+    if (looks[i].*what) keys.push_back(parts[i].key);
+  }
+  return keys;
+}
+
+Json view_json(const anatomy::Specimen& specimen, const ViewState& view) {
+  return {{"selected_muscle", key_of(specimen.muscles, view.selected_muscle)},
+          {"selected_bone", key_of(specimen.bones, view.selected_bone)},
+          {"hidden_muscles", keys_where(specimen.muscles, view.muscles, &PartLook::hidden)},
+          {"hidden_bones", keys_where(specimen.bones, view.bones, &PartLook::hidden)},
+          {"faded_muscles", keys_where(specimen.muscles, view.muscles, &PartLook::faded)},
+          {"faded_bones", keys_where(specimen.bones, view.bones, &PartLook::faded)},
+          {"camera",
+           {{"azimuth_rad", view.camera.azimuth_rad},
+            {"elevation_rad", view.camera.elevation_rad},
+            {"distance_m", view.camera.distance_m}}}};
+}
+
+Json scene_json(const ViewControls& controls) {
+  const SceneState& scene = controls.scene;
+  const char* drive = scene.drive == Drive::Script ? "script" : scene.drive == Drive::Levels ? "levels" : "balance";
+  return {{"drive", drive},           {"flexors", scene.flexors},       {"extensors", scene.extensors},
+          {"common", scene.common},   {"difference", scene.difference}, {"hold_posture", scene.hold_posture},
+          {"gravity", scene.gravity}, {"paused", controls.paused}};
+}
+
+Json frame_json(const PanelContext& context) {
+  Json joints = Json::object(), tools = Json::array();
+  for (std::size_t j = 0; j < context.frame.joints.size() && j < context.specimen.joints.size(); ++j) {
+    const messages::JointFrame& joint = context.frame.joints[j];
+    joints[context.specimen.joints[j].key] = {{"angle_rad", joint.angle_rad}, {"K_Nm_rad", joint.stiffness_Nm_rad}};
+  }
+  for (const messages::ToolFrame& tool : context.frame.tools) {
+    tools.push_back({{"force_world_N", tool.force_world_N},
+                     {"proxy_world_m", tool.proxy_world_m},
+                     {"in_contact", tool.in_contact},
+                     {"touched_muscle", key_of(context.specimen.muscles, tool.touched_muscle)},
+                     {"grabbed_line", key_of(context.specimen.muscles, tool.grabbed_line)},
+                     {"forces_stopped", tool.forces_stopped}});
+  }
+  return {{"time_s", context.frame.time_s}, {"joints", joints}, {"tools", tools}};
+}
+
+}  // namespace
+
+std::string describe(const PanelContext& context, const Layout& layout) {
+  Json controls = Json::array();
+  for (const ui::ControlPlace& control : ui::controls_of_last_picture()) {
+    controls.push_back({{"key", control.key},
+                        {"value", control.value},
+                        {"box", {control.x, control.y, control.width, control.height}}});
+  }
+  const Area& scene = layout.scene;
+  return Json{{"view", view_json(context.specimen, context.view)},
+              {"scene", scene_json(context.controls)},
+              {"frame", frame_json(context)},
+              {"scene_box", {scene.x, scene.y, scene.width, scene.height}},
+              {"controls", controls}}
+      .dump(1);
+}
+
+}  // namespace myotact::view

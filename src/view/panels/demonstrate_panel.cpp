@@ -1,0 +1,90 @@
+#include "view/panels/demonstrate_panel.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "view/ui/controls.h"
+#include "view/ui/text.h"
+
+namespace myotact::view {
+
+namespace {
+
+const ImVec4 kStiffens(0.3f, 0.55f, 0.85f, 1.0f), kSoftens(0.85f, 0.45f, 0.2f, 1.0f), kUnstable(1.0f, 0.4f, 0.3f, 1.0f);
+
+void draw_sliders(SceneState& scene) {
+  ui::text("demonstrate.levels");
+  const bool flexors_moved = ui::slider("demonstrate.flexors", scene.flexors, {0.0f, 1.0f});  // both are drawn
+  if (ui::slider("demonstrate.extensors", scene.extensors, {0.0f, 1.0f}) || flexors_moved) scene.drive = Drive::Levels;
+  ui::text("demonstrate.balance");
+  const bool common_moved = ui::slider("demonstrate.common", scene.common, {0.0f, 1.0f});
+  if (ui::slider("demonstrate.difference", scene.difference, {-0.5f, 0.5f}) || common_moved) {
+    scene.drive = Drive::Balance;
+  }
+  ui::checkbox("demonstrate.hold_posture", scene.hold_posture);
+}
+
+struct Part {
+  const char* key;  // of its name
+  double K_Nm_rad;
+};
+
+/// A bar to the right of the middle for what stiffens, to the left for what softens.
+void draw_part(const Part& part, double largest_Nm_rad) {
+  const float width = 10.0f * ImGui::GetFontSize();
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const float height = ImGui::GetTextLineHeight();
+  const float middle = corner.x + 0.5f * width;
+  const float end = middle + 0.5f * width * static_cast<float>(part.K_Nm_rad / largest_Nm_rad);
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  list->AddRectFilled(ImVec2(std::min(middle, end), corner.y + 2.0f),
+                      ImVec2(std::max(middle, end), corner.y + height - 2.0f),
+                      ImGui::GetColorU32(part.K_Nm_rad < 0.0 ? kSoftens : kStiffens));
+  list->AddLine(ImVec2(middle, corner.y), ImVec2(middle, corner.y + height), ImGui::GetColorU32(ImGuiCol_TextDisabled));
+  ImGui::Dummy(ImVec2(width, height));
+  ImGui::SameLine();
+  ImGui::Text("%+7.2f %s", part.K_Nm_rad, ui::tr(part.key));
+}
+
+void draw_headline(const messages::JointFrame& joint, const JointReadings& readings) {
+  const bool unstable = joint.stiffness_Nm_rad < 0.0;
+  ImGui::PushStyleColor(ImGuiCol_Text, unstable ? kUnstable : ImGui::GetStyleColorVec4(ImGuiCol_Text));
+  ui::paragraph(ui::tr(unstable ? "demonstrate.K_unstable" : "demonstrate.K", joint.stiffness_Nm_rad));
+  ImGui::PopStyleColor();
+  if (readings.K_low_Nm_rad == 0.0 && readings.K_high_Nm_rad == 0.0) return;
+  ui::paragraph(ui::tr("demonstrate.K_band", readings.K_low_Nm_rad, readings.K_high_Nm_rad));
+}
+
+void draw_joint(PanelContext& context) {
+  const auto& joint = context.frame.joints[static_cast<std::size_t>(context.facts.joint)];
+  const JointReadings& readings = context.readings;
+  draw_headline(joint, readings);
+  const std::array parts = {Part{"demonstrate.K_muscle", readings.K_muscle_Nm_rad},
+                            Part{"demonstrate.K_geometry", readings.K_geometry_Nm_rad},
+                            Part{"demonstrate.K_contact", readings.K_contact_Nm_rad},
+                            Part{"demonstrate.K_passive", readings.K_passive_Nm_rad}};
+  double largest_Nm_rad = 1e-3;
+  for (const Part& part : parts) largest_Nm_rad = std::max(largest_Nm_rad, std::abs(part.K_Nm_rad));
+  for (const Part& part : parts) draw_part(part, largest_Nm_rad);
+  if (joint.preview) ui::paragraph(messages::kPreviewMark);
+  if (!readings.why.empty()) ui::paragraph(readings.why);
+  if (ui::button("demonstrate.shove")) ++context.controls.shoves;
+  if (!readings.shove.empty()) ui::paragraph(readings.shove);
+}
+
+}  // namespace
+
+void DemonstratePanel::draw(PanelContext& context) {
+  const bool has_muscles = !context.specimen.muscles.empty();
+  if (has_muscles) draw_sliders(context.controls.scene);
+  ui::checkbox("demonstrate.gravity", context.controls.scene.gravity);
+  ImGui::Separator();
+  if (has_muscles && context.facts.joint < static_cast<int>(context.frame.joints.size())) draw_joint(context);
+}
+
+}  // namespace myotact::view

@@ -1,0 +1,15 @@
+#include "view/view_state.h"
+
+#include "view/scene_renderer.h"
+
+namespace myotact::view {
+
+ViewState start_view(const anatomy::Specimen& specimen, float aspect) {
+  ViewState view;
+  view.camera = standard_view("lateral", specimen.side != "right", bounds_of(specimen), aspect).value_or(Camera{});
+  view.bones.resize(specimen.bones.size());
+  view.muscles.resize(specimen.muscles.size());
+  return view;
+}
+
+}  // namespace myotact::view
