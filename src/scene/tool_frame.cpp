@@ -14,6 +14,7 @@ messages::ToolFrame tool_frame(const messages::ToolState& tool, const ToolSettin
   frame.shape = settings.shape;
   frame.left = settings.hand == "left";
   frame.in_contact = tool.contact.surface >= 0;
+  frame.touched_muscle = tool.contact.surface < simulation.muscle_count() ? tool.contact.surface : -1;
   frame.forces_stopped = (tool.faults & haptics::bit(haptics::Fault::Stopped)) != 0;
   frame.grabbed_line = tool.grabbed_line;
   frame.grabbed_body = tool.grabbed_body;
