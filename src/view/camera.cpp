@@ -72,6 +72,13 @@ float fitting_distance_m(const Camera& camera, const ViewBox& box, float aspect)
 
 }  // namespace
 
+Camera framed(const Camera& camera, const ViewBox& box, float aspect) {
+  Camera nearer = camera;
+  nearer.target_world_m = 0.5f * (box.lowest_m + box.highest_m);
+  nearer.distance_m = fitting_distance_m(nearer, box, aspect);
+  return nearer;
+}
+
 std::optional<Camera> standard_view(const std::string& name, bool left_limb, const ViewBox& box, float aspect) {
   const float lateral = left_limb ? 0.5f * kPi : -0.5f * kPi;
   Camera camera;
@@ -89,9 +96,7 @@ std::optional<Camera> standard_view(const std::string& name, bool left_limb, con
   } else {
     return std::nullopt;
   }
-  camera.target_world_m = 0.5f * (box.lowest_m + box.highest_m);
-  camera.distance_m = fitting_distance_m(camera, box, aspect);
-  return camera;
+  return framed(camera, box, aspect);
 }
 
 }  // namespace myotact::view

@@ -32,11 +32,15 @@ struct Camera {
   bool operator==(const Camera&) const = default;
 };
 
-/// Standard views of a limb: lateral, medial, cranial, caudal, dorsal, palmar; nothing for another name. `left_limb`:
-/// lateral is the limb's own left side. The whole box fits into a picture of the given width over height.
 struct ViewBox {
   glm::vec3 lowest_m{0.0f}, highest_m{0.0f};
 };
+
+/// From the same side, so near and so placed that the box fills a picture of that width over height.
+Camera framed(const Camera& camera, const ViewBox& box, float aspect);
+
+/// Standard views of a limb: lateral, medial, cranial, caudal, dorsal, palmar; nothing for another name. `left_limb`:
+/// lateral is the limb's own left side. The whole box fits into a picture of the given width over height.
 std::optional<Camera> standard_view(const std::string& name, bool left_limb, const ViewBox& box, float aspect);
 
 }  // namespace myotact::view

@@ -6,6 +6,7 @@
 #include <epoxy/gl.h>
 
 #include "view/colour_map.h"
+#include "view/posing.h"
 #include "view/tool_drawing.h"
 
 namespace myotact::view {
@@ -17,25 +18,6 @@ constexpr glm::vec3 kBackground{0.955f, 0.96f, 0.965f};
 constexpr glm::vec4 kLine{0.80f, 0.18f, 0.12f, 1.0f};
 constexpr float kMuscleOpacity = 0.82f;  // bones shine through
 constexpr float kLineRadius_m = 0.9e-3f;
-
-glm::vec3 to_glm(const Vec3& v) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
-}
-
-glm::vec3 to_glm(const std::array<double, 3>& v) {
-  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
-}
-
-glm::mat4 to_glm(const std::array<double, 12>& pose) {
-  glm::mat4 matrix(1.0f);
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 4; ++column) {
-      matrix[column][row] =
-          static_cast<float>(pose[4 * static_cast<std::size_t>(row) + static_cast<std::size_t>(column)]);
-    }
-  }
-  return matrix;
-}
 
 /// Area-weighted normals from the positions as they are now.
 void compute_normals(DrawMesh& mesh) {
@@ -89,19 +71,6 @@ DrawMesh grid_mesh(const ViewBox& bounds) {
 }
 
 }  // namespace
-
-ViewBox bounds_of(const anatomy::Specimen& specimen) {
-  ViewBox bounds{glm::vec3(1e9f), glm::vec3(-1e9f)};
-  const auto include = [&](const geometry::TriangleMesh& surface) {
-    for (const Vec3& position : surface.positions_m) {
-      bounds.lowest_m = glm::min(bounds.lowest_m, to_glm(position));
-      bounds.highest_m = glm::max(bounds.highest_m, to_glm(position));
-    }
-  };
-  for (const auto& bone : specimen.bones) include(bone.surface);
-  for (const auto& muscle : specimen.muscles) include(muscle.skin);
-  return bounds;
-}
 
 SceneRenderer::SceneRenderer(const anatomy::Specimen& specimen)
     : specimen_(&specimen), surface_("surface"), flat_("flat"), muscles_(specimen.muscles.size()) {

@@ -9,12 +9,10 @@
 #include "view/camera.h"
 #include "view/drawable.h"
 #include "view/gl_program.h"
+#include "view/limb_bounds.h"
 #include "view/scene_mark.h"
 
 namespace myotact::view {
-
-/// Box around the specimen at the file pose.
-ViewBox bounds_of(const anatomy::Specimen& specimen);
 
 /// A part of the framebuffer [pixels, from its bottom left corner].
 struct Viewport {

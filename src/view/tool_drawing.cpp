@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "view/posing.h"
+
 namespace myotact::view {
 
 namespace {
@@ -16,10 +18,6 @@ constexpr float kRod_m = 0.9e-3f;                                 // radius of w
 constexpr float kConeLength_m = 0.035f, kConeRadius_m = 3.5e-3f;  // of a stylus
 constexpr float kJawLength_m = 0.018f, kShaftLength_m = 0.045f;   // of a clamp
 constexpr float kThinnestArrow_m = 0.9e-3f, kJawRadius_m = 1.4e-3f;
-
-glm::vec3 to_glm(const std::array<double, 3>& v) {
-  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
-}
 
 /// Unit vector along the shaft, out of the limb and a little up, as a hand holds it.
 glm::vec3 shaft_axis(const glm::vec3& tip_m, const glm::vec3& middle_m) {
