@@ -90,14 +90,13 @@ struct Query {
 
 Ray ray_through(const Camera& camera, float x_share, float y_share, float aspect) {
   const float slope = std::tan(0.5f * Camera::kFieldOfView_rad);
-  const glm::vec3 direction = camera.forward_world() +
-                              slope * aspect * (2.0f * x_share - 1.0f) * camera.right_world() +
+  const glm::vec3 direction = camera.forward_world() + slope * aspect * (2.0f * x_share - 1.0f) * camera.right_world() +
                               slope * (1.0f - 2.0f * y_share) * camera.up_world();
   return {camera.eye_world_m(), glm::normalize(direction)};
 }
 
-std::optional<PickHit> pick(const anatomy::Specimen& specimen, const messages::SceneFrame& frame,
-                            const ViewState& view, const std::vector<bool>& superficial, const Ray& ray) {
+std::optional<PickHit> pick(const anatomy::Specimen& specimen, const messages::SceneFrame& frame, const ViewState& view,
+                            const std::vector<bool>& superficial, const Ray& ray) {
   const Query query{specimen, frame, ray,
                     view.section.on ? kept_half_space(view.section, bounds_of(specimen)) : glm::vec4(0, 0, 0, 1)};
   PickHit nearest;

@@ -27,7 +27,7 @@ struct PickHit {
 /// The part that a person sees there: the nearest that the ray meets of the posed bones and the skins as they are. What
 /// is hidden, faded through (opacity below kSolidOpacity) or cut away is passed. `superficial`: as for opacity_of().
 /// Boxes first: fast enough for each move of a mouse. Pure; any thread.
-std::optional<PickHit> pick(const anatomy::Specimen& specimen, const messages::SceneFrame& frame,
-                            const ViewState& view, const std::vector<bool>& superficial, const Ray& ray);
+std::optional<PickHit> pick(const anatomy::Specimen& specimen, const messages::SceneFrame& frame, const ViewState& view,
+                            const std::vector<bool>& superficial, const Ray& ray);
 
 }  // namespace myotact::view
