@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -148,6 +149,13 @@ scene::Requests requests_of(const view::ViewControls& controls, bool driven) {
   return requests;
 }
 
+/// A file that is whole whenever it is read; unlike write_file() it does not wait for the disk.
+void replace_file(const std::filesystem::path& path, const std::string& text) {
+  const std::filesystem::path next = path.string() + ".next";
+  std::ofstream(next, std::ios::binary) << text;
+  std::filesystem::rename(next, path);
+}
+
 /// Tells what the window shows, a few times a second, where a file was named for it.
 class WindowReport {
  public:
@@ -157,7 +165,7 @@ class WindowReport {
     if (!path_ || std::chrono::steady_clock::now() < next_) return;
     constexpr std::chrono::milliseconds kPeriod(100);
     next_ = std::chrono::steady_clock::now() + kPeriod;
-    write_file(*path_, window.describe(frame));
+    replace_file(*path_, window.describe(frame));
   }
 
  private:

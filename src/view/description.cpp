@@ -1,5 +1,8 @@
 #include "view/description.h"
 
+#include <algorithm>
+#include <array>
+
 #include <nlohmann/json.hpp>
 
 #include "view/ui/controls.h"
@@ -62,6 +65,29 @@ Json frame_json(const PanelContext& context) {
   return {{"time_s", context.frame.time_s}, {"joints", joints}, {"tools", tools}};
 }
 
+/// Where the middles of muscles' skins and lines are on the screen [pixels of the window], whatever hides them.
+Json places_json(const PanelContext& context, const Area& scene) {
+  if (scene.empty()) return Json::object();
+  const glm::mat4 clip_from_world = context.view.camera.clip_from_world(scene.width / scene.height);
+  const auto on_screen = [&](const glm::vec3& place_world_m) {
+    const glm::vec4 clip = clip_from_world * glm::vec4(place_world_m, 1.0f);
+    return std::array{scene.x + scene.width * (0.5f + 0.5f * clip.x / clip.w),
+                      scene.y + scene.height * (0.5f - 0.5f * clip.y / clip.w)};
+  };
+  Json skins = Json::object(), lines = Json::object();
+  const messages::SceneFrame& frame = context.frame;
+  for (std::size_t m = 0; m < context.specimen.muscles.size() && m < frame.skins_world_m.size(); ++m) {
+    glm::vec3 sum(0.0f);
+    for (const auto& p : frame.skins_world_m[m]) sum += glm::vec3(p[0], p[1], p[2]);
+    const auto count = static_cast<float>(std::max<std::size_t>(frame.skins_world_m[m].size(), 1));
+    skins[context.specimen.muscles[m].key] = on_screen(sum / count);
+    if (m >= frame.lines_world_m.size() || frame.lines_world_m[m].empty()) continue;
+    const auto& p = frame.lines_world_m[m][frame.lines_world_m[m].size() / 2];
+    lines[context.specimen.muscles[m].key] = on_screen(glm::vec3(p[0], p[1], p[2]));
+  }
+  return {{"muscles", skins}, {"lines", lines}};
+}
+
 }  // namespace
 
 std::string describe(const PanelContext& context, const Layout& layout) {
@@ -75,6 +101,7 @@ std::string describe(const PanelContext& context, const Layout& layout) {
   return Json{{"view", view_json(context.specimen, context.view)},
               {"scene", scene_json(context.controls)},
               {"frame", frame_json(context)},
+              {"places", places_json(context, layout.scene)},
               {"scene_box", {scene.x, scene.y, scene.width, scene.height}},
               {"controls", controls}}
       .dump(1);

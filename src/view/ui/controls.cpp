@@ -1,6 +1,5 @@
 #include "view/ui/controls.h"
 
-
 #include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
@@ -81,9 +80,11 @@ bool checkbox(const char* key, bool& value) {
 
 bool slider(const char* key, double& value, const Range& range, const char* format) {
   auto number = static_cast<float>(value);
+  const float track = ImGui::CalcItemWidth();
   const bool moved = ImGui::SliderFloat(label(key).c_str(), &number, range.lowest, range.highest, format);
   if (moved) value = static_cast<double>(number);
   finish(key, fmt::format("{:.4g}", value));
+  if (ImGui::IsItemVisible()) places().next.back().width = track;  // without its label
   return moved;
 }
 

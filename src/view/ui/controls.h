@@ -5,8 +5,8 @@
 #include <vector>
 
 // The controls of the window. Each is named by the key of its text, which is also its identity: the language may change
-// while it is held. "KEY.tip", where there is such a text, is shown when the pointer rests on it. All can be reached and
-// moved by keyboard. Call between ImGui's NewFrame and Render.
+// while it is held. "KEY.tip", where there is such a text, is shown when the pointer rests on it. All can be reached
+// and moved by keyboard. Call between ImGui's NewFrame and Render.
 
 namespace myotact::view::ui {
 
@@ -36,7 +36,7 @@ void note_control(const char* key, const std::string& value = "");
 struct ControlPlace {
   std::string key, value;
   float x = 0.0f, y = 0.0f, width = 0.0f, height = 0.0f;  // pixels of the window, from its top left corner
-};
+};                                                        // of a slider: its track
 const std::vector<ControlPlace>& controls_of_last_picture();
 /// At the start of each picture.
 void begin_controls();

@@ -1,0 +1,65 @@
+#include <gtest/gtest.h>
+
+#include "gui/gui_program.h"
+
+// What a person does at the window, and what comes of it.
+
+namespace myotact {
+namespace {
+
+using nlohmann::json;
+using testing::GuiProgram;
+
+class WindowTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (const std::string missing = testing::missing_tools(); !missing.empty()) {
+      GTEST_SKIP() << "not installed:" << missing << " (packages xvfb, xdotool, imagemagick)";
+    }
+  }
+};
+
+/// The scene's part of a picture holds many colours: no blank frame passes.
+void expect_drawn(const GuiProgram& gui, const std::string& name) {
+  const std::array<double, 4> box = gui.state()["scene_box"];
+  const auto pixels = [](double length) { return static_cast<int>(length); };
+  EXPECT_GT(testing::colours_in(gui.screenshot(name), {pixels(box[0]), pixels(box[1]), pixels(box[2]), pixels(box[3])}),
+            200)
+      << name;
+}
+
+TEST_F(WindowTest, SlidersStiffenTheJointAndUndoTakesThemBack) {
+  GuiProgram gui("sliders", "elbow");
+  expect_drawn(gui, "start");
+  const double K_start = gui.state()["frame"]["joints"]["elbow"]["K_Nm_rad"];
+  gui.click("tasks.demonstrate");
+  gui.drag_slider("demonstrate.common", 0.02, 0.7);
+  ASSERT_TRUE(gui.wait_until([](const json& state) { return state["scene"]["common"] > 0.5; }, 5.0));
+  EXPECT_EQ(gui.state()["scene"]["drive"], "balance");
+  EXPECT_TRUE(
+      gui.wait_until([&](const json& state) { return state["frame"]["joints"]["elbow"]["K_Nm_rad"] > 1.5 * K_start; }));
+  const double common = gui.state()["scene"]["common"];
+  gui.drag_slider("demonstrate.difference", 0.5, 0.6);
+  ASSERT_TRUE(gui.wait_until([](const json& state) { return state["scene"]["difference"] > 0.02; }, 5.0));
+  expect_drawn(gui, "stiffened");
+  gui.click("toolbar.undo");
+  EXPECT_TRUE(gui.wait_until([](const json& state) { return state["scene"]["difference"] == 0.0; }, 5.0));
+  EXPECT_EQ(gui.state()["scene"]["common"], common);
+  gui.click("toolbar.undo");
+  EXPECT_TRUE(gui.wait_until([](const json& state) { return state["scene"]["common"] == 0.0; }, 5.0));
+  EXPECT_TRUE(
+      gui.wait_until([&](const json& state) { return state["frame"]["joints"]["elbow"]["K_Nm_rad"] < 1.2 * K_start; }));
+}
+
+TEST_F(WindowTest, AWindowTooSmallForItsPanelsStillShowsTheLimb) {
+  GuiProgram gui("small", "elbow");
+  gui.resize(200, 150);
+  ASSERT_TRUE(gui.wait_until([](const json& state) { return state["scene_box"][2] <= 200.0; }));
+  expect_drawn(gui, "small");
+  gui.key("2");  // the medial view
+  EXPECT_TRUE(gui.wait_until([](const json& state) { return state["view"]["camera"]["azimuth_rad"] < 0.0; }, 5.0));
+  EXPECT_TRUE(gui.program().running()) << gui.log();
+}
+
+}  // namespace
+}  // namespace myotact
