@@ -213,8 +213,8 @@ void GuiProgram::drag_slider(const std::string& control, double from, double to)
 }
 
 void GuiProgram::key(const std::string& keys) {
-  xdotool("key " + keys);
-  pause_s(0.2);
+  key_down(keys);  // for as long as a finger does, so that a slow picture sees it
+  key_up(keys);
 }
 
 void GuiProgram::key_down(const std::string& key) {
