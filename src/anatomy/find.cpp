@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "anatomy/specimen.h"
+#include "anatomy/touch_surfaces.h"
 
 namespace myotact::anatomy {
 
@@ -22,6 +23,13 @@ int find_joint(const Specimen& specimen, const std::string& key) {
 }
 int find_body(const Specimen& specimen, const std::string& key) {
   return index_of(specimen.bodies, key);
+}
+
+std::vector<const geometry::TriangleMesh*> touch_surfaces(const Specimen& specimen) {
+  std::vector<const geometry::TriangleMesh*> surfaces;
+  for (const Muscle& muscle : specimen.muscles) surfaces.push_back(&muscle.skin);
+  for (const Bone& bone : specimen.bones) surfaces.push_back(&bone.surface);
+  return surfaces;
 }
 
 const LineWrap* wrap_after(const MuscleLine& line, std::size_t after) {

@@ -156,8 +156,7 @@ std::string summary(const SceneFidelity& fidelity, const std::vector<JudgedFigur
   html += fmt::format(
       "While the hand was in touch ({:.2f} s judged) the commanded force differed from the true one by {:.1f} % (root "
       "mean square; at worst {:.2f} N of {:.2f} N). It was {:.1f} % too {}, {:.1f} ms {}, turned by {:.1f} degrees, "
-      "and "
-      "jittered by {:.0f} mN.</p>\n",
+      "and jittered by {:.0f} mN.</p>\n",
       1e-3 * static_cast<double>(whole.ticks), 100.0 * whole.error_rms_share, whole.error_worst_N, whole.true_peak_N,
       100.0 * std::abs(whole.gain - 1.0), whole.gain >= 1.0 ? "strong" : "weak", 1e3 * std::abs(whole.lag_s),
       whole.lag_s >= 0.0 ? "late" : "early", 57.29577951 * whole.turn_angle_rad(), 1e3 * whole.noise_rms_N);
@@ -165,8 +164,7 @@ std::string summary(const SceneFidelity& fidelity, const std::vector<JudgedFigur
   if (fidelity.haptic_part && fidelity.step_part)
     html += fmt::format(
         "Beside what the scene's own steps gave, the force differed by {:.1f} %, and those steps differed from the "
-        "truth "
-        "by {:.1f} %: the first is the rendering's part, the second that of the simulation's step. ",
+        "truth by {:.1f} %: the first is the rendering's part, the second that of the simulation's step. ",
         100.0 * fidelity.haptic_part->error_rms_share, 100.0 * fidelity.step_part->error_rms_share);
   html += fmt::format(
       "Left out: {:.2f} s while the force gate was not open, {:.2f} s while a hand closed or opened, "
@@ -246,21 +244,21 @@ std::string fidelity_page(const SceneFidelity& fidelity) {
   if (fidelity.planted) html += planted_table(*fidelity.planted);
   html += "<h2>Charts</h2>\n";
   html += explained(force_chart(fidelity),
-                    "The two lines should lie on each other. Of every stretch of time the lowest "
-                    "and the highest value are drawn, so that no jitter is hidden.");
+                    "The two lines should lie on each other. Of every stretch of time the lowest and the highest value "
+                    "are drawn, so that no jitter is hidden.");
   html += explained(error_chart(fidelity),
-                    "What the hand felt wrongly, by axis of the world; zero where a tick is not "
-                    "judged. Spikes belong to first touches and to letting go.");
-  html += explained(scatter_chart(fidelity),
-                    "Dots off the line are wrong in strength; a slope other than 1 is a "
-                    "stiffness that feels wrong by as much.");
+                    "What the hand felt wrongly, by axis of the world; zero where a tick is not judged. Spikes belong "
+                    "to first touches and to letting go.");
+  html += explained(
+      scatter_chart(fidelity),
+      "Dots off the line are wrong in strength; a slope other than 1 is a stiffness that feels wrong by as much.");
   html += explained(spectrum_chart(fidelity),
-                    "Over 20 Hz this is felt as a buzz. Peaks at 100 Hz and its multiples are "
-                    "steps of a simulation of 10 ms coming through.");
-  html += explained(range_chart(fidelity),
-                    "The stiffest wall that each device renders calmly, in N/m, decades long. "
-                    "Without a hand its own friction alone keeps it calm; the program renders no "
-                    "more than theory allows with the lightest hand.");
+                    "Over 20 Hz this is felt as a buzz. Peaks at 100 Hz and its multiples are steps of a simulation of "
+                    "10 ms coming through.");
+  html +=
+      explained(range_chart(fidelity),
+                "The stiffest wall that each device renders calmly, in N/m, decades long. Without a hand its own "
+                "friction alone keeps it calm; the program renders no more than theory allows with the lightest hand.");
   return html + "</body></html>\n";
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "anatomy/touch_surfaces.h"
 #include "geometry/closest_point.h"
 
 namespace myotact::layer {
@@ -10,13 +11,6 @@ namespace {
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
-}
-
-std::vector<const geometry::TriangleMesh*> all_surfaces(const anatomy::Specimen& specimen) {
-  std::vector<const geometry::TriangleMesh*> surfaces;
-  for (const anatomy::Muscle& muscle : specimen.muscles) surfaces.push_back(&muscle.skin);
-  for (const anatomy::Bone& bone : specimen.bones) surfaces.push_back(&bone.surface);
-  return surfaces;
 }
 
 }  // namespace
@@ -40,8 +34,8 @@ void name_touched_triangle(const messages::LocalModel& around, messages::ToolSta
 }
 
 EngineSurfaces::EngineSurfaces(const anatomy::Specimen& specimen)
-    : specimen_(specimen), patch_(all_surfaces(specimen)) {
-  for (const geometry::TriangleMesh* surface : all_surfaces(specimen)) {
+    : specimen_(specimen), patch_(anatomy::touch_surfaces(specimen)) {
+  for (const geometry::TriangleMesh* surface : anatomy::touch_surfaces(specimen)) {
     frames_.push_back({surface->positions_m, surface->positions_m});
   }
   for (int s = 0; s < count(); ++s) {

@@ -1,5 +1,6 @@
 #include "simulation/surfaces.h"
 
+#include "anatomy/touch_surfaces.h"
 #include "simulation/skin_tissue.h"
 
 namespace myotact::simulation {
@@ -7,13 +8,6 @@ namespace {
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
-}
-
-std::vector<const geometry::TriangleMesh*> all_surfaces(const anatomy::Specimen& specimen) {
-  std::vector<const geometry::TriangleMesh*> surfaces;
-  for (const anatomy::Muscle& muscle : specimen.muscles) surfaces.push_back(&muscle.skin);
-  for (const anatomy::Bone& bone : specimen.bones) surfaces.push_back(&bone.surface);
-  return surfaces;
 }
 
 /// Nodal positions as points. Vec3 is three packed doubles.
@@ -28,7 +22,7 @@ Surfaces::Surfaces(const anatomy::Specimen& specimen, const Limb& limb) : specim
   for (std::size_t m = 0; m < specimen.muscles.size(); ++m) {
     skins_.push_back(embed_skin(specimen.muscles[m].skin, limb.muscles[m].tissue.mesh));
   }
-  const std::vector<const geometry::TriangleMesh*> surfaces = all_surfaces(specimen);
+  const std::vector<const geometry::TriangleMesh*> surfaces = anatomy::touch_surfaces(specimen);
   for (const geometry::TriangleMesh* surface : surfaces)
     frames_.push_back({surface->positions_m, surface->positions_m});
   patch_ = std::make_unique<LocalPatch>(surfaces);
