@@ -1,5 +1,5 @@
 #version 330 core
-// Unlit lines: the ground grid.
+// Unlit lines: the ground grid, strokes along fibres.
 layout(location = 0) in vec3 position;
 layout(location = 2) in vec4 colour;
 

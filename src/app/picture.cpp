@@ -1,12 +1,10 @@
 #include "app/picture.h"
 
-#include <optional>
-
 #include <spdlog/spdlog.h>
 
 #include "core/error.h"
+#include "view/limb_bounds.h"
 #include "view/offscreen.h"
-#include "view/scene_renderer.h"
 
 namespace myotact::app {
 
@@ -23,11 +21,13 @@ void write_picture(const scene::Scene& scene, const simulation::Simulation& simu
   simulation.write_frame(frame);
   frame.tools = tools;
   constexpr float kAspect = static_cast<float>(kWidth) / static_cast<float>(kHeight);
+  view::ViewState look = view::start_view(scene.specimen, kAspect);
   const auto camera =
-      view::standard_view(view, scene.specimen.side != "right", view::bounds_of(scene.specimen), kAspect);
+      view::standard_view(view, scene.specimen.side != "right", view::bounds_of(scene.specimen, frame), kAspect);
+  look.camera = camera.value_or(look.camera);
   try {
     view::OffscreenRenderer renderer(scene.specimen, kWidth, kHeight);
-    view::write_png(path, renderer.render(frame, camera.value_or(view::Camera{})));
+    view::write_png(path, renderer.render(frame, look));
   } catch (const Error& failure) {
     if (failure.status() != ExitStatus::Unavailable) throw;
     spdlog::warn("{}", failure.what());

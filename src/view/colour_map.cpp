@@ -29,4 +29,18 @@ glm::vec3 cividis(double level) {
   return colour;
 }
 
+std::array<glm::vec3, 10> cividis_table() {
+  std::array<glm::vec3, 10> table;
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    table[i] = cividis(static_cast<double>(i) / static_cast<double>(table.size() - 1));
+  }
+  return table;
+}
+
+glm::vec3 blue_orange(double level) {
+  constexpr glm::vec3 kBlue{0.00f, 0.35f, 0.66f}, kMiddle{0.93f, 0.91f, 0.88f}, kOrange{0.84f, 0.43f, 0.00f};
+  const auto share = static_cast<float>(std::clamp(level, -1.0, 1.0));
+  return share < 0.0f ? glm::mix(kMiddle, kBlue, -share) : glm::mix(kMiddle, kOrange, share);
+}
+
 }  // namespace myotact::view

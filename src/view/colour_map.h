@@ -1,10 +1,17 @@
 #pragma once
 
+#include <array>
+
 #include <glm/glm.hpp>
 
 namespace myotact::view {
 
 /// The map cividis (Nunez, Anderton and Renslow 2018), readable with any colour vision; 0 dark blue .. 1 yellow.
 glm::vec3 cividis(double level);
+/// Its colours at evenly spaced levels from 0 to 1; between them it is linear.
+std::array<glm::vec3, 10> cividis_table();
+
+/// For signed values: -1 blue .. 0 near white .. 1 orange, lightest in the middle, told apart by everyone.
+glm::vec3 blue_orange(double level);
 
 }  // namespace myotact::view

@@ -59,7 +59,7 @@ Drawable::Drawable(Drawable&& other) noexcept
       indices_(std::exchange(other.indices_, 0)),
       count_(std::exchange(other.count_, 0)) {}
 
-void Drawable::upload(const DrawMesh& mesh) {
+std::size_t Drawable::upload(const DrawMesh& mesh) {
   if (array_ == 0) {
     glGenVertexArrays(1, &array_);
     glGenBuffers(1, &vertices_);
@@ -80,6 +80,7 @@ void Drawable::upload(const DrawMesh& mesh) {
   attribute(1, 3, offsetof(DrawVertex, normal));
   attribute(2, 4, offsetof(DrawVertex, colour));
   count_ = static_cast<int>(mesh.indices.size());
+  return mesh.vertices.size() * sizeof(DrawVertex) + mesh.indices.size() * sizeof(std::uint32_t);
 }
 
 void Drawable::draw(unsigned mode) const {

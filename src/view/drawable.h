@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -28,7 +29,9 @@ class Drawable {
   Drawable& operator=(const Drawable&) = delete;
   Drawable(Drawable&& other) noexcept;
 
-  void upload(const DrawMesh& mesh);
+  /// Returns the bytes sent.
+  std::size_t upload(const DrawMesh& mesh);
+  bool empty() const { return count_ == 0; }
   /// `mode`: GL_TRIANGLES or GL_LINES.
   void draw(unsigned mode) const;
 

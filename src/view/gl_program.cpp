@@ -60,4 +60,16 @@ void GlProgram::set(const char* uniform, const glm::vec3& value) const {
   glUniform3fv(glGetUniformLocation(program_, uniform), 1, &value[0]);
 }
 
+void GlProgram::set(const char* uniform, const glm::vec4& value) const {
+  glUniform4fv(glGetUniformLocation(program_, uniform), 1, &value[0]);
+}
+
+void GlProgram::set(const char* uniform, float value) const {
+  glUniform1f(glGetUniformLocation(program_, uniform), value);
+}
+
+void GlProgram::set(const char* uniform, std::span<const glm::vec3> values) const {
+  glUniform3fv(glGetUniformLocation(program_, uniform), static_cast<GLsizei>(values.size()), &values[0][0]);
+}
+
 }  // namespace myotact::view

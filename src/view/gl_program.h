@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 
 #include <glm/glm.hpp>
@@ -18,6 +19,9 @@ class GlProgram {
   void use() const;
   void set(const char* uniform, const glm::mat4& value) const;
   void set(const char* uniform, const glm::vec3& value) const;
+  void set(const char* uniform, const glm::vec4& value) const;
+  void set(const char* uniform, float value) const;
+  void set(const char* uniform, std::span<const glm::vec3> values) const;
 
  private:
   unsigned program_ = 0;

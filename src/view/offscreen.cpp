@@ -9,7 +9,6 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "view/scene_renderer.h"
 
 namespace myotact::view {
 
@@ -55,15 +54,15 @@ class EglContext {
   EGLContext context_ = EGL_NO_CONTEXT;
 };
 
-/// Colour and depth of one size, with or without samples.
+/// Colour, depth and stencil of one size, with or without samples.
 class Target {
  public:
   Target(int width, int height, int samples) {
     glGenFramebuffers(1, &frame_);
     glBindFramebuffer(GL_FRAMEBUFFER, frame_);
     glGenRenderbuffers(2, buffers_);
-    const GLenum formats[2] = {GL_RGB8, GL_DEPTH_COMPONENT24};
-    const GLenum places[2] = {GL_COLOR_ATTACHMENT0, GL_DEPTH_ATTACHMENT};
+    const GLenum formats[2] = {GL_RGB8, GL_DEPTH24_STENCIL8};
+    const GLenum places[2] = {GL_COLOR_ATTACHMENT0, GL_DEPTH_STENCIL_ATTACHMENT};
     for (int i = 0; i < 2; ++i) {
       glBindRenderbuffer(GL_RENDERBUFFER, buffers_[i]);
       glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, formats[i], width, height);
@@ -106,13 +105,20 @@ OffscreenRenderer::OffscreenRenderer(const anatomy::Specimen& specimen, int widt
 
 OffscreenRenderer::~OffscreenRenderer() = default;
 
-Image OffscreenRenderer::render(const messages::SceneFrame& frame, const Camera& camera,
-                                const std::vector<SceneMark>& marks) {
+const RenderStatistics& OffscreenRenderer::statistics() const {
+  return impl_->renderer.statistics();
+}
+
+const std::vector<bool>& OffscreenRenderer::superficial() const {
+  return impl_->renderer.superficial();
+}
+
+Image OffscreenRenderer::render(const messages::SceneFrame& frame, const ViewState& view, const SceneExtras& extras) {
   const int width = impl_->width;
   const int height = impl_->height;
   impl_->context.make_current();
   glBindFramebuffer(GL_FRAMEBUFFER, impl_->sampled.frame());
-  impl_->renderer.draw(frame, camera, {0, 0, width, height}, marks);
+  impl_->renderer.draw(frame, view, {0, 0, width, height}, extras);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, impl_->sampled.frame());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, impl_->plain.frame());
   glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);

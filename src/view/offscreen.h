@@ -8,8 +8,7 @@
 
 #include "anatomy/specimen.h"
 #include "messages/scene_frame.h"
-#include "view/camera.h"
-#include "view/scene_mark.h"
+#include "view/scene_renderer.h"
 
 namespace myotact::view {
 
@@ -25,7 +24,10 @@ class OffscreenRenderer {
   OffscreenRenderer(const anatomy::Specimen& specimen, int width, int height);
   ~OffscreenRenderer();
 
-  Image render(const messages::SceneFrame& frame, const Camera& camera, const std::vector<SceneMark>& marks = {});
+  Image render(const messages::SceneFrame& frame, const ViewState& view, const SceneExtras& extras = {});
+  /// Of the last picture.
+  const RenderStatistics& statistics() const;
+  const std::vector<bool>& superficial() const;
 
  private:
   struct Impl;

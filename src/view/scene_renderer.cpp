@@ -1,6 +1,8 @@
 #include "view/scene_renderer.h"
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cmath>
 
 #include <epoxy/gl.h>
@@ -8,54 +10,34 @@
 #include "view/colour_map.h"
 #include "view/posing.h"
 #include "view/tool_drawing.h"
+#include "view/visibility.h"
 
 namespace myotact::view {
 
 namespace {
 
-constexpr glm::vec4 kBone{0.91f, 0.87f, 0.77f, 1.0f};
-constexpr glm::vec3 kBackground{0.955f, 0.96f, 0.965f};
-constexpr glm::vec4 kLine{0.80f, 0.18f, 0.12f, 1.0f};
-constexpr float kMuscleOpacity = 0.82f;  // bones shine through
-constexpr float kLineRadius_m = 0.9e-3f;
+constexpr glm::vec3 kBone{0.93f, 0.89f, 0.79f};
+constexpr glm::vec4 kLine{0.72f, 0.13f, 0.10f, 1.0f};
+constexpr glm::vec4 kFibre{0.33f, 0.10f, 0.08f, 0.75f};
+// Atlases paint origins red and insertions blue; these two reds and blues are Okabe and Ito's.
+constexpr glm::vec3 kOrigin{0.84f, 0.37f, 0.00f}, kInsertion{0.00f, 0.45f, 0.70f};
+constexpr glm::vec4 kSelected{0.76f, 0.18f, 0.52f, 1.0f}, kHovered{0.36f, 0.36f, 0.42f, 0.9f};
+constexpr float kLineRadius_m = 0.8e-3f;
+constexpr float kSeenThroughLine = 0.30f;  // opacity of what of a line or tool lies inside the limb
+constexpr float kOpaque = 0.995f;          // above this nothing shines through
+constexpr float kLeast = 0.02f;            // below this nothing is drawn
+constexpr float kGlassOpacity = 0.30f;     // of a muscle whose attachments are shown
+constexpr float kMuscleGloss = 0.16f, kBoneGloss = 0.07f;
+constexpr float kGlowRadius_m = 0.016f, kFullGlow_N = 2.0f;
 
-/// Area-weighted normals from the positions as they are now.
-void compute_normals(DrawMesh& mesh) {
-  for (DrawVertex& vertex : mesh.vertices) vertex.normal = glm::vec3(0.0f);
-  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    DrawVertex& a = mesh.vertices[mesh.indices[i]];
-    DrawVertex& b = mesh.vertices[mesh.indices[i + 1]];
-    DrawVertex& c = mesh.vertices[mesh.indices[i + 2]];
-    const glm::vec3 area = glm::cross(b.position - a.position, c.position - a.position);
-    a.normal += area;
-    b.normal += area;
-    c.normal += area;
-  }
-}
-
-void set_triangles(DrawMesh& mesh, const geometry::TriangleMesh& surface) {
-  mesh.indices.clear();
-  for (const auto& triangle : surface.triangles) {
-    for (const int vertex : triangle) mesh.indices.push_back(static_cast<std::uint32_t>(vertex));
-  }
-}
-
-DrawMesh bone_mesh(const anatomy::Bone& bone) {
-  DrawMesh mesh;
-  for (const Vec3& position : bone.surface.positions_m) mesh.vertices.push_back({to_glm(position), {}, kBone});
-  set_triangles(mesh, bone.surface);
-  compute_normals(mesh);
-  return mesh;
-}
-
-/// Squares of 50 mm on the ground, fading outwards.
+/// Squares of 50 mm on the ground.
 DrawMesh grid_mesh(const ViewBox& bounds) {
   constexpr float kSquare_m = 0.05f;
   constexpr int kSquares = 6;
   DrawMesh mesh;
   const glm::vec3 centre(0.5f * (bounds.lowest_m.x + bounds.highest_m.x),
                          0.5f * (bounds.lowest_m.y + bounds.highest_m.y), bounds.lowest_m.z);
-  const glm::vec4 colour(0.72f, 0.74f, 0.77f, 1.0f);
+  const glm::vec4 colour(0.60f, 0.62f, 0.66f, 0.55f);
   for (int i = -kSquares; i <= kSquares; ++i) {
     const float at = kSquare_m * static_cast<float>(i);
     const float end = kSquare_m * kSquares;
@@ -70,92 +52,309 @@ DrawMesh grid_mesh(const ViewBox& bounds) {
   return mesh;
 }
 
-}  // namespace
-
-SceneRenderer::SceneRenderer(const anatomy::Specimen& specimen)
-    : specimen_(&specimen), surface_("surface"), flat_("flat"), muscles_(specimen.muscles.size()) {
-  for (const auto& bone : specimen.bones) {
-    bones_.emplace_back();
-    bones_.back().upload(bone_mesh(bone));
-  }
-  const ViewBox bounds = bounds_of(specimen);
-  middle_m_ = 0.5f * (bounds.lowest_m + bounds.highest_m);
-  grid_.upload(grid_mesh(bounds));
+/// Over the viewer's left shoulder, from above: what stands out is lit from the upper left, as in atlases.
+glm::vec3 key_light_of(const Camera& camera) {
+  return glm::normalize(-0.75f * camera.forward_world() - 0.45f * camera.right_world() + 0.65f * camera.up_world());
 }
 
-void SceneRenderer::draw(const messages::SceneFrame& frame, const Camera& camera, const Viewport& viewport,
-                         const std::vector<SceneMark>& marks) {
+/// Where tools press, the skin glows: place and radius, colour and strength.
+struct Glow {
+  glm::vec4 place{0.0f, 0.0f, 0.0f, 1.0f}, colour{0.0f};
+};
+std::array<Glow, 2> glows_of(const messages::SceneFrame& frame) {
+  std::array<Glow, 2> glows;
+  for (std::size_t t = 0; t < std::min(glows.size(), frame.tools.size()); ++t) {
+    const messages::ToolFrame& tool = frame.tools[t];
+    if (!tool.in_contact) continue;
+    const float strength = std::min(glm::length(to_glm(tool.force_world_N)) / kFullGlow_N, 1.0f);
+    const auto reach_m = kGlowRadius_m + 2.0f * static_cast<float>(tool.radius_m);
+    glows[t] = {glm::vec4(to_glm(tool.proxy_world_m), reach_m), glm::vec4(1.0f, 0.80f, 0.25f, 0.85f * strength)};
+  }
+  return glows;
+}
+
+}  // namespace
+
+struct SceneRenderer::Picture {
+  const messages::SceneFrame& frame;
+  const ViewState& view;
+  const Viewport& viewport;
+  const SceneExtras& extras;
+  glm::mat4 clip_from_world;
+  glm::vec4 kept;                     // of the section
+  std::vector<MuscleTint> tints;      // of the muscles
+  std::vector<float> muscles, bones;  // opacities
+
+  float opacity(const Part& part) const {
+    return (part.kind == PartKind::Bone ? bones : muscles)[static_cast<std::size_t>(part.index)];
+  }
+  bool shows_attachments(int muscle) const {
+    return view.attachments && (view.selected_muscle < 0 || view.selected_muscle == muscle);
+  }
+};
+
+SceneRenderer::SceneRenderer(const anatomy::Specimen& specimen)
+    : specimen_(&specimen),
+      box_(bounds_of(specimen)),
+      limb_program_("limb"),
+      outline_program_("outline"),
+      surface_program_("surface"),
+      flat_program_("flat"),
+      limb_(specimen) {
+  for (const auto& muscle : specimen.muscles) strokes_.push_back(fibre_strokes(muscle));
+  grid_.upload(grid_mesh(box_));
+}
+
+void SceneRenderer::draw(const messages::SceneFrame& frame, const ViewState& view, const Viewport& viewport,
+                         const SceneExtras& extras) {
+  const auto since = std::chrono::steady_clock::now();
+  statistics_ = {};
+  const float aspect = static_cast<float>(viewport.width) / static_cast<float>(std::max(viewport.height, 1));
+  Picture picture{frame,
+                  view,
+                  viewport,
+                  extras,
+                  view.camera.clip_from_world(aspect),
+                  kept_half_space(view.section, box_),
+                  tint_muscles(*specimen_, frame, view.colour, extras.joint),
+                  {},
+                  {}};
+  for (int m = 0; m < static_cast<int>(specimen_->muscles.size()); ++m) {
+    const float opacity = opacity_of(view, superficial(), {PartKind::Muscle, m});
+    picture.muscles.push_back(picture.shows_attachments(m) ? kGlassOpacity * opacity : opacity);
+  }
+  for (int b = 0; b < static_cast<int>(specimen_->bones.size()); ++b) {
+    picture.bones.push_back(opacity_of(view, superficial(), {PartKind::Bone, b}));
+  }
+  begin(picture);
+  move_limb(picture);
+  draw_limb(picture);
+  if (extras.hovered && extras.hovered != selected_part(view)) draw_outline(picture, extras.hovered, kHovered, 2.0f);
+  if (const Part part = selected_part(view)) draw_outline(picture, part, kSelected, 3.0f);
+  draw_marks(picture);
+  glDisable(GL_SCISSOR_TEST);
+  statistics_.frame_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - since).count();
+}
+
+void SceneRenderer::begin(const Picture& picture) {
+  const Viewport& viewport = picture.viewport;
   glViewport(viewport.x, viewport.y, viewport.width, viewport.height);
   glScissor(viewport.x, viewport.y, viewport.width, viewport.height);
-  glEnable(GL_SCISSOR_TEST);  // clearing keeps to the viewport
+  glEnable(GL_SCISSOR_TEST);
   glEnable(GL_DEPTH_TEST);
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  glClearColor(kBackground.r, kBackground.g, kBackground.b, 1.0f);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  glDisable(GL_SCISSOR_TEST);
-  const glm::mat4 clip_from_world =
-      camera.clip_from_world(static_cast<float>(viewport.width) / static_cast<float>(std::max(viewport.height, 1)));
-  flat_.use();
-  flat_.set("clip_from_world", clip_from_world);
-  grid_.draw(GL_LINES);
-  surface_.use();
-  surface_.set("clip_from_world", clip_from_world);
-  surface_.set("eye_world", camera.eye_world_m());
-  draw_bones(frame);
-  surface_.set("world_from_model", glm::mat4(1.0f));
-  draw_lines_and_tools(frame);
-  draw_muscles(frame);
-  draw_marks(marks);
+  const glm::vec3& background = picture.extras.background;
+  glClearColor(background.r, background.g, background.b, 1.0f);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+  flat_program_.use();
+  flat_program_.set("clip_from_world", picture.clip_from_world);
+  draw_again(grid_, GL_LINES);
 }
 
-void SceneRenderer::draw_bones(const messages::SceneFrame& frame) {
-  for (std::size_t b = 0; b < bones_.size(); ++b) {
-    const auto body = static_cast<std::size_t>(specimen_->bones[b].body);
-    surface_.set("world_from_model", body < frame.body_poses.size() ? to_glm(frame.body_poses[body]) : glm::mat4(1.0f));
-    bones_[b].draw(GL_TRIANGLES);
+/// Sends what moved and what is the same for all parts.
+void SceneRenderer::move_limb(const Picture& picture) {
+  levels_.clear();
+  const bool mapped = picture.view.colour == MuscleColour::Pressure && !picture.extras.pressures_Pa.empty();
+  if (mapped) {
+    levels_.assign(picture.extras.pressures_Pa.begin(), picture.extras.pressures_Pa.end());
+    for (auto& muscle : levels_) {
+      for (float& level : muscle) level /= kPressureRange_Pa;
+    }
   }
+  statistics_.uploaded_bytes += limb_.move(picture.frame, levels_);
+  const ViewState& view = picture.view;
+  const auto present = std::count_if(picture.muscles.begin(), picture.muscles.end(),
+                                     [](float opacity) { return opacity >= kSolidOpacity; });
+  limb_program_.use();
+  limb_program_.set("clip_from_world", picture.clip_from_world);
+  limb_program_.set("eye_world", view.camera.eye_world_m());
+  limb_program_.set("key_world", key_light_of(view.camera));
+  limb_program_.set("kept", picture.kept);
+  // What is not there casts no shade: of the muscles together, as far as they are together.
+  limb_program_.set("together", picture.muscles.empty()
+                                    ? 1.0f
+                                    : static_cast<float>(present) / static_cast<float>(picture.muscles.size()));
+  limb_program_.set("ends[0]", kOrigin);
+  limb_program_.set("ends[1]", kInsertion);
+  limb_program_.set("show_ends", 0.0f);
+  const auto glows = glows_of(picture.frame);
+  for (std::size_t i = 0; i < glows.size(); ++i) {
+    limb_program_.set(i == 0 ? "glow_place[0]" : "glow_place[1]", glows[i].place);
+    limb_program_.set(i == 0 ? "glow_colour[0]" : "glow_colour[1]", glows[i].colour);
+  }
+  limb_program_.set("map_colours", cividis_table());
 }
 
-void SceneRenderer::draw_muscles(const messages::SceneFrame& frame) {
-  for (std::size_t m = 0; m < muscles_.size() && m < frame.skins_world_m.size(); ++m) {
-    const glm::vec4 colour(cividis(frame.activations[m]), kMuscleOpacity);
-    scratch_.vertices.clear();
-    for (const auto& p : frame.skins_world_m[m]) scratch_.vertices.push_back({{p[0], p[1], p[2]}, {}, colour});
-    set_triangles(scratch_, specimen_->muscles[m].skin);
-    compute_normals(scratch_);
-    muscles_[m].upload(scratch_);
-  }
-  // Each muscle hides its own back, but shows what lies behind it: bones, lines, deeper muscles drawn before.
-  glEnable(GL_CULL_FACE);
-  for (const Drawable& muscle : muscles_) muscle.draw(GL_TRIANGLES);
+/// What is opaque first, then lines and tools, then what shines through, from the far side to the near one.
+void SceneRenderer::draw_limb(const Picture& picture) {
+  std::vector<Part> clear;
+  const bool cut = picture.view.section.on;
+  if (cut) glEnable(GL_CLIP_DISTANCE0);
+  const auto draw_opaque = [&](const Part& part) {
+    const float opacity = picture.opacity(part);
+    if (opacity >= kOpaque) draw_part(picture, part, 1.0f);
+    if (opacity > kLeast && opacity < kOpaque) clear.push_back(part);
+  };
+  if (!cut) glEnable(GL_CULL_FACE);
+  for (int m = 0; m < static_cast<int>(picture.muscles.size()); ++m) draw_opaque({PartKind::Muscle, m});
+  for (int b = 0; b < static_cast<int>(picture.bones.size()); ++b) draw_opaque({PartKind::Bone, b});
   glDisable(GL_CULL_FACE);
+  draw_attachments(picture);
+  glDisable(GL_CLIP_DISTANCE0);
+  draw_fibres(picture);
+  draw_lines_and_tools(picture);
+  const glm::vec3 eye_m = picture.view.camera.eye_world_m();
+  std::stable_sort(clear.begin(), clear.end(), [&](const Part& a, const Part& b) {
+    return glm::distance(limb_.middle_world_m(a), eye_m) > glm::distance(limb_.middle_world_m(b), eye_m);
+  });
+  if (cut) glEnable(GL_CLIP_DISTANCE0);
+  limb_program_.use();
+  glEnable(GL_CULL_FACE);
+  glDepthMask(GL_FALSE);
+  for (const Part& part : clear) draw_part(picture, part, picture.opacity(part));
+  glDepthMask(GL_TRUE);
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_CLIP_DISTANCE0);
 }
 
-void SceneRenderer::draw_lines_and_tools(const messages::SceneFrame& frame) {
+void SceneRenderer::draw_part(const Picture& picture, const Part& part, float opacity) {
+  const bool bone = part.kind == PartKind::Bone;
+  const MuscleTint tint = bone ? MuscleTint{kBone, 0.0f} : picture.tints[static_cast<std::size_t>(part.index)];
+  limb_program_.set("world_from_model", limb_.pose_of(part));
+  limb_program_.set("colour", glm::vec4(tint.colour, opacity));
+  limb_program_.set("finish",
+                    glm::vec4(tint.stripe_m, bone ? kBoneGloss : kMuscleGloss, picture.view.section.on ? 1.0f : 0.0f,
+                              !bone && !levels_.empty() ? 1.0f : 0.0f));
+  limb_.draw(part);
+  ++statistics_.draw_calls;
+}
+
+void SceneRenderer::draw_attachments(const Picture& picture) {
+  if (!picture.view.attachments) return;
+  limb_program_.set("world_from_model", glm::mat4(1.0f));
+  limb_program_.set("show_ends", 1.0f);
+  limb_program_.set("finish", glm::vec4(0.0f));
+  limb_program_.set("colour", glm::vec4(1.0f));
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(-2.0f, -2.0f);  // before the bone that they lie on
+  std::vector<bool> shown;
+  for (int m = 0; m < static_cast<int>(specimen_->muscles.size()); ++m) {
+    shown.push_back(picture.shows_attachments(m) && picture.opacity({PartKind::Muscle, m}) > kLeast);
+  }
+  statistics_.draw_calls += limb_.draw_attachments(shown);
+  glDisable(GL_POLYGON_OFFSET_FILL);
+  limb_program_.set("show_ends", 0.0f);
+}
+
+void SceneRenderer::draw_fibres(const Picture& picture) {
+  if (!picture.view.fibres) return;
   scratch_.vertices.clear();
   scratch_.indices.clear();
-  for (const auto& line : frame.lines_world_m) {
+  const glm::vec3 eye_m = picture.view.camera.eye_world_m();
+  for (std::size_t m = 0; m < strokes_.size(); ++m) {
+    if (picture.muscles[m] < kSolidOpacity) continue;
+    for (const FibreStroke& stroke : strokes_[m]) {
+      const LimbSurfaces::StrokeNow now = limb_.stroke_now(static_cast<int>(m), stroke);
+      const float facing = glm::dot(now.normal, glm::normalize(eye_m - now.from_m));
+      if (facing <= 0.0f || !is_kept(picture.kept, now.from_m)) continue;
+      const auto start = static_cast<std::uint32_t>(scratch_.vertices.size());
+      const glm::vec4 colour(glm::vec3(kFibre), kFibre.a * std::min(1.0f, 2.0f * facing));
+      scratch_.vertices.push_back({now.from_m, now.normal, colour});
+      scratch_.vertices.push_back({now.to_m, now.normal, colour});
+      scratch_.indices.insert(scratch_.indices.end(), {start, start + 1});
+    }
+  }
+  flat_program_.use();
+  flat_program_.set("clip_from_world", picture.clip_from_world);
+  upload_and_draw(fibres_, GL_LINES);
+}
+
+/// What of them lies inside the limb shines through it.
+void SceneRenderer::draw_lines_and_tools(const Picture& picture) {
+  surface_program_.use();
+  surface_program_.set("clip_from_world", picture.clip_from_world);
+  surface_program_.set("eye_world", picture.view.camera.eye_world_m());
+  surface_program_.set("key_world", key_light_of(picture.view.camera));
+  surface_program_.set("opacity", 1.0f);
+  scratch_.vertices.clear();
+  scratch_.indices.clear();
+  for (std::size_t m = 0; m < picture.frame.lines_world_m.size() && picture.view.lines; ++m) {
+    if (m < picture.muscles.size() && picture.muscles[m] <= kLeast) continue;
+    const auto& line = picture.frame.lines_world_m[m];
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
       add_tube(scratch_, to_glm(line[i]), to_glm(line[i + 1]), kLineRadius_m, kLine);
     }
   }
-  for (const messages::ToolFrame& tool : frame.tools) {
-    add_tool(scratch_, tool, middle_m_);
-  }
-  overlay_.upload(scratch_);
-  overlay_.draw(GL_TRIANGLES);
-}
-
-void SceneRenderer::draw_marks(const std::vector<SceneMark>& marks) {
-  if (marks.empty()) return;
+  upload_and_draw(lines_, GL_TRIANGLES);
   scratch_.vertices.clear();
   scratch_.indices.clear();
-  for (const SceneMark& mark : marks) add_sphere(scratch_, mark.place_world_m, mark.radius_m, mark.colour);
-  overlay_.upload(scratch_);
+  const glm::vec3 middle_m = 0.5f * (box_.lowest_m + box_.highest_m);
+  for (const messages::ToolFrame& tool : picture.frame.tools) add_tool(scratch_, tool, middle_m);
+  upload_and_draw(tools_, GL_TRIANGLES);
+  surface_program_.set("opacity", kSeenThroughLine);
+  glDepthFunc(GL_GREATER);
+  glDepthMask(GL_FALSE);
+  draw_again(lines_, GL_TRIANGLES);
+  draw_again(tools_, GL_TRIANGLES);
+  glDepthMask(GL_TRUE);
+  glDepthFunc(GL_LESS);
+}
+
+/// Round the whole part, also where others hide it: where the grown part covers more than the part itself.
+void SceneRenderer::draw_outline(const Picture& picture, const Part& part, const glm::vec4& colour, float width_px) {
+  const auto& opacities = part.kind == PartKind::Bone ? picture.bones : picture.muscles;
+  if (static_cast<std::size_t>(part.index) >= opacities.size() || picture.opacity(part) <= kLeast) return;
+  const glm::vec3 half(0.5f * static_cast<float>(picture.viewport.width),
+                       0.5f * static_cast<float>(picture.viewport.height), 0.0f);
+  outline_program_.use();
+  outline_program_.set("world_from_model", limb_.pose_of(part));
+  outline_program_.set("clip_from_world", picture.clip_from_world);
+  outline_program_.set("kept", picture.kept);
+  outline_program_.set("colour", colour);
+  if (picture.view.section.on) glEnable(GL_CLIP_DISTANCE0);
   glDisable(GL_DEPTH_TEST);
-  overlay_.draw(GL_TRIANGLES);
+  glEnable(GL_STENCIL_TEST);
+  glClear(GL_STENCIL_BUFFER_BIT);
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  glStencilFunc(GL_ALWAYS, 1, 0xff);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+  outline_program_.set("grow", half);
+  limb_.draw(part);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glStencilFunc(GL_NOTEQUAL, 1, 0xff);
+  // Each pixel once, though the grown part's far side covers it too.
+  outline_program_.set("grow", half + glm::vec3(0.0f, 0.0f, width_px));
+  limb_.draw(part);
+  glDisable(GL_STENCIL_TEST);
   glEnable(GL_DEPTH_TEST);
+  glDisable(GL_CLIP_DISTANCE0);
+  statistics_.draw_calls += 2;
+}
+
+void SceneRenderer::draw_marks(const Picture& picture) {
+  if (picture.extras.marks.empty()) return;
+  scratch_.vertices.clear();
+  scratch_.indices.clear();
+  for (const SceneMark& mark : picture.extras.marks) {
+    add_sphere(scratch_, mark.place_world_m, mark.radius_m, mark.colour);
+  }
+  surface_program_.use();
+  surface_program_.set("opacity", 1.0f);
+  glDisable(GL_DEPTH_TEST);
+  upload_and_draw(marks_, GL_TRIANGLES);
+  glEnable(GL_DEPTH_TEST);
+}
+
+void SceneRenderer::upload_and_draw(Drawable& drawable, unsigned mode) {
+  statistics_.uploaded_bytes += drawable.upload(scratch_);
+  draw_again(drawable, mode);
+}
+
+void SceneRenderer::draw_again(const Drawable& drawable, unsigned mode) {
+  if (drawable.empty()) return;
+  drawable.draw(mode);
+  ++statistics_.draw_calls;
 }
 
 }  // namespace myotact::view

@@ -1,6 +1,6 @@
 #include "view/view_state.h"
 
-#include "view/scene_renderer.h"
+#include "view/limb_bounds.h"
 
 namespace myotact::view {
 

@@ -204,8 +204,11 @@ struct Window::Impl {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float scale = static_cast<float>(width) / std::max(display.x, 1.0f);
     const auto pixels = [&](float length) { return static_cast<int>(length * scale); };
-    renderer.draw(frame, state.view.camera,
-                  {pixels(area.x), height - pixels(area.y + area.height), pixels(area.width), pixels(area.height)});
+    SceneExtras extras;
+    extras.joint = facts.joint;
+    renderer.draw(frame, state.view,
+                  {pixels(area.x), height - pixels(area.y + area.height), pixels(area.width), pixels(area.height)},
+                  extras);
   }
 
   /// Read before the buffers are swapped: afterwards their content is undefined.

@@ -9,27 +9,15 @@
 
 #include "core/error.h"
 #include "support/synthetic_specimen.h"
-#include "view/scene_renderer.h"
+#include "view/limb_bounds.h"
+#include "view/view_frame.h"
 
 namespace myotact::view {
 namespace {
 
-messages::SceneFrame frame_of(const anatomy::Specimen& specimen, double activation) {
-  messages::SceneFrame frame;
-  frame.body_poses.assign(specimen.bodies.size(), {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0});
-  for (const auto& muscle : specimen.muscles) {
-    frame.skins_world_m.emplace_back();
-    for (const Vec3& p : muscle.skin.positions_m) {
-      frame.skins_world_m.back().push_back(
-          {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())});
-    }
-    frame.activations.push_back(activation);
-    frame.tensions_N.push_back(0.0);
-    frame.volume_ratios.push_back(1.0);
-    frame.smallest_volume_ratios.push_back(1.0);
-  }
-  return frame;
-}
+using myotact::testing::frame_at_rest;
+
+constexpr float kAspect = 4.0f / 3.0f;
 
 class Offscreen : public ::testing::Test {
  protected:
@@ -41,8 +29,12 @@ class Offscreen : public ::testing::Test {
     }
   }
   Image picture(double activation, const char* view) {
-    return renderer_->render(frame_of(specimen_, activation),
-                             *standard_view(view, true, bounds_of(specimen_), 4.0f / 3.0f));
+    return renderer_->render(frame_at_rest(specimen_, activation), looking(view));
+  }
+  ViewState looking(const char* from) const {
+    ViewState view = start_view(specimen_, kAspect);
+    view.camera = *standard_view(from, true, bounds_of(specimen_), kAspect);
+    return view;
   }
   static std::size_t different_pixels(const Image& a, const Image& b) {
     std::size_t count = 0;
@@ -72,26 +64,26 @@ TEST_F(Offscreen, MusclesChangeColourWithActivationAndViewsDiffer) {
 }
 
 TEST_F(Offscreen, ABoneInHandIsMarkedWhereItIsHeld) {
-  messages::SceneFrame frame = frame_of(specimen_, 0.0);
+  messages::SceneFrame frame = frame_at_rest(specimen_, 0.0);
   frame.tools.resize(1);
   messages::ToolFrame& tool = frame.tools.front();
   tool.radius_m = 3e-3;
   tool.tool_world_m = tool.proxy_world_m = {0.25, 0.0, 0.0};
   tool.grip_world_m = {0.2, 0.0, 0.03};  // above the bone's end, where nothing else is
-  const auto camera = *standard_view("lateral", true, bounds_of(specimen_), 4.0f / 3.0f);
+  const ViewState camera = looking("lateral");
   const Image empty_hand = renderer_->render(frame, camera);
   tool.grabbed_body = 1;
   EXPECT_GT(different_pixels(empty_hand, renderer_->render(frame, camera)), 10u);
 }
 
 TEST_F(Offscreen, EachHandAndEachShapeLooksItsOwn) {
-  messages::SceneFrame frame = frame_of(specimen_, 0.0);
+  messages::SceneFrame frame = frame_at_rest(specimen_, 0.0);
   frame.tools.resize(2);
   for (messages::ToolFrame& tool : frame.tools) tool.radius_m = 6e-3;
   frame.tools[0].tool_world_m = frame.tools[0].proxy_world_m = {0.15, 0.0, 0.03};
   frame.tools[1].tool_world_m = frame.tools[1].proxy_world_m = {-0.1, 0.0, 0.08};
   frame.tools[1].left = true;
-  const auto camera = *standard_view("lateral", true, bounds_of(specimen_), 4.0f / 3.0f);
+  const ViewState camera = looking("lateral");
   const Image balls = renderer_->render(frame, camera);
   frame.tools[1].left = false;
   EXPECT_GT(different_pixels(balls, renderer_->render(frame, camera)), 10u);  // of another colour

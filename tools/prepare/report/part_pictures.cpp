@@ -4,8 +4,8 @@
 
 #include <openssl/evp.h>
 
+#include "view/limb_bounds.h"
 #include "view/offscreen.h"
-#include "view/scene_renderer.h"
 
 namespace myotact::prepare {
 
@@ -20,6 +20,7 @@ constexpr Size kPartSize{300, 300};
 constexpr float kMarkShare = 0.014f;
 /// The colour of a half active muscle: neither of the marks' colours is near it.
 constexpr double kActivation = 0.45;
+constexpr float kMuscleOpacity = 0.82f;  // bones shine through
 
 std::string base64(const std::string& bytes) {
   std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');
@@ -71,8 +72,12 @@ PicturePair draw(const anatomy::Specimen& specimen, const Size& size, const std:
   const messages::SceneFrame frame = frame_of(specimen);
   const auto from = [&](const char* side) {
     const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
-    const auto camera = view::standard_view(side, specimen.side != "right", box, aspect);
-    return base64(view::png_bytes(renderer.render(frame, camera.value_or(view::Camera{}), balls)));
+    view::ViewState look = view::start_view(specimen, aspect);
+    look.camera = view::standard_view(side, specimen.side != "right", box, aspect).value_or(look.camera);
+    look.layers.superficial = look.layers.deep = kMuscleOpacity;
+    view::SceneExtras extras;
+    extras.marks = balls;
+    return base64(view::png_bytes(renderer.render(frame, look, extras)));
   };
   return {from("lateral"), from("medial")};
 }

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "anatomy/specimen.h"
+#include "messages/scene_frame.h"
+#include "view/view_state.h"
+
+namespace myotact::view {
+
+/// How one muscle is painted: its colour, and stripes across it as a second cue for those who cannot tell the colours.
+struct MuscleTint {
+  glm::vec3 colour{0.0f};
+  float stripe_m = 0.0f;  // from stripe to stripe along the muscle; 0: none
+};
+
+/// What the colours mean.
+struct Legend {
+  struct Entry {
+    const char* key = "";  // of its text
+    MuscleTint tint;
+  };
+  const char* title_key = "";
+  const char* unit_key = "";  // empty: without
+  double lowest = 0.0, highest = 0.0;
+  std::vector<glm::vec3> scale;  // evenly spaced colours from lowest to highest, or empty
+  std::vector<Entry> entries;    // named colours
+};
+
+/// Of no activation, no tension: calm, so that what is at work stands out.
+inline constexpr glm::vec3 kIdleMuscle{0.80f, 0.66f, 0.61f};
+
+/// One tint a muscle. `joint`: whose stiffness is shared out. Values that the frame lacks count as none.
+std::vector<MuscleTint> tint_muscles(const anatomy::Specimen& specimen, const messages::SceneFrame& frame,
+                                     MuscleColour colour, int joint);
+
+Legend legend_of(const anatomy::Specimen& specimen, MuscleColour colour);
+
+/// Largest of the map of pressures [Pa].
+inline constexpr float kPressureRange_Pa = 20e3f;
+
+}  // namespace myotact::view
