@@ -81,6 +81,22 @@ CLI::App* add_fidelity(CLI::App& program, Options& options) {
   return fidelity;
 }
 
+CLI::App* add_lesson(CLI::App& program, Options& options) {
+  CLI::App* lesson = program.add_subcommand(
+      "lesson",
+      "check a lesson and print its steps, or play it with a scripted student; without a name: list them all");
+  lesson->add_option("lesson", options.file, "lesson file, or the key of a shipped one or one of your own");
+  auto* check = lesson->add_flag("--check")->description("read and check it, print its steps (the default)");
+  auto* automatic = lesson->add_flag("--auto", options.automatic,
+                                     "play it rightly, without a window; the results as CSV on standard output");
+  lesson->add_option("--answers", options.answers, "play it with the answers of this file (assets/lessons/README.md)")
+      ->excludes(automatic)
+      ->excludes(check);
+  automatic->excludes(check);
+  add_common(*lesson, options);
+  return lesson;
+}
+
 /// Declares all subcommands; returns what the one that was given does.
 void declare(CLI::App& program, Options& options, std::function<int(const Options&)>& action) {
   program.set_version_flag("--version", MYOTACT_VERSION);
@@ -131,6 +147,7 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
   bind(validate, myotact::app::validate);
   bind(add_fidelity(program, options), myotact::app::fidelity);
   bind(add_probe(program, options), myotact::app::probe);
+  bind(add_lesson(program, options), myotact::app::lesson);
   CLI::App* devices = program.add_subcommand("devices", "which devices there are");
   add_common(*devices, options);
   bind(devices, myotact::app::devices);

@@ -32,7 +32,7 @@ struct Options {
   std::optional<std::string> joint;  // stiffness
   std::string shard;
   std::vector<std::filesystem::path> merge;
-  std::filesystem::path file;                // replay, solve, probe
+  std::filesystem::path file;                // replay, solve, probe, lesson
   std::optional<std::filesystem::path> vtk;  // solve
   std::string filter;                        // validate
   std::optional<std::filesystem::path> report;
@@ -42,6 +42,8 @@ struct Options {
   std::optional<std::filesystem::path> recording;  // fidelity: its path in place of the script
   std::string truth = "steps";                     // fidelity
   std::string plant;                               // fidelity: faults to be found again; empty: none
+  std::optional<std::filesystem::path> answers;    // lesson: what the scripted student answers
+  bool automatic = false;                          // lesson: the student answers rightly
   std::filesystem::path path;                      // probe: where the device goes
   std::optional<std::filesystem::path> frames;     // probe: folder of a deforming surface
   double radius_m = 3e-3;                          // probe, as the three below
@@ -75,5 +77,6 @@ int fidelity(const Options& options);
 std::optional<int> layer_fidelity(const Options& options);
 int probe(const Options& options);
 int devices(const Options& options);
+int lesson(const Options& options);
 
 }  // namespace myotact::app

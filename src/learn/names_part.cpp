@@ -37,9 +37,26 @@ std::size_t edits_between(const std::string& a, const std::string& b) {
   return row.back();
 }
 
-std::size_t edits_to(const std::string& typed, const std::vector<std::string>& names) {
-  std::size_t fewest = typed.size() + 1;
-  for (const std::string& name : names) fewest = std::min(fewest, edits_between(typed, plain_name(name)));
+constexpr std::size_t kTooMany = 1000;
+
+/// Slips by which two names of the same number of words differ, at most one in each word of five letters or more:
+/// biceps is no slip of triceps.
+std::size_t slips_between(const std::string& a, const std::string& b) {
+  constexpr std::size_t kLongWord = 5;
+  const auto words_a = words_of(a), words_b = words_of(b);
+  if (words_a.size() != words_b.size()) return kTooMany;
+  std::size_t slips = 0;
+  for (std::size_t w = 0; w < words_a.size(); ++w) {
+    const std::size_t edits = edits_between(std::string(words_a[w]), std::string(words_b[w]));
+    if (edits > (words_b[w].size() < kLongWord ? 0u : 1u)) return kTooMany;
+    slips += edits;
+  }
+  return slips;
+}
+
+std::size_t slips_to(const std::string& typed, const std::vector<std::string>& names) {
+  std::size_t fewest = kTooMany;
+  for (const std::string& name : names) fewest = std::min(fewest, slips_between(typed, plain_name(name)));
   return fewest;
 }
 
@@ -57,17 +74,16 @@ std::vector<std::string> names_of(const anatomy::Specimen& specimen, const Part&
 bool names_part(const std::string& text, const Part& part, const anatomy::Specimen& specimen,
                 const std::vector<std::string>& accept) {
   constexpr std::size_t kLongest = 100;  // no name is longer, and comparing is quadratic
-  constexpr std::size_t kLettersASlip = 7;
   const std::string typed = plain_name(text.substr(0, kLongest));
   if (typed.empty()) return false;
   std::vector<std::string> names = names_of(specimen, part);
   names.insert(names.end(), accept.begin(), accept.end());
-  const std::size_t edits = edits_to(typed, names);
-  if (edits == 0) return true;
-  if (edits > typed.size() / kLettersASlip) return false;
+  const std::size_t slips = slips_to(typed, names);
+  if (slips == 0) return true;
+  if (slips == kTooMany) return false;
   // A slip must not make one muscle's name out of another's: tibialis cranialis, tibialis caudalis.
   const auto nearer = [&](const Part& other) {
-    return other != part && edits_to(typed, names_of(specimen, other)) <= edits;
+    return other != part && slips_to(typed, names_of(specimen, other)) <= slips;
   };
   for (int m = 0; m < static_cast<int>(specimen.muscles.size()); ++m) {
     if (nearer({m, -1})) return false;

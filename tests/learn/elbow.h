@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "anatomy/specimen.h"
+#include "learn/lesson_file.h"
+
+namespace myotact::testing {
+
+/// The canine elbow of the repository.
+inline const anatomy::Specimen& elbow() {
+  static const anatomy::Specimen kElbow =
+      anatomy::load_specimen(std::filesystem::path(MYOTACT_SOURCE_DIR) / "meshes" / "canine_elbow");
+  return kElbow;
+}
+
+/// A lesson of the elbow whose only step holds these members, the first of them the task.
+inline std::string lesson_text(const std::string& members) {
+  return R"({"schema": 1, "key": "l", "title": "T", "scene": "elbow", "steps": [{"title": "S", "text": "X", )" +
+         members + "}]}";
+}
+
+inline learn::Lesson lesson_of(const std::string& members) {
+  return learn::parse_lesson(lesson_text(members), "l.json", elbow());
+}
+
+}  // namespace myotact::testing
