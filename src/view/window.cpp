@@ -20,6 +20,7 @@
 #include "view/panels/demonstrate_panel.h"
 #include "view/panels/feel_panel.h"
 #include "view/panels/find_panel.h"
+#include "view/panels/learn_panel.h"
 #include "view/panels/plots_panel.h"
 #include "view/panels/status_bar.h"
 #include "view/panels/toolbar.h"
@@ -167,6 +168,8 @@ struct Window::Impl {
     };
     tab("tasks.feel", [&] { feel.draw(context); });
     tab("tasks.demonstrate", [&] { demonstrate.draw(context); });
+    tab("tasks.learn",
+        [&] { learn.draw(context, layout.scene.empty() ? 1.0f : layout.scene.width / layout.scene.height); });
     tab("tasks.plots", [&] { plots.draw(); });
     ImGui::EndTabBar();
   }
@@ -180,6 +183,7 @@ struct Window::Impl {
 
   void draw_panels(PanelContext& context) {
     plots.add(context);
+    learn.observe(context);
     ToolbarAsks asks;
     in_area("toolbar", layout.toolbar, [&] { asks = draw_toolbar(context, history.can_undo(), history.can_redo()); });
     in_area("find", layout.find, [&] { find.draw(context); });
@@ -255,6 +259,7 @@ struct Window::Impl {
   FindPanel find;
   FeelPanel feel;
   DemonstratePanel demonstrate;
+  LearnPanel learn;
   PlotsPanel plots;
   bool help = false;
   std::optional<std::filesystem::path> screenshot;

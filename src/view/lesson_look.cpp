@@ -1,0 +1,98 @@
+#include "view/lesson_look.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "view/limb_bounds.h"
+
+namespace myotact::view {
+
+namespace {
+
+void show_only(const std::optional<std::vector<int>>& shown, std::vector<PartLook>& looks) {
+  for (std::size_t i = 0; i < looks.size(); ++i) {
+    const bool is_shown = !shown || std::find(shown->begin(), shown->end(), static_cast<int>(i)) != shown->end();
+    looks[i] = {!is_shown, false};
+  }
+}
+
+MuscleColour colour_of(const std::string& name) {
+  static const std::vector<std::pair<std::string, MuscleColour>> kColours = {{"kind", MuscleColour::Kind},
+                                                                             {"activation", MuscleColour::Activation},
+                                                                             {"tension", MuscleColour::Tension},
+                                                                             {"stretch", MuscleColour::Stretch},
+                                                                             {"pressure", MuscleColour::Pressure}};
+  const auto found = std::find_if(kColours.begin(), kColours.end(), [&](const auto& c) { return c.first == name; });
+  return found == kColours.end() ? MuscleColour::Kind : found->second;
+}
+
+/// In these tasks a name on the screen would be the answer.
+bool asks_for_a_name(const learn::Task& task) {
+  return std::holds_alternative<learn::FindTask>(task) || std::holds_alternative<learn::NameTask>(task) ||
+         std::holds_alternative<learn::IdentifyTask>(task);
+}
+
+void set_scene(const learn::Setting& set, SceneState& scene) {
+  if (set.common || set.difference) {
+    scene.drive = Drive::Balance;
+    scene.common = set.common.value_or(scene.common);
+    scene.difference = set.difference.value_or(scene.difference);
+  }
+  if (set.flexors && set.extensors) {
+    scene.drive = Drive::Levels;
+    scene.flexors = *set.flexors;
+    scene.extensors = *set.extensors;
+  }
+  scene.hold_posture = set.hold_posture.value_or(scene.hold_posture);
+  scene.gravity = set.gravity.value_or(scene.gravity);
+}
+
+}  // namespace
+
+void show_step(const learn::Step& step, const anatomy::Specimen& specimen, float aspect, ViewState& view,
+               SceneState& scene) {
+  show_only(step.show.muscles, view.muscles);
+  show_only(step.show.bones, view.bones);
+  for (const learn::Part& part : step.show.faded) {
+    auto& looks = part.muscle >= 0 ? view.muscles : view.bones;
+    looks[static_cast<std::size_t>(std::max(part.muscle, part.bone))].faded = true;
+  }
+  view.layers = {};
+  view.section.on = false;
+  view.colour = colour_of(step.show.colour);
+  view.names_hidden = asks_for_a_name(step.task);
+  view.labels = step.show.labels && !view.names_hidden;
+  const auto* name = std::get_if<learn::NameTask>(&step.task);
+  view.selected_muscle = name == nullptr ? -1 : name->part.muscle;
+  view.selected_bone = name == nullptr ? -1 : name->part.bone;
+  if (!step.view.empty()) {
+    view.camera = standard_view(step.view, specimen.side != "right", bounds_of(specimen), aspect).value_or(view.camera);
+  }
+  set_scene(step.set, scene);
+}
+
+void show_all(ViewState& view) {
+  show_only(std::nullopt, view.muscles);
+  show_only(std::nullopt, view.bones);
+  view.colour = MuscleColour::Activation;
+  view.names_hidden = false;
+  view.selected_muscle = view.selected_bone = -1;
+}
+
+std::string name_of(const anatomy::Specimen& specimen, const learn::Part& part, NameStyle names) {
+  std::string english, latin;
+  if (part.muscle >= 0) {
+    const anatomy::Muscle& muscle = specimen.muscles[static_cast<std::size_t>(part.muscle)];
+    english = muscle.name_en;
+    latin = muscle.name_la;
+  } else if (part.bone >= 0) {
+    const anatomy::Bone& bone = specimen.bones[static_cast<std::size_t>(part.bone)];
+    english = bone.name_en;
+    latin = bone.name_la;
+  }
+  if (names == NameStyle::English || english == latin) return english;
+  return names == NameStyle::Latin ? latin : fmt::format("{} ({})", english, latin);
+}
+
+}  // namespace myotact::view

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "anatomy/specimen.h"
+#include "learn/lesson.h"
+#include "view/scene_state.h"
+#include "view/view_state.h"
+
+namespace myotact::view {
+
+/// Shows and sets what a step of a lesson asks for, as a person could by hand, so that undo brings back what was.
+/// `aspect`: width over height of the picture.
+void show_step(const learn::Step& step, const anatomy::Specimen& specimen, float aspect, ViewState& view,
+               SceneState& scene);
+/// Everything drawn and named again, as after a lesson.
+void show_all(ViewState& view);
+
+/// What a part is called in the names that the person chose.
+std::string name_of(const anatomy::Specimen& specimen, const learn::Part& part, NameStyle names);
+
+}  // namespace myotact::view

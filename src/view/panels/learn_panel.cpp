@@ -1,0 +1,189 @@
+#include "view/panels/learn_panel.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/text.h"
+#include "learn/lesson_file.h"
+#include "learn/lesson_results.h"
+#include "view/lesson_look.h"
+#include "view/panels/learn_task.h"
+#include "view/ui/controls.h"
+#include "view/ui/text.h"
+
+namespace myotact::view {
+
+namespace {
+
+std::string points_text(double points) {
+  return to_text(std::round(points * 100.0) / 100.0);
+}
+
+/// The frame of a part of the list, named by its lesson for who looks for it.
+void title_line(const std::string& title, bool strong) {
+  if (strong) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_PlotHistogram));
+  ui::paragraph(title);
+  if (strong) ImGui::PopStyleColor();
+}
+
+}  // namespace
+
+void LearnPanel::observe(PanelContext& context) {
+  if (!open_) return;
+  if (open_->specimen != &context.specimen) {  // another scene was opened: its names mean other parts
+    open_.reset();
+    return;
+  }
+  const learn::Part selected{context.view.selected_muscle, context.view.selected_bone};
+  open_->run.observe({context.specimen, context.frame, ImGui::GetTime(), selected});
+}
+
+void LearnPanel::draw(PanelContext& context, float aspect) {
+  if (!open_) return draw_list(context);
+  if (open_->run.finished()) return draw_results(context);
+  draw_step(context, aspect);
+}
+
+void LearnPanel::draw_list(PanelContext& context) {
+  if (!lessons_) lessons_ = learn::list_lessons();
+  ui::paragraph(ui::tr("learn.intro"));
+  if (!message_.empty()) ui::paragraph(message_);
+  ImGui::Spacing();
+  const std::size_t count = lessons_->size();
+  for (std::size_t i = 0; i < count && !open_; ++i) draw_listed((*lessons_)[i], context);
+  if (open_) return;
+  ui::paragraph(ui::tr("learn.own", learn::own_lessons_folder().string()));
+  if (ui::button("learn.refresh")) {
+    lessons_.reset();
+    message_.clear();
+  }
+}
+
+void LearnPanel::draw_listed(const learn::ListedLesson& lesson, PanelContext& context) {
+  ImGui::PushID(lesson.path.c_str());
+  ImGui::Separator();
+  if (!lesson.complaint.empty()) {
+    title_line(lesson.path.filename().string(), true);
+    ui::paragraph(ui::tr("learn.broken", lesson.complaint));
+    ImGui::PopID();
+    return;
+  }
+  title_line(lesson.head.title, true);
+  ui::paragraph(ui::tr("learn.about", lesson.head.scene, lesson.head.steps));
+  if (lesson.head.scene == context.facts.name) {
+    const bool start = ImGui::Button(fmt::format("{}###start", ui::tr("learn.start")).c_str());
+    ui::note_control(fmt::format("learn.start.{}", lesson.head.key).c_str());
+    if (start) open(lesson, context.specimen);
+  } else {
+    ui::paragraph(ui::tr("learn.other_scene", lesson.head.scene));
+  }
+  ImGui::PopID();
+}
+
+void LearnPanel::open(const learn::ListedLesson& lesson, const anatomy::Specimen& specimen) {
+  message_.clear();
+  typed_.clear();
+  try {
+    open_ = std::make_unique<Open>(learn::load_lesson(lesson.path, specimen), specimen);
+  } catch (const Error& error) {
+    message_ = ui::tr("learn.broken", error.what());
+  }
+}
+
+void LearnPanel::close(ViewState& view) {
+  open_.reset();
+  message_.clear();
+  show_all(view);
+}
+
+void LearnPanel::draw_step(PanelContext& context, float aspect) {
+  learn::LessonRun& run = open_->run;
+  if (open_->shown != run.index()) {
+    show_step(run.step(), context.specimen, aspect, context.view, context.controls.scene);
+    open_->shown = run.index();
+    typed_.clear();
+  }
+  const std::size_t steps = run.lesson().steps.size();
+  title_line(run.lesson().title, true);
+  const std::string progress = ui::tr("learn.progress", run.index() + 1, steps, points_text(run.score()),
+                                      points_text(learn::most_points(run.lesson())));
+  ImGui::ProgressBar(static_cast<float>(run.index() + 1) / static_cast<float>(steps), ImVec2(-1.0f, 0.0f),
+                     progress.c_str());
+  ui::note_control("learn.progress", std::to_string(run.index() + 1));
+  ImGui::Spacing();
+  title_line(run.step().title, true);
+  ui::paragraph(run.step().text);
+  ImGui::Spacing();
+  draw_task(context, run, typed_);
+  for (int h = 0; h < run.state().hints; ++h) {
+    ui::paragraph(ui::tr("learn.hint_text", run.step().hints[static_cast<std::size_t>(h)]));
+  }
+  ImGui::Spacing();
+  ImGui::Separator();
+  draw_steps_buttons();
+  if (ui::button("learn.close")) close(context.view);
+}
+
+void LearnPanel::draw_steps_buttons() {
+  learn::LessonRun& run = open_->run;
+  if (run.index() > 0) {
+    if (ui::button("learn.back")) run.go_back();
+    ImGui::SameLine();
+  }
+  const bool reading = std::holds_alternative<learn::ReadTask>(run.step().task);
+  const bool hints_left = run.state().hints < static_cast<int>(run.step().hints.size());
+  if (hints_left && !run.state().done) {
+    if (ui::button("learn.hint")) run.ask_hint();
+    ImGui::SameLine();
+  }
+  if (run.state().done || reading) {
+    if (ui::button("learn.next")) run.go_on();
+  } else if (ui::button("learn.leave_out")) {
+    run.go_on();
+  }
+}
+
+void LearnPanel::draw_results(PanelContext& context) {
+  const learn::LessonRun& run = open_->run;
+  title_line(run.lesson().title, true);
+  ui::paragraph(ui::tr("learn.finished", points_text(run.score()), points_text(learn::most_points(run.lesson()))));
+  ImGui::Spacing();
+  for (std::size_t i = 0; i < run.states().size(); ++i) {
+    const learn::Step& step = run.lesson().steps[i];
+    if (std::holds_alternative<learn::ReadTask>(step.task)) continue;
+    const double points = learn::points_of(step, run.states()[i]);
+    ui::paragraph(ui::tr("learn.step_points", step.title, points_text(points), points_text(step.points)));
+  }
+  ImGui::Spacing();
+  ui::paragraph(ui::tr("learn.save_text"));
+  ui::input_text("learn.student", student_);
+  if (ui::button("learn.save")) save_results();
+  if (!message_.empty()) ui::paragraph(message_);
+  ImGui::Spacing();
+  if (ui::button("learn.back")) open_->run.go_back();
+  ImGui::SameLine();
+  if (ui::button("learn.close")) close(context.view);
+}
+
+void LearnPanel::save_results() {
+  const std::string name = learn::results_file_name(student_, open_->lesson.key);
+  const std::filesystem::path lessons = learn::own_lessons_folder();
+  if (name.empty() || lessons.empty()) {
+    message_ = ui::tr(name.empty() ? "learn.no_name" : "learn.no_home");
+    return;
+  }
+  const std::filesystem::path file = lessons.parent_path() / "results" / name;
+  try {
+    make_writable_folder(file.parent_path());
+    write_file(file, learn::results_csv(open_->run));
+    message_ = ui::tr("learn.saved", file.string());
+  } catch (const Error& error) {
+    message_ = ui::tr("learn.not_saved", error.what());
+  }
+}
+
+}  // namespace myotact::view

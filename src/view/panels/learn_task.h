@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "learn/lesson_run.h"
+#include "view/panels/panel.h"
+
+namespace myotact::view {
+
+/// What the present step of a lesson asks for, how far it is, and what came of the last answer. `typed`: an answer
+/// under way. Between ImGui's NewFrame and Render.
+void draw_task(PanelContext& context, learn::LessonRun& run, std::string& typed);
+
+}  // namespace myotact::view
