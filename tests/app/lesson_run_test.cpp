@@ -73,8 +73,8 @@ TEST_P(ShippedLesson, RunsToItsEndAndRightAnswersScoreFull) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedLesson,
-                         ::testing::Values("elbow_find_and_touch", "elbow_actions", "elbow_co_contraction",
-                                           "stifle_muscles", "hock_by_touch"));
+                         ::testing::Values("1_find_and_touch", "2_pull_a_line", "3_co_contraction", "4_stifle",
+                                           "5_hock"));
 
 TEST(LessonPlayed, AWrongPredictionIsTaughtByThePull) {
   const TemporaryFolder folder;

@@ -23,7 +23,7 @@ std::string quiz(const std::string& steps) {
 }
 
 TEST(Lesson, CheckPrintsTheStepsOrOneSentence) {
-  const Outcome good = run_program("lesson elbow_actions --check");
+  const Outcome good = run_program("lesson 2_pull_a_line --check");
   EXPECT_EQ(good.status, 0);
   EXPECT_THAT(good.output, HasSubstr("2 predict  Biceps brachii"));
 
@@ -48,15 +48,15 @@ TEST(Lesson, AnUnknownSceneOrLessonIsNamed) {
   EXPECT_EQ(scene.status, 65);
   EXPECT_THAT(scene.output, HasSubstr("quiz.json: /scene: "));
   EXPECT_THAT(scene.output, HasSubstr("elbow"));
-  const Outcome name = run_program("lesson elbow_acts");
+  const Outcome name = run_program("lesson 2_pull_line");
   EXPECT_EQ(name.status, 66);
-  EXPECT_THAT(name.output, HasSubstr("nearest: elbow_actions"));
+  EXPECT_THAT(name.output, HasSubstr("nearest: 2_pull_a_line"));
 }
 
 TEST(Lesson, AnswersThatAreNoneAreRefused) {
   const TemporaryFolder folder;
   const auto answers = write_text(folder, "a.json", R"({"schema": 1, "answers": {"99": ["skip"]}})");
-  const Outcome outcome = run_program("lesson elbow_actions --answers " + answers.string());
+  const Outcome outcome = run_program("lesson 2_pull_a_line --answers " + answers.string());
   EXPECT_EQ(outcome.status, 65);
   EXPECT_THAT(outcome.output, HasSubstr("/answers/99: is no step; must be a number from 1 to 6"));
 }

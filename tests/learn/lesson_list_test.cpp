@@ -45,9 +45,9 @@ TEST_F(OwnLessons, AreFoundByKeyFileNameAndPath) {
   EXPECT_EQ(find_lesson("l"), path);
   EXPECT_EQ(find_lesson("a_quiz"), path);
   EXPECT_EQ(find_lesson(path.string()), path);
-  const std::string complaint = testing::complaint(ExitStatus::NoInput, [] { find_lesson("elbow_action"); });
-  EXPECT_THAT(complaint, HasSubstr("elbow_action: no such lesson"));
-  EXPECT_THAT(complaint, HasSubstr("nearest: elbow_actions"));
+  const std::string complaint = testing::complaint(ExitStatus::NoInput, [] { find_lesson("2_pull_a_lin"); });
+  EXPECT_THAT(complaint, HasSubstr("2_pull_a_lin: no such lesson"));
+  EXPECT_THAT(complaint, HasSubstr("nearest: 2_pull_a_line"));
 }
 
 TEST(OwnLessonsFolder, IgnoresAPathThatIsNotAbsolute) {

@@ -78,8 +78,8 @@ TEST(ShippedLessons, WhatIsToBeFoundIsDrawn) {
 /// The figures that the texts quote [mm].
 TEST(ShippedLessons, QuotedLeversAreTheSimulatedOnes) {
   const std::map<std::string, std::map<std::string, double>> quoted_mm = {
-      {"elbow_actions", {{"biceps_brachii", 11.0}, {"brachialis", 11.0}, {"triceps_brachii_long", -32.0}}},
-      {"hock_by_touch", {{"gastrocnemius", -35.0}, {"tibialis_cranialis", 11.0}}}};
+      {"2_pull_a_line", {{"biceps_brachii", 11.0}, {"brachialis", 11.0}, {"triceps_brachii_long", -32.0}}},
+      {"5_hock", {{"gastrocnemius", -35.0}, {"tibialis_cranialis", 11.0}}}};
   for (const Shipped& one : shipped()) {
     const auto quoted = quoted_mm.find(one.lesson.key);
     if (quoted == quoted_mm.end()) continue;
