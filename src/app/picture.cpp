@@ -27,7 +27,7 @@ void write_picture(const scene::Scene& scene, const simulation::Simulation& simu
   look.camera = camera.value_or(look.camera);
   try {
     view::OffscreenRenderer renderer(scene.specimen, kWidth, kHeight);
-    view::write_png(path, renderer.render(frame, look));
+    view::write_png(path, renderer.render_with_text(frame, look));
   } catch (const Error& failure) {
     if (failure.status() != ExitStatus::Unavailable) throw;
     spdlog::warn("{}", failure.what());

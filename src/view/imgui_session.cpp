@@ -1,16 +1,15 @@
 #include "view/imgui_session.h"
 
-#include <filesystem>
-
 #include <imgui.h>
 #include <imgui_impl_glfw.h>
 #include <imgui_impl_opengl3.h>
+
+#include "view/ui/font.h"
 
 namespace myotact::view {
 
 namespace {
 
-constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 constexpr float kFontSize = 15.0f;  // pixels
 
 }  // namespace
@@ -20,7 +19,7 @@ ImGuiSession::ImGuiSession(GLFWwindow* window) {
   ImGui::GetIO().IniFilename = nullptr;
   ImGui::GetIO().LogFilename = nullptr;
   ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
-  if (std::filesystem::exists(kFont)) ImGui::GetIO().Fonts->AddFontFromFileTTF(kFont, kFontSize);
+  ui::add_font(kFontSize);
   ImGui::StyleColorsDark();
   ImGui::GetStyle().WindowRounding = 0.0f;
   ImGui::GetStyle().FrameRounding = 3.0f;

@@ -103,7 +103,9 @@ std::vector<MuscleTint> tint_muscles(const anatomy::Specimen& specimen, const me
   return tints;
 }
 
-Legend legend_of(const anatomy::Specimen& specimen, MuscleColour colour) {
+namespace {
+
+Legend legend_of_colour(const anatomy::Specimen& specimen, MuscleColour colour) {
   const auto levels = [](const char* title, const char* unit, double highest) {
     Legend legend{title, unit, 0.0, highest, {}, {{"see.idle", {kIdleMuscle, 0.0f}}}};
     for (std::size_t i = 0; i < kScaleColours; ++i) legend.scale.push_back(cividis(double(i) / (kScaleColours - 1)));
@@ -140,6 +142,17 @@ Legend legend_of(const anatomy::Specimen& specimen, MuscleColour colour) {
       return levels("see.pressure", "see.kilopascal", 1e-3 * double(kPressureRange_Pa));
   }
   return {};
+}
+
+}  // namespace
+
+Legend legend_of(const anatomy::Specimen& specimen, const ViewState& view) {
+  Legend legend = legend_of_colour(specimen, view.colour);
+  if (view.attachments) {
+    legend.entries.push_back({"see.origin", {kOriginColour, 0.0f}});
+    legend.entries.push_back({"see.insertion", {kInsertionColour, 0.0f}});
+  }
+  return legend;
 }
 
 }  // namespace myotact::view

@@ -32,11 +32,15 @@ struct Legend {
 /// Of no activation, no tension: calm, so that what is at work stands out.
 inline constexpr glm::vec3 kIdleMuscle{0.80f, 0.66f, 0.61f};
 
+/// Atlases paint origins red and insertions blue; these are Okabe and Ito's.
+inline constexpr glm::vec3 kOriginColour{0.84f, 0.37f, 0.00f}, kInsertionColour{0.00f, 0.45f, 0.70f};
+
 /// One tint a muscle. `joint`: whose stiffness is shared out. Values that the frame lacks count as none.
 std::vector<MuscleTint> tint_muscles(const anatomy::Specimen& specimen, const messages::SceneFrame& frame,
                                      MuscleColour colour, int joint);
 
-Legend legend_of(const anatomy::Specimen& specimen, MuscleColour colour);
+/// Of the colours of muscles, and of origins and insertions where these are shown.
+Legend legend_of(const anatomy::Specimen& specimen, const ViewState& view);
 
 /// Largest of the map of pressures [Pa].
 inline constexpr float kPressureRange_Pa = 20e3f;

@@ -9,12 +9,16 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "view/headless_imgui.h"
+#include "view/scene_overlay.h"
 
 namespace myotact::view {
 
 namespace {
 
 constexpr int kSamples = 4;  // of anti-aliasing
+// Of a picture's shorter side: it is looked at as a whole, on a page or a slide.
+constexpr float kFontShare = 0.019f, kSmallestFont_px = 13.0f;
 
 Error no_egl(const std::string& what) {
   return {ExitStatus::Unavailable, what + ": no picture can be drawn; install libegl1 and libgl1-mesa-dri"};
@@ -91,13 +95,26 @@ void append_bytes(void* context, void* data, int size) {
 }  // namespace
 
 struct OffscreenRenderer::Impl {
-  Impl(const anatomy::Specimen& specimen, int w, int h)
-      : width(w), height(h), sampled(w, h, kSamples), plain(w, h, 0), renderer(specimen) {}
+  Impl(const anatomy::Specimen& given, int w, int h)
+      : specimen(&given),
+        width(w),
+        height(h),
+        sampled(w, h, kSamples),
+        plain(w, h, 0),
+        renderer(given),
+        imgui(w, h, std::max(kSmallestFont_px, kFontShare * static_cast<float>(std::min(w, h)))) {}
 
+  void draw_scene(const messages::SceneFrame& frame, const ViewState& view, const SceneExtras& extras) {
+    glBindFramebuffer(GL_FRAMEBUFFER, sampled.frame());
+    renderer.draw(frame, view, {0, 0, width, height}, extras);
+  }
+
+  const anatomy::Specimen* specimen;
   EglContext context;
   int width, height;
   Target sampled, plain;
   SceneRenderer renderer;
+  HeadlessImGui imgui;
 };
 
 OffscreenRenderer::OffscreenRenderer(const anatomy::Specimen& specimen, int width, int height)
@@ -114,11 +131,25 @@ const std::vector<bool>& OffscreenRenderer::superficial() const {
 }
 
 Image OffscreenRenderer::render(const messages::SceneFrame& frame, const ViewState& view, const SceneExtras& extras) {
+  impl_->context.make_current();
+  impl_->draw_scene(frame, view, extras);
+  return read_back();
+}
+
+Image OffscreenRenderer::render_with_text(const messages::SceneFrame& frame, const ViewState& view,
+                                          const SceneExtras& extras) {
+  impl_->context.make_current();
+  impl_->draw_scene(frame, view, extras);
+  const Area whole{0.0f, 0.0f, static_cast<float>(impl_->width), static_cast<float>(impl_->height)};
+  impl_->imgui.draw([&](ImDrawList& list) {
+    SceneOverlay().draw(*impl_->specimen, frame, view, superficial(), whole, {extras.hovered, extras.background}, list);
+  });
+  return read_back();
+}
+
+Image OffscreenRenderer::read_back() {
   const int width = impl_->width;
   const int height = impl_->height;
-  impl_->context.make_current();
-  glBindFramebuffer(GL_FRAMEBUFFER, impl_->sampled.frame());
-  impl_->renderer.draw(frame, view, {0, 0, width, height}, extras);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, impl_->sampled.frame());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, impl_->plain.frame());
   glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);

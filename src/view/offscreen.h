@@ -25,11 +25,15 @@ class OffscreenRenderer {
   ~OffscreenRenderer();
 
   Image render(const messages::SceneFrame& frame, const ViewState& view, const SceneExtras& extras = {});
+  /// With names, legend and scale bar over it, as in the window's scene.
+  Image render_with_text(const messages::SceneFrame& frame, const ViewState& view, const SceneExtras& extras = {});
   /// Of the last picture.
   const RenderStatistics& statistics() const;
   const std::vector<bool>& superficial() const;
 
  private:
+  Image read_back();
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

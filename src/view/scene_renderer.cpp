@@ -19,8 +19,6 @@ namespace {
 constexpr glm::vec3 kBone{0.93f, 0.89f, 0.79f};
 constexpr glm::vec4 kLine{0.72f, 0.13f, 0.10f, 1.0f};
 constexpr glm::vec4 kFibre{0.33f, 0.10f, 0.08f, 0.75f};
-// Atlases paint origins red and insertions blue; these two reds and blues are Okabe and Ito's.
-constexpr glm::vec3 kOrigin{0.84f, 0.37f, 0.00f}, kInsertion{0.00f, 0.45f, 0.70f};
 constexpr glm::vec4 kSelected{0.76f, 0.18f, 0.52f, 1.0f}, kHovered{0.36f, 0.36f, 0.42f, 0.9f};
 constexpr float kLineRadius_m = 0.8e-3f;
 constexpr float kSeenThroughLine = 0.30f;  // opacity of what of a line or tool lies inside the limb
@@ -175,8 +173,8 @@ void SceneRenderer::move_limb(const Picture& picture) {
   limb_program_.set("together", picture.muscles.empty()
                                     ? 1.0f
                                     : static_cast<float>(present) / static_cast<float>(picture.muscles.size()));
-  limb_program_.set("ends[0]", kOrigin);
-  limb_program_.set("ends[1]", kInsertion);
+  limb_program_.set("ends[0]", kOriginColour);
+  limb_program_.set("ends[1]", kInsertionColour);
   limb_program_.set("show_ends", 0.0f);
   const auto glows = glows_of(picture.frame);
   for (std::size_t i = 0; i < glows.size(); ++i) {

@@ -25,6 +25,7 @@
 #include "view/panels/status_bar.h"
 #include "view/panels/toolbar.h"
 #include "view/pointer.h"
+#include "view/scene_overlay.h"
 #include "view/scene_renderer.h"
 #include "view/ui/controls.h"
 #include "view/ui/text.h"
@@ -237,6 +238,8 @@ struct Window::Impl {
     }
     PanelContext context{*specimen, frame, facts, readings, state.view, controls};
     draw_panels(context);
+    overlay.draw(*specimen, frame, state.view, renderer.superficial(), layout.scene, {{}, SceneExtras{}.background},
+                 *ImGui::GetBackgroundDrawList());
     ImGui::Render();
     int width = 0, height = 0;
     glfwGetFramebufferSize(window.get(), &width, &height);
@@ -251,6 +254,7 @@ struct Window::Impl {
   GlfwWindow window;
   ImGuiSession imgui;
   SceneRenderer renderer;
+  SceneOverlay overlay;
   Layout layout;
   WorkState state;
   History history;

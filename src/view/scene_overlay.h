@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "anatomy/specimen.h"
+#include "messages/scene_frame.h"
+#include "view/label_placing.h"
+#include "view/layout.h"
+#include "view/muscle_colour.h"
+#include "view/part.h"
+
+struct ImDrawList;
+
+namespace myotact::view {
+
+/// What a part is called in this view: English, Latin or both.
+std::string name_of(const anatomy::Specimen& specimen, const Part& part, NameStyle style);
+
+/// A length for a scale bar: 1, 2 or 5 times a power of ten, the largest that is not longer [metres].
+double round_length_m(double longest_m);
+
+/// What is written over the scene: names with leader lines, the legend of the colours, a scale bar. Between ImGui's
+/// NewFrame and Render.
+class SceneOverlay {
+ public:
+  struct Look {
+    Part hovered;
+    glm::vec3 background{1.0f};  // text is dark on a light one
+  };
+
+  /// `superficial`: as for opacity_of(). With `view.labels` all parts that are seen are named, else what is selected or
+  /// hovered, and nothing while names are hidden.
+  void draw(const anatomy::Specimen& specimen, const messages::SceneFrame& frame, const ViewState& view,
+            const std::vector<bool>& superficial, const Area& area, const Look& look, ImDrawList& list);
+
+ private:
+  std::vector<PlacedLabel> placed_;  // in the last picture
+};
+
+}  // namespace myotact::view
