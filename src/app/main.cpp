@@ -113,6 +113,15 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
       add_scene_command(program, options, "run", "no window: a scripted hand acts, tables and a picture come out");
   run->add_flag("--realtime", options.realtime,
                 "run free on the wall clock, as the window does, and report the timing");
+  run->add_option("--png", options.png, "write a picture of the scene at the end to this file");
+  run->add_option("--view", options.view,
+                  "from where pictures look: lateral, medial, cranial, caudal, dorsal, palmar, or azimuth,elevation "
+                  "[degrees]")
+      ->capture_default_str();
+  run->add_option("--show", options.show,
+                  "what pictures show: muscles=KEYS bones=KEYS faded=KEYS select=KEY layers=deep,bones colour=tension "
+                  "names=latin section=cranial:0.5 labels=on lines=off fibres=on attachments=on");
+  run->add_option("--size", options.size, "of pictures [pixels]")->capture_default_str();
   run->add_option("--every", options.every, "keep every n-th tick in samples.csv")->check(CLI::Range(1, 1000000));
   bind(run, myotact::app::run);
   CLI::App* stiffness = add_scene_command(program, options, "stiffness", "joint stiffness against co-contraction");

@@ -25,6 +25,10 @@ struct Options {
   bool json = false;
   std::string log_level = "info";
   bool realtime = false;
+  std::optional<std::filesystem::path> png;  // run, as the three below
+  std::string view = "lateral";
+  std::vector<std::string> show;
+  std::string size = "900x1200";
   int every = 1;
   int workers = 2;
   std::string angles;  // stiffness: a number list, degrees; empty: the scene's own

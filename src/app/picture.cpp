@@ -1,8 +1,7 @@
 #include "app/picture.h"
 
-#include <spdlog/spdlog.h>
+#include <algorithm>
 
-#include "core/error.h"
 #include "view/limb_bounds.h"
 #include "view/offscreen.h"
 
@@ -10,28 +9,38 @@ namespace myotact::app {
 
 namespace {
 
-constexpr int kWidth = 900, kHeight = 1200;
+view::ViewState look_of(const scene::Scene& scene, const messages::SceneFrame& frame, const PictureWish& wish) {
+  const float aspect = static_cast<float>(wish.size.width) / static_cast<float>(wish.size.height);
+  view::ViewState look = view::start_view(scene.specimen, aspect);
+  view::apply_show_options(wish.show, scene.specimen, look);
+  look.camera = view::camera_of(wish.view, scene.specimen, view::bounds_of(scene.specimen, frame), aspect);
+  return look;
+}
 
 }  // namespace
 
+void check_picture(const scene::Scene& scene, const PictureWish& wish) {
+  look_of(scene, {}, wish);
+}
+
 void write_picture(const scene::Scene& scene, const simulation::Simulation& simulation,
-                   const std::vector<messages::ToolFrame>& tools, const std::string& view,
+                   const std::vector<messages::ToolFrame>& tools, const PictureWish& wish,
                    const std::filesystem::path& path) {
   messages::SceneFrame frame;
   simulation.write_frame(frame);
   frame.tools = tools;
-  constexpr float kAspect = static_cast<float>(kWidth) / static_cast<float>(kHeight);
-  view::ViewState look = view::start_view(scene.specimen, kAspect);
-  const auto camera =
-      view::standard_view(view, scene.specimen.side != "right", view::bounds_of(scene.specimen, frame), kAspect);
-  look.camera = camera.value_or(look.camera);
-  try {
-    view::OffscreenRenderer renderer(scene.specimen, kWidth, kHeight);
-    view::write_png(path, renderer.render_with_text(frame, look));
-  } catch (const Error& failure) {
-    if (failure.status() != ExitStatus::Unavailable) throw;
-    spdlog::warn("{}", failure.what());
-  }
+  view::SceneExtras extras;
+  extras.joint = watched_joint(scene);
+  view::OffscreenRenderer renderer(scene.specimen, wish.size.width, wish.size.height);
+  view::write_png(path, renderer.render_with_text(frame, look_of(scene, frame, wish), extras));
+}
+
+int watched_joint(const scene::Scene& scene) {
+  if (scene.co_contraction) return scene.co_contraction->joint;
+  const auto& joints = scene.specimen.joints;
+  const auto turns = [](const anatomy::Joint& joint) { return !joint.axes.empty(); };
+  const auto found = std::find_if(joints.begin(), joints.end(), turns);
+  return found == joints.end() ? 0 : static_cast<int>(found - joints.begin());
 }
 
 }  // namespace myotact::app

@@ -1,19 +1,34 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "messages/scene_frame.h"
 #include "scene/scene_file.h"
 #include "simulation/simulation.h"
+#include "view/show_options.h"
 
 namespace myotact::app {
 
-/// Draws the scene as it is now from a standard view. Without any OpenGL it warns and goes on without a picture; throws
-/// Error InputOutput when the file cannot be written.
+/// What is to be drawn of a scene, as asked for on the command line.
+struct PictureWish {
+  std::string view = "lateral";   // camera_of()
+  std::vector<std::string> show;  // apply_show_options()
+  view::PictureSize size;
+};
+
+/// Throws Error Usage when the wish cannot be met for this scene: before hours of simulation, not after.
+void check_picture(const scene::Scene& scene, const PictureWish& wish);
+
+/// Draws the scene as it is now: the limb as it stands fills the picture. Throws Error InputOutput when the file cannot
+/// be written, Unavailable without any OpenGL.
 void write_picture(const scene::Scene& scene, const simulation::Simulation& simulation,
-                   const std::vector<messages::ToolFrame>& tools, const std::string& view,
+                   const std::vector<messages::ToolFrame>& tools, const PictureWish& wish,
                    const std::filesystem::path& path);
+
+/// The joint that is watched: co-contracted, else the first that turns.
+int watched_joint(const scene::Scene& scene);
 
 }  // namespace myotact::app

@@ -56,6 +56,32 @@ std::vector<device::DeviceProfile> simulated_profiles(const scene::Scene& scene)
   return std::vector<device::DeviceProfile>(scene.tools.size());
 }
 
+PictureWish picture_of(const Options& options) {
+  return {options.view, options.show, view::picture_size_of(options.size)};
+}
+
+/// A picture that nobody asked for is done without where there is no OpenGL.
+void write_scene_picture(const Options& options, const scene::Scene& scene, const simulation::Simulation& simulation,
+                         const std::vector<messages::ToolFrame>& tools, const PictureWish& wish) {
+  try {
+    write_picture(scene, simulation, tools, wish, options.out / "scene.png");
+  } catch (const Error& failure) {
+    if (failure.status() != ExitStatus::Unavailable) throw;
+    spdlog::warn("{}", failure.what());
+  }
+}
+
+/// The picture of --png, else scene.png unless the script had one taken.
+void write_last_picture(const Options& options, const scene::Scene& scene, const simulation::Simulation& simulation,
+                        const std::vector<messages::ToolFrame>& tools, bool pictured) {
+  const PictureWish wish = picture_of(options);
+  if (options.png) {
+    write_picture(scene, simulation, tools, wish, *options.png);
+  } else if (!pictured) {
+    write_scene_picture(options, scene, simulation, tools, wish);
+  }
+}
+
 RunSummary run_lockstep(const Options& options, const scene::Scene& scene, simulation::Simulation& simulation) {
   const auto recorder = open_recorder(options, scene, simulated_profiles(scene));
   scene::SampleTable samples(scene.specimen, scene::hands_of(scene), options.every);
@@ -73,7 +99,9 @@ RunSummary run_lockstep(const Options& options, const scene::Scene& scene, simul
       notice = now;
     }
     if (const auto wanted = session.conductor().take_picture()) {
-      write_picture(scene, simulation, session.tool_frames(), wanted->view, options.out / "scene.png");
+      PictureWish wish = picture_of(options);
+      wish.view = wanted->view;
+      write_scene_picture(options, scene, simulation, session.tool_frames(), wish);
       pictured = true;
     }
   }
@@ -82,7 +110,7 @@ RunSummary run_lockstep(const Options& options, const scene::Scene& scene, simul
   summary.extremes = session.extremes();
   summary.notice = session.notice();
   summary.shove = session.conductor().shove_test().record();
-  if (!pictured) write_picture(scene, simulation, session.tool_frames(), "lateral", options.out / "scene.png");
+  write_last_picture(options, scene, simulation, session.tool_frames(), pictured);
   if (recorder) recorder->close();
   write_file(options.out / "samples.csv", samples.csv());
   return summary;
@@ -114,7 +142,7 @@ nlohmann::json run_free(const Options& options, const scene::Scene& scene, simul
   summary.wall_s = timing.wall_s;
   summary.steps = timing.steps;
   summary.extremes = timing.extremes;
-  write_picture(scene, simulation, frame.tools, "lateral", options.out / "scene.png");
+  write_last_picture(options, scene, simulation, frame.tools, false);
   return timing_json(timing, scene);
 }
 
@@ -188,6 +216,7 @@ int run(const Options& options) {
   if (options.realtime) guarded.emplace();  // first: the watchdog is forked off before there are threads
   const scene::Scene scene = scene_of(options);
   const std::vector<double> levels = levels_of(options);
+  check_picture(scene, picture_of(options));
   make_writable_folder(options.out);
   if (!scene.note.empty()) spdlog::info("{}: {}", scene.name, scene.note);
   watch_for_interruption();

@@ -13,6 +13,7 @@
 #include "app/interruption.h"
 #include "app/joint_watch.h"
 #include "app/options.h"
+#include "app/picture.h"
 #include "core/file.h"
 #include "device/mouse_device.h"
 #include "device/simulated_device.h"
@@ -31,15 +32,6 @@ constexpr double kForever_s = 1e12;
 void leave_time_to_the_simulation(std::chrono::steady_clock::duration drawing) {
   constexpr std::chrono::milliseconds kPicture(16);
   std::this_thread::sleep_for(std::max<std::chrono::steady_clock::duration>(kPicture - drawing, drawing));
-}
-
-/// The joint that is co-contracted, else the first that turns.
-int watched_joint(const scene::Scene& scene) {
-  if (scene.co_contraction) return scene.co_contraction->joint;
-  const auto& joints = scene.specimen.joints;
-  const auto turns = [](const anatomy::Joint& joint) { return !joint.axes.empty(); };
-  const auto found = std::find_if(joints.begin(), joints.end(), turns);
-  return found == joints.end() ? 0 : static_cast<int>(found - joints.begin());
 }
 
 /// The devices of a scene's tools, and which of them the script moves.

@@ -109,8 +109,8 @@ void draw_scale_of_colours(const Sheet& sheet, const Legend& legend, const glm::
   }
 }
 
-/// At the bottom left, from below upwards.
-void draw_legend(const Sheet& sheet, const Legend& legend) {
+/// At the bottom left. Returns how much of the area's height it takes.
+float draw_legend(const Sheet& sheet, const Legend& legend) {
   const float em = sheet.em(), row = 1.35f * em, pad = 0.5f * em;
   const float scale_height = legend.scale.empty() ? 0.0f : (kLegendHeight + 1.5f) * em;
   float width = legend.scale.empty() ? 0.0f : kLegendWidth * em;
@@ -123,7 +123,7 @@ void draw_legend(const Sheet& sheet, const Legend& legend) {
   const float height = row + scale_height + row * static_cast<float>(legend.entries.size());
   const glm::vec2 corner(sheet.area.x + kMargin * em + pad,
                          sheet.area.y + sheet.area.height - kMargin * em - pad - height);
-  if (corner.y < sheet.area.y) return;  // no room for it
+  if (corner.y < sheet.area.y) return 0.0f;  // no room for it
   sheet.paper(corner - pad, glm::vec2(width, height) + 2.0f * pad);
   sheet.write(corner, title);
   glm::vec2 at(corner.x, corner.y + row);
@@ -134,6 +134,7 @@ void draw_legend(const Sheet& sheet, const Legend& legend) {
     sheet.write({at.x + (kSwatch + 0.5f) * em, at.y}, ui::tr(entry.key));
     at.y += row;
   }
+  return sheet.area.y + sheet.area.height - corner.y + pad;
 }
 
 /// At the bottom right: a length as it looks at the depth of the camera's target.
@@ -156,8 +157,9 @@ void draw_scale_bar(const Sheet& sheet) {
   sheet.write({0.5f * (start.x + end.x - sheet.size_of(text).x), end.y - 1.5f * em}, text);
 }
 
-/// `placed`: in the last picture; then in this one.
-void draw_labels(const Sheet& sheet, const std::vector<bool>& superficial, std::vector<PlacedLabel>& placed) {
+/// `below`: height at the area's bottom that is left free. `placed`: in the last picture; then in this one.
+void draw_labels(const Sheet& sheet, const std::vector<bool>& superficial, float below,
+                 std::vector<PlacedLabel>& placed) {
   const ViewState& view = sheet.view;
   const Part selected = selected_part(view);
   const bool any = view.labels || selected || sheet.look.hovered;
@@ -180,9 +182,7 @@ void draw_labels(const Sheet& sheet, const std::vector<bool>& superficial, std::
   }
   LabelArea room;
   room.lowest = glm::vec2(sheet.area.x, sheet.area.y) + kMargin * em;
-  // Above legend and scale bar.
-  room.highest =
-      glm::vec2(sheet.area.x + sheet.area.width, sheet.area.y + sheet.area.height - 3.5f * em) - kMargin * em;
+  room.highest = glm::vec2(sheet.area.x + sheet.area.width, sheet.area.y + sheet.area.height - below) - kMargin * em;
   room.subject_left = sheet.area.x + limb.left * sheet.area.width - kDistance * em;
   room.subject_right = sheet.area.x + limb.right * sheet.area.width + kDistance * em;
   room.gap = kLabelGap * em;
@@ -199,7 +199,7 @@ void draw_labels(const Sheet& sheet, const std::vector<bool>& superficial, std::
 std::string name_of(const anatomy::Specimen& specimen, const Part& part, NameStyle style) {
   const auto choose = [style](const std::string& english, const std::string& latin) {
     if (style == NameStyle::English || latin.empty()) return english;
-    if (style == NameStyle::Latin || english.empty()) return latin;
+    if (style == NameStyle::Latin || english.empty() || english == latin) return latin;
     return english + "\n" + latin;
   };
   const auto i = static_cast<std::size_t>(part.index);
@@ -220,8 +220,8 @@ void SceneOverlay::draw(const anatomy::Specimen& specimen, const messages::Scene
   if (area.empty()) return;
   const Sheet sheet{specimen, frame, view, area, look, list};
   list.PushClipRect(ImVec2(area.x, area.y), ImVec2(area.x + area.width, area.y + area.height));
-  if (!view.names_hidden) draw_labels(sheet, superficial, placed_);
-  draw_legend(sheet, legend_of(specimen, view));
+  const float legend_height = draw_legend(sheet, legend_of(specimen, view));
+  if (!view.names_hidden) draw_labels(sheet, superficial, legend_height, placed_);
   draw_scale_bar(sheet);
   list.PopClipRect();
 }
