@@ -52,6 +52,7 @@ struct ViewState {
   bool lines = true;
   bool fibres = false;
   bool attachments = false;  // areas of origin and insertion, of the selected muscle or of all
+  std::vector<int> plotted_muscles;  // whose tension is among the plots, in the order of asking
   int selected_muscle = -1;  // of these two at most one
   int selected_bone = -1;
 

@@ -1,32 +1,149 @@
 #include "view/panels/find_panel.h"
 
 #include <algorithm>
-#include <string>
 
 #include <fmt/format.h>
 #include <imgui.h>
 
 #include "view/colour_map.h"
+#include "view/part_actions.h"
 #include "view/ui/controls.h"
+#include "view/ui/text.h"
 
 namespace myotact::view {
 
-void FindPanel::draw(PanelContext& context) {
-  const messages::SceneFrame& frame = context.frame;
-  const auto& muscles = context.specimen.muscles;
-  constexpr double kDarkest = 0.15;  // of the bar's colour, so that it stands out from its ground
-  for (std::size_t m = 0; m < muscles.size() && m < frame.activations.size(); ++m) {
-    const glm::vec3 c = cividis(std::max(frame.activations[m], kDarkest));
-    const std::string text = fmt::format("{:.0f} %  {:.0f} N", 100.0 * frame.activations[m], frame.tensions_N[m]);
-    if (ImGui::Selectable(muscles[m].name_en.c_str(), context.view.selected_muscle == static_cast<int>(m))) {
-      context.view.selected_muscle = static_cast<int>(m);
-      context.view.selected_bone = -1;
-    }
-    ui::note_control(fmt::format("find.{}", muscles[m].key).c_str(), text);
-    ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImVec4(c.r, c.g, c.b, 1.0f));
-    ImGui::ProgressBar(static_cast<float>(frame.activations[m]), ImVec2(-1.0f, 0.0f), text.c_str());
-    ImGui::PopStyleColor();
+namespace {
+
+/// Everything of the specimen, muscles first.
+std::vector<Part> all_parts(const anatomy::Specimen& specimen) {
+  std::vector<Part> parts;
+  for (std::size_t m = 0; m < specimen.muscles.size(); ++m) parts.push_back({PartKind::Muscle, static_cast<int>(m)});
+  for (std::size_t b = 0; b < specimen.bones.size(); ++b) parts.push_back({PartKind::Bone, static_cast<int>(b)});
+  return parts;
+}
+
+/// Different texts in the order in which they come first.
+void add_once(std::vector<std::string>& texts, const std::string& text) {
+  if (std::find(texts.begin(), texts.end(), text) == texts.end()) texts.push_back(text);
+}
+
+/// Words of the facts file in the language of the window, as they are where there is no translation.
+std::string in_language(const char* what, const std::string& word) {
+  const std::string key = fmt::format("{}.{}", what, word);
+  return ui::has_text(key) ? ui::tr(key) : word;
+}
+
+void fact(const char* key, const std::string& text) {
+  if (text.empty()) return;
+  ImGui::TextDisabled("%s", ui::tr(key));
+  ui::paragraph(text);
+}
+
+}  // namespace
+
+void FindPanel::draw_row(PanelContext& context, const Part& part) {
+  ViewState& view = context.view;
+  const std::string& key = key_of(context.specimen, part);
+  const PartLook& look = look_of(view, part);
+  ImGui::PushID(key.c_str());
+  const ImVec4 colour = ImGui::GetStyleColorVec4(look.hidden || look.faded ? ImGuiCol_TextDisabled : ImGuiCol_Text);
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  bool shown = !look.hidden;
+  if (ImGui::Checkbox("##shown", &shown)) look_of(view, part).hidden = !shown;
+  ui::note_control(fmt::format("find.shown.{}", key).c_str(), shown ? "on" : "off");
+  ImGui::SameLine();
+  const bool selected = selected_part(view) == part;
+  if (ImGui::Selectable(name_of(context.specimen, part, view).c_str(), selected, ImGuiSelectableFlags_AllowDoubleClick)) {
+    ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) ? isolate(view, part) : select(view, part);
   }
+  ui::note_control(fmt::format("find.{}", key).c_str(), selected ? "selected" : "");
+  if (ImGui::IsItemHovered()) hovered_ = part;
+  if (ImGui::IsItemClicked(ImGuiMouseButton_Right)) context.asks.menu_of = part;
+  ImGui::PopStyleColor();
+  ImGui::PopID();
+}
+
+void FindPanel::draw_results(PanelContext& context) {
+  const auto found = anatomy::find_parts(context.specimen, context.part_facts, text_);
+  if (found.empty()) ui::paragraph(ui::tr("find.nothing", text_));
+  for (const anatomy::FoundPart& part : found) {
+    draw_row(context, {part.bone ? PartKind::Bone : PartKind::Muscle, part.index});
+  }
+}
+
+void FindPanel::draw_region(PanelContext& context, const std::string& region) {
+  const auto facts = [&](const Part& part) -> const anatomy::PartFacts& {
+    return anatomy::facts_of(context.part_facts, key_of(context.specimen, part));
+  };
+  std::vector<Part> here;
+  std::vector<std::string> functions;  // of bones: none
+  for (const Part& part : all_parts(context.specimen)) {
+    if (facts(part).region != region) continue;
+    here.push_back(part);
+    add_once(functions, facts(part).function);
+  }
+  for (const std::string& function : functions) {
+    ImGui::TextDisabled("%s", function.empty() ? ui::tr("find.bones") : in_language("function", function).c_str());
+    for (const Part& part : here) {
+      if (facts(part).function == function) draw_row(context, part);
+    }
+  }
+}
+
+void FindPanel::draw_tree(PanelContext& context) {
+  std::vector<std::string> regions;
+  for (const Part& part : all_parts(context.specimen)) {
+    add_once(regions, anatomy::facts_of(context.part_facts, key_of(context.specimen, part)).region);
+  }
+  for (const std::string& region : regions) {
+    const std::string name = region.empty() ? ui::tr("find.elsewhere") : in_language("region", region);
+    const bool open = ImGui::CollapsingHeader(fmt::format("{}###{}", name, region).c_str(), ImGuiTreeNodeFlags_DefaultOpen);
+    ui::note_control(fmt::format("find.region.{}", region).c_str(), open ? "open" : "closed");
+    if (open) draw_region(context, region);
+  }
+}
+
+void FindPanel::draw(PanelContext& context) {
+  hovered_ = {};
+  ImGui::SetNextItemWidth(-1.0f);
+  if (focus_) ImGui::SetKeyboardFocusHere();
+  focus_ = false;
+  ui::input_text("find.search", text_);
+  const bool card = static_cast<bool>(selected_part(context.view)) && !context.view.names_hidden;
+  constexpr float kCard = 0.42f;  // of the panel's height
+  const float below = card ? kCard * ImGui::GetWindowHeight() : 0.0f;
+  ImGui::BeginChild("parts", ImVec2(0.0f, -below));
+  text_.empty() ? draw_tree(context) : draw_results(context);
+  ImGui::EndChild();
+  if (!card) return;
+  ImGui::BeginChild("card", ImVec2(0.0f, 0.0f), true);
+  draw_part_card(context);
+  ImGui::EndChild();
+}
+
+void draw_part_card(PanelContext& context) {
+  const Part part = selected_part(context.view);
+  const anatomy::PartFacts& facts = anatomy::facts_of(context.part_facts, key_of(context.specimen, part));
+  ViewState both = context.view;
+  both.names = NameStyle::Both;
+  ui::paragraph(name_of(context.specimen, part, both));
+  ImGui::Separator();
+  fact("card.origin", facts.origin);
+  fact("card.insertion", facts.insertion);
+  fact("card.action", facts.action);
+  fact("card.innervation", facts.innervation);
+  if (part.kind == PartKind::Bone) return;
+  const auto m = static_cast<std::size_t>(part.index);
+  const anatomy::Muscle& muscle = context.specimen.muscles[m];
+  const bool estimated = !muscle.estimated.empty();
+  ui::paragraph(ui::tr(estimated ? "card.mechanics_estimated" : "card.mechanics", muscle.peak_force_N,
+                       1e3 * muscle.optimal_fibre_m));
+  if (m >= context.frame.activations.size()) return;
+  const glm::vec3 c = cividis(context.frame.activations[m]);
+  ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImVec4(c.r, c.g, c.b, 1.0f));
+  const std::string now = ui::tr("card.now", 100.0 * context.frame.activations[m], context.frame.tensions_N[m]);
+  ImGui::ProgressBar(static_cast<float>(context.frame.activations[m]), ImVec2(-1.0f, 0.0f), now.c_str());
+  ImGui::PopStyleColor();
 }
 
 }  // namespace myotact::view

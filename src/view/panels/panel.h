@@ -3,9 +3,11 @@
 #include <string>
 #include <vector>
 
+#include "anatomy/part_facts.h"
 #include "anatomy/specimen.h"
 #include "messages/scene_frame.h"
 #include "view/joint_readings.h"
+#include "view/part.h"
 #include "view/view_controls.h"
 #include "view/view_state.h"
 
@@ -19,6 +21,15 @@ struct SceneFacts {
   int joint = 0;                            // that is watched: co-contracted, or the first
 };
 
+/// What a panel asks of the window itself, once.
+struct WindowAsks {
+  const char* standard_view = nullptr;  // to look from; null: none
+  bool frame_selection = false;         // to come near what is selected; all when nothing is
+  bool undo = false, redo = false;
+  bool help = false;  // to be shown or hidden
+  Part menu_of;       // the menu of this part is to open under the pointer
+};
+
 /// What every panel gets to read and to change, each picture anew. Panels draw with ImGui between its NewFrame and
 /// Render, and keep to themselves what only they need.
 struct PanelContext {
@@ -26,8 +37,11 @@ struct PanelContext {
   const messages::SceneFrame& frame;
   const SceneFacts& facts;
   const JointReadings& readings;
+  const anatomy::FactsByKey& part_facts;
+  Part hovered;            // under the pointer, in the scene or in a list
   ViewState& view;         // how it is looked at
   ViewControls& controls;  // what is asked of the scene
+  WindowAsks& asks;
 };
 
 }  // namespace myotact::view

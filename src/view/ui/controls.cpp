@@ -78,6 +78,12 @@ bool checkbox(const char* key, bool& value) {
   return changed;
 }
 
+bool menu_item(const char* key, bool ticked) {
+  const bool chosen = ImGui::MenuItem(label(key).c_str(), nullptr, ticked);
+  finish(key, ticked ? "on" : "off");
+  return chosen;
+}
+
 bool slider(const char* key, double& value, const Range& range, const char* format) {
   auto number = static_cast<float>(value);
   const float track = ImGui::CalcItemWidth();

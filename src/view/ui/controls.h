@@ -14,6 +14,7 @@ bool button(const char* key);
 /// Looks pressed while `on`.
 bool toggle_button(const char* key, bool on);
 bool checkbox(const char* key, bool& value);
+bool menu_item(const char* key, bool ticked = false);
 struct Range {
   float lowest = 0.0f, highest = 1.0f;
 };

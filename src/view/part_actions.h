@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "anatomy/specimen.h"
+#include "view/part.h"
+
+namespace myotact::view {
+
+// What a person does with a part, by click, key or menu. Undo goes back over all of it.
+
+void select(ViewState& view, const Part& part);  // no part: nothing is selected
+/// Shows this part alone among its kind: of muscles all others hidden, bones faded; of bones the other way round. Once
+/// more: everything again.
+void isolate(ViewState& view, const Part& part);
+bool is_isolated(const ViewState& view, const Part& part);
+void show_all(ViewState& view);
+PartLook& look_of(ViewState& view, const Part& part);  // of a part that is there
+/// Into the plots, or out of them.
+void toggle_plot(ViewState& view, int muscle);
+bool is_plotted(const ViewState& view, int muscle);
+
+const std::string& key_of(const anatomy::Specimen& specimen, const Part& part);
+/// As the view wants it: English, Latin, both; "?" while names are hidden.
+std::string name_of(const anatomy::Specimen& specimen, const Part& part, const ViewState& view);
+
+}  // namespace myotact::view
