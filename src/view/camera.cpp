@@ -51,6 +51,17 @@ void Camera::zoom(float factor) {
   distance_m = std::clamp(distance_m * factor, 0.02f, 20.0f);
 }
 
+Camera between(const Camera& from, const Camera& to, float share) {
+  const auto mix = [&](auto a, auto b) { return a + share * (b - a); };
+  Camera camera;
+  camera.target_world_m = mix(from.target_world_m, to.target_world_m);
+  camera.azimuth_rad = std::remainder(
+      from.azimuth_rad + share * std::remainder(to.azimuth_rad - from.azimuth_rad, 2.0f * kPi), 2.0f * kPi);
+  camera.elevation_rad = mix(from.elevation_rad, to.elevation_rad);
+  camera.distance_m = mix(from.distance_m, to.distance_m);
+  return share < 1.0f ? camera : to;
+}
+
 namespace {
 
 /// Distance from which all corners of the box lie inside the picture, with a margin.

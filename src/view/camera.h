@@ -39,6 +39,9 @@ struct ViewBox {
 /// From the same side, so near and so placed that the box fills a picture of that width over height.
 Camera framed(const Camera& camera, const ViewBox& box, float aspect);
 
+/// On the way from one view to another, share 0 .. 1 of it; turns by the shorter way round.
+Camera between(const Camera& from, const Camera& to, float share);
+
 /// Standard views of a limb: lateral, medial, cranial, caudal, dorsal, palmar; nothing for another name. `left_limb`:
 /// lateral is the limb's own left side. The whole box fits into a picture of the given width over height.
 std::optional<Camera> standard_view(const std::string& name, bool left_limb, const ViewBox& box, float aspect);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include <imgui.h>
 #include <nlohmann/json.hpp>
 
 #include "view/ui/controls.h"
@@ -101,6 +102,7 @@ std::string describe(const PanelContext& context, const Layout& layout) {
   return Json{{"view", view_json(context.specimen, context.view)},
               {"scene", scene_json(context.controls)},
               {"frame", frame_json(context)},
+              {"pictures_per_s", ImGui::GetIO().Framerate},
               {"places", places_json(context, layout.scene)},
               {"scene_box", {scene.x, scene.y, scene.width, scene.height}},
               {"controls", controls}}

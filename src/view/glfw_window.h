@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 struct GLFWwindow;
 
 namespace myotact::view {
@@ -16,7 +18,22 @@ class GlfwWindow {
 
   GLFWwindow* get() const { return window_; }
 
+  struct KeyPress {
+    int key = 0, mods = 0;  // GLFW_KEY_*, GLFW_MOD_*
+  };
+  /// Keys that went down since the last call: none is lost however slow the pictures are.
+  std::vector<KeyPress> take_presses();
+  bool is_down(int key) const;
+  /// Over the whole screen, or back.
+  void toggle_full_screen();
+
  private:
+  struct Place {
+    int x = 0, y = 0, width = 0, height = 0;
+  };
+
+  std::vector<KeyPress> presses_;
+  Place before_;  // full screen; empty: it is not
   GLFWwindow* window_ = nullptr;
 };
 

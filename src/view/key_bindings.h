@@ -1,38 +1,56 @@
 #pragma once
 
-#include <array>
-#include <string_view>
+#include <string>
+#include <vector>
 
 namespace myotact::view {
 
-/// What a key does. One table makes the handler and the help, so that they cannot disagree.
+/// What a key does. One table makes the handlers, the help and the list in the README, so that they cannot disagree.
 enum class KeyAction {
   Help,
   PauseOrPlay,
   Step,
   Reset,
+  Look,
+  Touch,
+  Pull,
   Lateral,
   Medial,
   Cranial,
   Caudal,
   Dorsal,
   Palmar,
+  FrameSelection,
   FrameAll,
+  Search,
+  Hide,
+  Isolate,
+  ShowAll,
+  Labels,
+  Undo,
+  Redo,
   GrabLine,
   GrabBone,
   StopForces,
   EnableForces,
-  Screenshot
+  Screenshot,
+  FullScreen
 };
 
 struct KeyBinding {
-  int key;  // GLFW_KEY_*
+  int key;   // GLFW_KEY_*
+  int mods;  // GLFW_MOD_*, of Shift, Ctrl and Alt
   KeyAction action;
-  std::string_view name;  // of the key, as the help shows it
-  std::string_view what;
+  const char* what;  // key of its text
 };
 
 /// All bindings, in the order of the help.
-const std::array<KeyBinding, 16>& key_bindings();
+const std::vector<KeyBinding>& key_bindings();
+
+/// As a person calls it: "Ctrl+Z", "Backspace", "G (hold)".
+std::string name_of(const KeyBinding& binding);
+
+/// Held down for as long as it is to last.
+bool is_held(KeyAction action);
 
 }  // namespace myotact::view

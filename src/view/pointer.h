@@ -1,13 +1,50 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "view/layout.h"
-#include "view/view_controls.h"
-#include "view/view_state.h"
+#include "view/panels/panel.h"
+#include "view/picking.h"
 
 namespace myotact::view {
 
-/// The mouse over the scene: turns, shifts and brings nearer the camera; with Ctrl held it is the hand, in the plane of
-/// the picture, with the wheel for its depth. Between ImGui's NewFrame and Render, after the panels.
-void move_by_pointer(const Area& scene, ViewState& view, ViewControls& controls);
+/// What the mouse is over the scene.
+enum class PointerMode { Look, Touch, Pull };
+
+/// The mouse over the scene. Always: the wheel comes nearer, the right button shifts the picture or, without a drag,
+/// opens a part's menu; Ctrl and the mouse are the hand, freely.
+///
+///   Look   a click selects, a double click isolates, a drag turns the limb
+///   Touch  the tool follows over the limb; the left button presses it in, the wheel how deep; a drag slides
+///   Pull   the left button takes the muscle line under the tool, a drag pulls it
+///
+/// Call between ImGui's NewFrame and Render, after the panels.
+class Pointer {
+ public:
+  void update(PanelContext& context, const Area& scene, const std::vector<bool>& superficial);
+
+  PointerMode mode() const { return mode_; }
+  void set_mode(PointerMode mode) { mode_ = mode; }
+  const Part& hovered() const { return hovered_; }
+  double depth_m() const { return depth_m_; }  // that a press aims at, below the surface
+  bool free_orbit = false;                     // a drag turns the limb any way; else from one standard view to the next
+
+ private:
+  std::optional<PickHit> look_through(const PanelContext& context, const Area& scene,
+                                      const std::vector<bool>& superficial) const;
+  void look(PanelContext& context, const Area& scene);
+  void touch(PanelContext& context, const std::optional<PickHit>& hit);
+  void pull(PanelContext& context, const Area& scene, const std::optional<PickHit>& hit);
+  void turn(PanelContext& context);
+  void hold_above(PanelContext& context, const PickHit& hit, double height_m);
+  void move_towards(PanelContext& context, const glm::dvec3& target_m);
+
+  PointerMode mode_ = PointerMode::Look;
+  Part hovered_;
+  double depth_m_ = 0.002;
+  double pressed_s_ = 0.0;  // how long the left button has been down
+  bool arrived_ = false;    // Pull: the hand is at the line
+};
 
 }  // namespace myotact::view

@@ -51,9 +51,9 @@ struct ViewState {
   bool names_hidden = false;  // of all parts, wherever they would be named: something is to be recognised
   bool lines = true;
   bool fibres = false;
-  bool attachments = false;  // areas of origin and insertion, of the selected muscle or of all
+  bool attachments = false;          // areas of origin and insertion, of the selected muscle or of all
   std::vector<int> plotted_muscles;  // whose tension is among the plots, in the order of asking
-  int selected_muscle = -1;  // of these two at most one
+  int selected_muscle = -1;          // of these two at most one
   int selected_bone = -1;
 
   bool operator==(const ViewState&) const = default;

@@ -1,7 +1,9 @@
 #include "view/window.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <epoxy/gl.h>
@@ -9,6 +11,7 @@
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
+#include "core/data_folder.h"
 #include "messages/device.h"
 #include "view/description.h"
 #include "view/glfw_window.h"
@@ -16,14 +19,17 @@
 #include "view/imgui_session.h"
 #include "view/key_bindings.h"
 #include "view/layout.h"
+#include "view/limb_bounds.h"
 #include "view/offscreen.h"
 #include "view/panels/demonstrate_panel.h"
 #include "view/panels/feel_panel.h"
 #include "view/panels/find_panel.h"
 #include "view/panels/learn_panel.h"
+#include "view/panels/part_menu.h"
 #include "view/panels/plots_panel.h"
 #include "view/panels/status_bar.h"
 #include "view/panels/toolbar.h"
+#include "view/part_actions.h"
 #include "view/pointer.h"
 #include "view/scene_overlay.h"
 #include "view/scene_renderer.h"
@@ -35,22 +41,12 @@ namespace myotact::view {
 namespace {
 
 const char* view_of(KeyAction action) {
-  switch (action) {
-    case KeyAction::Lateral:
-      return "lateral";
-    case KeyAction::Medial:
-      return "medial";
-    case KeyAction::Cranial:
-      return "cranial";
-    case KeyAction::Caudal:
-      return "caudal";
-    case KeyAction::Dorsal:
-      return "dorsal";
-    case KeyAction::Palmar:
-      return "palmar";
-    default:
-      return nullptr;
-  }
+  constexpr std::array kViews = {std::pair{KeyAction::Lateral, "lateral"}, std::pair{KeyAction::Medial, "medial"},
+                                 std::pair{KeyAction::Cranial, "cranial"}, std::pair{KeyAction::Caudal, "caudal"},
+                                 std::pair{KeyAction::Dorsal, "dorsal"},   std::pair{KeyAction::Palmar, "palmar"}};
+  const auto* found =
+      std::find_if(kViews.begin(), kViews.end(), [&](const auto& view) { return view.first == action; });
+  return found == kViews.end() ? nullptr : found->second;
 }
 
 /// An ImGui window over one area; draws nothing into an empty one.
@@ -67,9 +63,17 @@ void in_area(const char* id, const Area& area, const Draw& draw) {
 }
 
 void draw_help(bool& open) {
+  ImGui::SetNextWindowPos(ImVec2(0.5f * ImGui::GetIO().DisplaySize.x, 0.5f * ImGui::GetIO().DisplaySize.y),
+                          ImGuiCond_Appearing, ImVec2(0.5f, 0.5f));
   ImGui::Begin(fmt::format("{}###help", ui::tr("help.title")).c_str(), &open, ImGuiWindowFlags_AlwaysAutoResize);
-  for (const KeyBinding& binding : key_bindings()) {
-    ImGui::Text("%-10s %s", std::string(binding.name).c_str(), std::string(binding.what).c_str());
+  if (ImGui::BeginTable("keys", 2)) {
+    for (const KeyBinding& binding : key_bindings()) {
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(name_of(binding).c_str());
+      ImGui::TableNextColumn();
+      ui::text(binding.what);
+    }
+    ImGui::EndTable();
   }
   ImGui::Separator();
   ui::text("help.mouse");
@@ -91,33 +95,81 @@ struct Window::Impl {
     controls.scene = settings.start;
   }
 
-  void look(const char* name) {
-    const float aspect = layout.scene.empty() ? 1.0f : layout.scene.width / layout.scene.height;
-    Camera& camera = state.view.camera;
-    camera = standard_view(name, specimen->side != "right", bounds_of(*specimen), aspect).value_or(camera);
+  float scene_aspect() const { return layout.scene.empty() ? 1.0f : layout.scene.width / layout.scene.height; }
+
+  /// Turns there within a quarter of a second.
+  void look(const Camera& camera) { turn = {state.view.camera, camera, 0.0f}; }
+
+  void look(const char* name, const messages::SceneFrame& frame) {
+    const ViewBox box = bounds_of(*specimen, frame);
+    if (const auto camera = standard_view(name, specimen->side != "right", box, scene_aspect())) look(*camera);
+  }
+
+  void look_at_selection(const messages::SceneFrame& frame) {
+    const Part part = selected_part(state.view);
+    const ViewBox box = part ? bounds_of(*specimen, frame, part) : bounds_of(*specimen, frame);
+    look(framed(state.view.camera, box, scene_aspect()));
+  }
+
+  void go_on_turning() {
+    if (turn.share >= 1.0f) return;
+    constexpr float kTime_s = 0.25f;
+    turn.share = std::min(1.0f, turn.share + ImGui::GetIO().DeltaTime / kTime_s);
+    state.view.camera = between(turn.from, turn.to, turn.share);
   }
 
   void restore(const WorkState& earlier) {
     state = earlier;
     controls.scene = earlier.scene;
+    turn.share = 1.0f;
   }
 
-  void act(KeyAction action) {
+  void act(KeyAction action, PanelContext& context) {
+    const Part part = selected_part(state.view);
     switch (action) {
       case KeyAction::Help:
-        help = !help;
+        context.asks.help = true;
         return;
       case KeyAction::PauseOrPlay:
         controls.paused = !controls.paused;
         return;
       case KeyAction::Step:
+        controls.paused = true;
         ++controls.steps;
         return;
       case KeyAction::Reset:
         ++controls.resets;
         return;
+      case KeyAction::Look:
+        return pointer.set_mode(PointerMode::Look);
+      case KeyAction::Touch:
+        return pointer.set_mode(PointerMode::Touch);
+      case KeyAction::Pull:
+        return pointer.set_mode(PointerMode::Pull);
+      case KeyAction::FrameSelection:
+        context.asks.frame_selection = true;
+        return;
       case KeyAction::FrameAll:
-        look("lateral");
+        context.asks.standard_view = "lateral";
+        return;
+      case KeyAction::Search:
+        return find.focus();
+      case KeyAction::Hide:
+        if (part) look_of(state.view, part).hidden = true;
+        return;
+      case KeyAction::Isolate:
+        if (part) isolate(state.view, part);
+        return;
+      case KeyAction::ShowAll:
+        return show_all(state.view);
+      case KeyAction::Labels:
+        state.view.labels = !state.view.labels;
+        return;
+      case KeyAction::Undo:
+        context.asks.undo = true;
+        return;
+      case KeyAction::Redo:
+        context.asks.redo = true;
         return;
       case KeyAction::StopForces:
         ++controls.stops;
@@ -128,34 +180,40 @@ struct Window::Impl {
       case KeyAction::Screenshot:
         screenshot = "myotact.png";
         return;
+      case KeyAction::FullScreen:
+        return window.toggle_full_screen();
       case KeyAction::GrabLine:
       case KeyAction::GrabBone:
         return;  // held: read in hold_buttons()
       default:
-        look(view_of(action));
-        return;
+        context.asks.standard_view = view_of(action);
     }
   }
 
-  void handle_keys() {
+  /// Keys that are typed into a text, or that move the control with the keyboard's focus, mean that alone; a stop goes
+  /// before anything else.
+  void handle_keys(PanelContext& context) {
     const ImGuiIO& io = ImGui::GetIO();
-    const bool taken = io.WantTextInput || io.NavVisible;  // typed, or meant for the control with the focus
-    for (const KeyBinding& binding : key_bindings()) {
-      if (taken && binding.action != KeyAction::StopForces) continue;  // a stop goes before anything else
-      if (ImGui::IsKeyPressed(binding.key, false)) act(binding.action);
+    for (const GlfwWindow::KeyPress& press : window.take_presses()) {
+      const auto& all = key_bindings();
+      const auto binding = std::find_if(all.begin(), all.end(), [&](const KeyBinding& known) {
+        return known.key == press.key && known.mods == press.mods;
+      });
+      if (binding == all.end()) continue;
+      const bool plain = binding->mods == 0 && binding->key < GLFW_KEY_F1;
+      const bool taken = io.WantTextInput || (plain && io.NavVisible);
+      if (!taken || press.key == GLFW_KEY_ESCAPE) act(binding->action, context);
     }
-  }
-
-  bool is_down(KeyAction action) const {
-    return std::any_of(key_bindings().begin(), key_bindings().end(), [&](const KeyBinding& binding) {
-      return binding.action == action && glfwGetKey(window.get(), binding.key) == GLFW_PRESS;
-    });
   }
 
   void hold_buttons() {
     controls.hand_buttons = 0;
-    if (is_down(KeyAction::GrabLine)) controls.hand_buttons |= messages::kGrabButton;
-    if (is_down(KeyAction::GrabBone)) controls.hand_buttons |= messages::kGrabBoneButton;
+    if (ImGui::GetIO().WantTextInput) return;
+    for (const KeyBinding& binding : key_bindings()) {
+      if (!is_held(binding.action) || !window.is_down(binding.key)) continue;
+      controls.hand_buttons |=
+          binding.action == KeyAction::GrabLine ? messages::kGrabButton : messages::kGrabBoneButton;
+    }
   }
 
   void draw_tasks(PanelContext& context) {
@@ -175,8 +233,9 @@ struct Window::Impl {
     ImGui::EndTabBar();
   }
 
-  void obey(const ToolbarAsks& asks) {
-    if (asks.standard_view != nullptr) look(asks.standard_view);
+  void obey(const WindowAsks& asks, const messages::SceneFrame& frame) {
+    if (asks.standard_view != nullptr) look(asks.standard_view, frame);
+    if (asks.frame_selection) look_at_selection(frame);
     if (asks.help) help = !help;
     if (asks.undo) restore(history.undo());
     if (asks.redo) restore(history.redo());
@@ -185,18 +244,22 @@ struct Window::Impl {
   void draw_panels(PanelContext& context) {
     plots.add(context);
     learn.observe(context);
-    ToolbarAsks asks;
-    in_area("toolbar", layout.toolbar, [&] { asks = draw_toolbar(context, history.can_undo(), history.can_redo()); });
+    in_area("toolbar", layout.toolbar, [&] {
+      draw_toolbar(context, pointer, {history.can_undo(), history.can_redo()});
+    });
     in_area("find", layout.find, [&] { find.draw(context); });
     in_area("tasks", layout.tasks, [&] { draw_tasks(context); });
     in_area("status", layout.status, [&] { draw_status_bar(context); });
     if (help) draw_help(help);
-    handle_keys();
     hold_buttons();
-    move_by_pointer(layout.scene, state.view, controls);
-    obey(asks);
+    handle_keys(context);
+    pointer.update(context, layout.scene, renderer.superficial());
+    menu.draw(context);
+    hovered = pointer.hovered() ? pointer.hovered() : find.hovered();
+    obey(context.asks, context.frame);
+    go_on_turning();
     state.scene = controls.scene;
-    history.note(state, ImGui::IsAnyItemActive() || ImGui::IsAnyMouseDown());
+    history.note(state, ImGui::IsAnyItemActive() || ImGui::IsAnyMouseDown() || turn.share < 1.0f);
   }
 
   /// The scene's area is given in the window's pixels from the top, the framebuffer's from below.
@@ -211,6 +274,7 @@ struct Window::Impl {
     const auto pixels = [&](float length) { return static_cast<int>(length * scale); };
     SceneExtras extras;
     extras.joint = facts.joint;
+    extras.hovered = hovered;
     renderer.draw(frame, state.view,
                   {pixels(area.x), height - pixels(area.y + area.height), pixels(area.width), pixels(area.height)},
                   extras);
@@ -233,10 +297,12 @@ struct Window::Impl {
     const bool first = layout.scene.empty();
     layout = layout_of(display.x, display.y, ImGui::GetFontSize());
     if (first) {
-      look("lateral");
+      state.view.camera =
+          standard_view("lateral", specimen->side != "right", bounds_of(*specimen, frame), scene_aspect()).value();
       history = History(state);
     }
-    PanelContext context{*specimen, frame, facts, readings, state.view, controls};
+    WindowAsks asks;
+    PanelContext context{*specimen, frame, facts, readings, part_facts, hovered, state.view, controls, asks};
     draw_panels(context);
     overlay.draw(*specimen, frame, state.view, renderer.superficial(), layout.scene, {{}, SceneExtras{}.background},
                  *ImGui::GetBackgroundDrawList());
@@ -260,6 +326,15 @@ struct Window::Impl {
   History history;
   JointReadings readings;
   ViewControls controls;
+  anatomy::FactsByKey part_facts = anatomy::load_part_facts(data_folder() / "assets" / "canine" / "names.json");
+  Part hovered;
+  Pointer pointer;
+  struct Turn {
+    Camera from, to;
+    float share = 1.0f;  // of the way; 1: there
+  };
+  Turn turn;
+  PartMenu menu;
   FindPanel find;
   FeelPanel feel;
   DemonstratePanel demonstrate;
@@ -287,9 +362,11 @@ void Window::save_next_picture(const std::filesystem::path& path) {
 }
 
 std::string Window::describe(const messages::SceneFrame& frame) {
-  const PanelContext context{*impl_->specimen,  frame,          impl_->facts, impl_->readings,
-                             impl_->state.view, impl_->controls};
-  return view::describe(context, impl_->layout);
+  Impl& now = *impl_;
+  WindowAsks none;
+  const PanelContext context{*now.specimen, frame,          now.facts,    now.readings, now.part_facts,
+                             now.hovered,   now.state.view, now.controls, none};
+  return view::describe(context, now.layout);
 }
 
 const ViewControls& Window::draw(const messages::SceneFrame& frame) {

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "gui/gui_program.h"
@@ -49,6 +51,54 @@ TEST_F(WindowTest, SlidersStiffenTheJointAndUndoTakesThemBack) {
   EXPECT_TRUE(gui.wait_until([](const json& state) { return state["scene"]["common"] == 0.0; }, 5.0));
   EXPECT_TRUE(
       gui.wait_until([&](const json& state) { return state["frame"]["joints"]["elbow"]["K_Nm_rad"] < 1.2 * K_start; }));
+}
+
+TEST_F(WindowTest, AMuscleIsFoundThroughASlipIsolatedTouchedAndPulled) {
+  GuiProgram gui("find", "elbow");
+  gui.key("ctrl+f");
+  testing::pause_s(1.0);  // until the search has the keyboard, in a slow picture too
+  gui.type("bicps");
+  ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.value_of("find.search") == "bicps"; }, 5.0));
+  testing::pause_s(0.3);
+  gui.click("find.biceps_brachii");
+  ASSERT_TRUE(gui.wait_until([](const json& s) { return s["view"]["selected_muscle"] == "biceps_brachii"; }, 5.0));
+  gui.double_click("find.biceps_brachii");
+  ASSERT_TRUE(gui.wait_until([](const json& s) { return s["view"]["hidden_muscles"].size() == 6; }, 5.0));
+  expect_drawn(gui, "isolated");
+  gui.click("toolbar.undo");
+  EXPECT_TRUE(gui.wait_until([](const json& s) { return s["view"]["hidden_muscles"].empty(); }, 5.0));
+  EXPECT_EQ(gui.state()["view"]["selected_muscle"], "biceps_brachii");  // selecting it was a step of its own
+  gui.click("toolbar.redo");
+  EXPECT_TRUE(gui.wait_until([](const json& s) { return s["view"]["hidden_muscles"].size() == 6; }, 5.0));
+
+  gui.click("toolbar.cranial");
+  testing::pause_s(0.6);
+  gui.click("toolbar.touch");
+  const auto middle = gui.place_of("muscles", "biceps_brachii");
+  gui.move_to(middle[0], middle[1]);
+  testing::pause_s(1.5);
+  gui.press();
+  EXPECT_TRUE(
+      gui.wait_until([](const json& s) { return s["frame"]["tools"][0]["touched_muscle"] == "biceps_brachii"; }));
+  expect_drawn(gui, "touched");
+  gui.release();
+  EXPECT_TRUE(gui.wait_until([](const json& s) { return !s["frame"]["tools"][0]["in_contact"]; }));
+
+  gui.click("toolbar.pull");
+  gui.move_to(middle[0], middle[1]);
+  testing::pause_s(1.5);
+  gui.press();
+  EXPECT_TRUE(gui.wait_until([](const json& s) { return s["frame"]["tools"][0]["grabbed_line"] == "biceps_brachii"; }));
+  for (int i = 1; i <= 5; ++i) gui.move_to(middle[0] - 4.0 * i, middle[1]);
+  EXPECT_TRUE(gui.wait_until([](const json& s) {
+    const std::array<double, 3> f = s["frame"]["tools"][0]["force_world_N"];
+    return std::hypot(f[0], f[1], f[2]) > 0.2;
+  }));
+  expect_drawn(gui, "pulled");
+  gui.release();
+  EXPECT_TRUE(gui.wait_until([](const json& s) { return s["frame"]["tools"][0]["grabbed_line"] == ""; }));
+  gui.key("Escape");
+  EXPECT_TRUE(gui.wait_until([](const json& s) { return s["frame"]["tools"][0]["forces_stopped"] == true; }, 5.0));
 }
 
 TEST_F(WindowTest, AWindowTooSmallForItsPanelsStillShowsTheLimb) {

@@ -53,7 +53,8 @@ void FindPanel::draw_row(PanelContext& context, const Part& part) {
   ui::note_control(fmt::format("find.shown.{}", key).c_str(), shown ? "on" : "off");
   ImGui::SameLine();
   const bool selected = selected_part(view) == part;
-  if (ImGui::Selectable(name_of(context.specimen, part, view).c_str(), selected, ImGuiSelectableFlags_AllowDoubleClick)) {
+  if (ImGui::Selectable(name_of(context.specimen, part, view).c_str(), selected,
+                        ImGuiSelectableFlags_AllowDoubleClick)) {
     ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) ? isolate(view, part) : select(view, part);
   }
   ui::note_control(fmt::format("find.{}", key).c_str(), selected ? "selected" : "");
@@ -97,7 +98,8 @@ void FindPanel::draw_tree(PanelContext& context) {
   }
   for (const std::string& region : regions) {
     const std::string name = region.empty() ? ui::tr("find.elsewhere") : in_language("region", region);
-    const bool open = ImGui::CollapsingHeader(fmt::format("{}###{}", name, region).c_str(), ImGuiTreeNodeFlags_DefaultOpen);
+    const bool open =
+        ImGui::CollapsingHeader(fmt::format("{}###{}", name, region).c_str(), ImGuiTreeNodeFlags_DefaultOpen);
     ui::note_control(fmt::format("find.region.{}", region).c_str(), open ? "open" : "closed");
     if (open) draw_region(context, region);
   }

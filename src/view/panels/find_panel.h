@@ -8,8 +8,8 @@
 
 namespace myotact::view {
 
-/// At the left: a search by any name, the bones and muscles by region and function, and what is known of the one that is
-/// selected. A click selects, a double click isolates, a right click opens the part's menu.
+/// At the left: a search by any name, the bones and muscles by region and function, and what is known of the one that
+/// is selected. A click selects, a double click isolates, a right click opens the part's menu.
 class FindPanel {
  public:
   void draw(PanelContext& context);

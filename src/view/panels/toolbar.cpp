@@ -17,8 +17,30 @@ bool forces_stopped(const messages::SceneFrame& frame) {
                      [](const messages::ToolFrame& tool) { return tool.forces_stopped; });
 }
 
-void draw_play(PanelContext& context) {
-  ViewControls& controls = context.controls;
+/// Red, and always at the same place.
+void draw_force_switch(PanelContext& context) {
+  const bool stopped = forces_stopped(context.frame);
+  const ImVec4 red(0.72f, 0.11f, 0.11f, 1.0f), brighter(0.85f, 0.16f, 0.16f, 1.0f);
+  ImGui::PushStyleColor(ImGuiCol_Button, red);
+  ImGui::PushStyleColor(ImGuiCol_ButtonHovered, brighter);
+  ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0f, 1.0f, 1.0f, 1.0f));
+  if (ui::button(stopped ? "toolbar.forces_on" : "toolbar.forces_off")) {
+    ++(stopped ? context.controls.arms : context.controls.stops);
+  }
+  ImGui::PopStyleColor(3);
+}
+
+void draw_modes(Pointer& pointer) {
+  constexpr std::array kModes = {std::pair{"toolbar.look", PointerMode::Look},
+                                 std::pair{"toolbar.touch", PointerMode::Touch},
+                                 std::pair{"toolbar.pull", PointerMode::Pull}};
+  for (const auto& [key, mode] : kModes) {
+    if (ui::toggle_button(key, pointer.mode() == mode)) pointer.set_mode(mode);
+    ImGui::SameLine();
+  }
+}
+
+void draw_play(ViewControls& controls) {
   if (ui::button(controls.paused ? "toolbar.play" : "toolbar.pause")) controls.paused = !controls.paused;
   ImGui::SameLine();
   if (ui::button("toolbar.step")) {
@@ -28,33 +50,49 @@ void draw_play(PanelContext& context) {
   ImGui::SameLine();
   if (ui::button("toolbar.reset")) ++controls.resets;
   ImGui::SameLine();
-  const bool stopped = forces_stopped(context.frame);
-  if (ui::button(stopped ? "toolbar.forces_on" : "toolbar.forces_off")) ++(stopped ? controls.arms : controls.stops);
+}
+
+void draw_views(PanelContext& context, Pointer& pointer) {
+  const bool hind = anatomy::find_joint(context.specimen, "stifle") >= 0;
+  const std::array views = {
+      std::pair{"toolbar.lateral", "lateral"}, std::pair{"toolbar.medial", "medial"},
+      std::pair{"toolbar.cranial", "cranial"}, std::pair{"toolbar.caudal", "caudal"},
+      std::pair{"toolbar.dorsal", "dorsal"},   std::pair{hind ? "toolbar.plantar" : "toolbar.palmar", "palmar"}};
+  for (const auto& [key, view] : views) {
+    if (ui::button(key)) context.asks.standard_view = view;
+    ImGui::SameLine();
+  }
+  ui::checkbox("toolbar.free_orbit", pointer.free_orbit);
+  ImGui::SameLine();
+}
+
+/// A gap between two groups of controls.
+void draw_gap() {
+  ImGui::Dummy(ImVec2(0.5f * ImGui::GetFontSize(), 0.0f));
+  ImGui::SameLine();
 }
 
 }  // namespace
 
-ToolbarAsks draw_toolbar(PanelContext& context, bool can_undo, bool can_redo) {
-  constexpr std::array kViews = {std::pair{"toolbar.lateral", "lateral"}, std::pair{"toolbar.medial", "medial"},
-                                 std::pair{"toolbar.cranial", "cranial"}, std::pair{"toolbar.caudal", "caudal"},
-                                 std::pair{"toolbar.dorsal", "dorsal"},   std::pair{"toolbar.palmar", "palmar"}};
-  ToolbarAsks asks;
-  draw_play(context);
-  for (const auto& [key, view] : kViews) {
-    ImGui::SameLine();
-    if (ui::button(key)) asks.standard_view = view;
-  }
+void draw_toolbar(PanelContext& context, Pointer& pointer, const UndoState& undo) {
+  draw_force_switch(context);
   ImGui::SameLine();
-  ImGui::BeginDisabled(!can_undo);
-  asks.undo = ui::button("toolbar.undo");
+  draw_gap();
+  draw_modes(pointer);
+  draw_gap();
+  draw_play(context.controls);
+  draw_gap();
+  draw_views(context, pointer);
+  draw_gap();
+  ImGui::BeginDisabled(!undo.can_undo);
+  context.asks.undo = ui::button("toolbar.undo") || context.asks.undo;
   ImGui::EndDisabled();
   ImGui::SameLine();
-  ImGui::BeginDisabled(!can_redo);
-  asks.redo = ui::button("toolbar.redo");
+  ImGui::BeginDisabled(!undo.can_redo);
+  context.asks.redo = ui::button("toolbar.redo") || context.asks.redo;
   ImGui::EndDisabled();
   ImGui::SameLine();
-  asks.help = ui::button("toolbar.help");
-  return asks;
+  if (ui::button("toolbar.help")) context.asks.help = true;
 }
 
 }  // namespace myotact::view

@@ -1,14 +1,15 @@
 #pragma once
 
 #include "view/panels/panel.h"
+#include "view/pointer.h"
 
 namespace myotact::view {
 
-/// Along the top: play, step, reset, forces off, the standard views, undo.
-struct ToolbarAsks {
-  const char* standard_view = nullptr;  // to look from; null: none
-  bool undo = false, redo = false, help = false;
+struct UndoState {
+  bool can_undo = false, can_redo = false;
 };
-ToolbarAsks draw_toolbar(PanelContext& context, bool can_undo, bool can_redo);
+
+/// Along the top: what the mouse is, play, the standard views, undo, help, and in red: forces off.
+void draw_toolbar(PanelContext& context, Pointer& pointer, const UndoState& undo);
 
 }  // namespace myotact::view
