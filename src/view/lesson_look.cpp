@@ -72,7 +72,7 @@ void show_step(const learn::Step& step, const anatomy::Specimen& specimen, float
   set_scene(step.set, scene);
 }
 
-void show_all(ViewState& view) {
+void end_lesson_look(ViewState& view) {
   show_only(std::nullopt, view.muscles);
   show_only(std::nullopt, view.bones);
   view.colour = MuscleColour::Activation;

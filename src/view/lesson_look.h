@@ -14,7 +14,7 @@ namespace myotact::view {
 void show_step(const learn::Step& step, const anatomy::Specimen& specimen, float aspect, ViewState& view,
                SceneState& scene);
 /// Everything drawn and named again, as after a lesson.
-void show_all(ViewState& view);
+void end_lesson_look(ViewState& view);
 
 /// What a part is called in the names that the person chose.
 std::string name_of(const anatomy::Specimen& specimen, const learn::Part& part, NameStyle names);

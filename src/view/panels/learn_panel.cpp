@@ -97,7 +97,7 @@ void LearnPanel::open(const learn::ListedLesson& lesson, const anatomy::Specimen
 void LearnPanel::close(ViewState& view) {
   open_.reset();
   message_.clear();
-  show_all(view);
+  end_lesson_look(view);
 }
 
 void LearnPanel::draw_step(PanelContext& context, float aspect) {
