@@ -111,9 +111,7 @@ void LearnPanel::draw_step(PanelContext& context, float aspect) {
   title_line(run.lesson().title, true);
   const std::string progress = ui::tr("learn.progress", run.index() + 1, steps, points_text(run.score()),
                                       points_text(learn::most_points(run.lesson())));
-  ImGui::ProgressBar(static_cast<float>(run.index() + 1) / static_cast<float>(steps), ImVec2(-1.0f, 0.0f),
-                     progress.c_str());
-  ui::note_control("learn.progress", std::to_string(run.index() + 1));
+  draw_share("learn.progress", static_cast<double>(run.index() + 1) / static_cast<double>(steps), progress);
   ImGui::Spacing();
   title_line(run.step().title, true);
   ui::paragraph(run.step().text);

@@ -30,9 +30,7 @@ std::string joint_name(const Scribe& s, int joint) {
 }
 
 void draw_time_held(double held_s, double hold_s) {
-  const auto share = static_cast<float>(std::clamp(held_s / hold_s, 0.0, 1.0));
-  ImGui::ProgressBar(share, ImVec2(-1.0f, 0.0f), ui::tr("learn.held", std::min(held_s, hold_s), hold_s).c_str());
-  ui::note_control("learn.held", fmt::format("{:.2f}", held_s));
+  draw_share("learn.held", held_s / hold_s, ui::tr("learn.held", std::min(held_s, hold_s), hold_s));
 }
 
 /// One button an option, each by its name.
@@ -118,9 +116,8 @@ void draw(const Scribe& s, const learn::PredictTask& task) {
   ui::paragraph(ui::tr("learn.predicted", ui::tr(flexion ? "learn.flexion" : "learn.extension")));
   if (state.done) return draw_explanation(s, task);
   ui::paragraph(ui::tr("learn.pull", s.name({task.muscle, -1})));
-  const auto share = static_cast<float>(std::clamp(std::abs(state.turned_rad) / task.turn_rad, 0.0, 1.0));
-  ImGui::ProgressBar(share, ImVec2(-1.0f, 0.0f), ui::tr("learn.turned", kDegrees * state.turned_rad).c_str());
-  ui::note_control("learn.turned", fmt::format("{:.3f}", kDegrees * state.turned_rad));
+  draw_share("learn.turned", std::abs(state.turned_rad) / task.turn_rad,
+             ui::tr("learn.turned", kDegrees * state.turned_rad));
 }
 
 void draw(const Scribe& s, const learn::StiffenTask& task) {
@@ -132,9 +129,9 @@ void draw(const Scribe& s, const learn::StiffenTask& task) {
   }
   if (state.done) return;
   const double wanted = task.factor * state.lowest_Nm_rad;
-  const auto share = static_cast<float>(std::clamp(state.stiffness_Nm_rad / std::max(wanted, 1e-6), 0.0, 1.0));
-  ImGui::ProgressBar(share, ImVec2(-1.0f, 0.0f), ui::tr("learn.stiffness", state.stiffness_Nm_rad, wanted).c_str());
-  ui::note_control("learn.stiffness", fmt::format("{:.2f}", state.stiffness_Nm_rad));
+  if (wanted <= 0.0) return;  // it has not come to rest yet
+  draw_share("learn.stiffness", state.stiffness_Nm_rad / wanted,
+             ui::tr("learn.stiffness", state.stiffness_Nm_rad, wanted));
   const bool strayed = std::abs(state.turned_rad) > task.within_rad;
   ui::paragraph(ui::tr(strayed ? "learn.strayed" : "learn.stays", kDegrees * std::abs(state.turned_rad),
                        kDegrees * task.within_rad));
@@ -174,6 +171,13 @@ void draw_feedback(const Scribe& s) {
 }
 
 }  // namespace
+
+void draw_share(const char* key, double share, const std::string& text) {
+  const auto filled = static_cast<float>(std::clamp(share, 0.0, 1.0));
+  ImGui::ProgressBar(filled, ImVec2(-1.0f, 0.4f * ImGui::GetFontSize()), "");
+  ui::note_control(key, fmt::format("{:.3f}", share));
+  ui::paragraph(text);
+}
 
 void draw_task(PanelContext& context, learn::LessonRun& run, std::string& typed) {
   const Scribe scribe{context, run, typed};

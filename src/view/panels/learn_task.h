@@ -11,4 +11,7 @@ namespace myotact::view {
 /// under way. Between ImGui's NewFrame and Render.
 void draw_task(PanelContext& context, learn::LessonRun& run, std::string& typed);
 
+/// How far something is, 0 .. 1, with its text beneath: letters on the bar's own colour are hard to read.
+void draw_share(const char* key, double share, const std::string& text);
+
 }  // namespace myotact::view
