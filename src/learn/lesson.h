@@ -64,7 +64,7 @@ const char* kind_of(const Task& task);
 struct Show {
   std::optional<std::vector<int>> muscles, bones;  // only these; none: all
   std::vector<Part> faded;
-  std::string colour = "kind";  // one of colour_names()
+  std::string colour = "activation";  // one of colour_names(); at rest all muscles look alike
   bool labels = false;
 };
 

@@ -12,6 +12,11 @@ const myotact::anatomy::Specimen& specimen() {
 
 }  // namespace
 
+extern "C" int LLVMFuzzerInitialize(int*, char***) {
+  specimen();
+  return 0;
+}
+
 /// A lesson that is taken can be gone through, whatever it asks for.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace myotact;

@@ -112,7 +112,8 @@ void LearnPanel::draw_step(PanelContext& context, float aspect) {
   const std::string progress = ui::tr("learn.progress", run.index() + 1, steps, points_text(run.score()),
                                       points_text(learn::most_points(run.lesson())));
   draw_share("learn.progress", static_cast<double>(run.index() + 1) / static_cast<double>(steps), progress);
-  ImGui::Spacing();
+  // What is read and done scrolls; the buttons beneath it stay where they are.
+  ImGui::BeginChild("step", ImVec2(0.0f, -ImGui::GetFrameHeightWithSpacing() - ImGui::GetStyle().ItemSpacing.y));
   title_line(run.step().title, true);
   ui::paragraph(run.step().text);
   ImGui::Spacing();
@@ -120,9 +121,9 @@ void LearnPanel::draw_step(PanelContext& context, float aspect) {
   for (int h = 0; h < run.state().hints; ++h) {
     ui::paragraph(ui::tr("learn.hint_text", run.step().hints[static_cast<std::size_t>(h)]));
   }
-  ImGui::Spacing();
-  ImGui::Separator();
+  ImGui::EndChild();
   draw_steps_buttons();
+  ImGui::SameLine();
   if (ui::button("learn.close")) close(context.view);
 }
 

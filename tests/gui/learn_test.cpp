@@ -1,0 +1,91 @@
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "gui/gui_program.h"
+
+// A student goes through lessons at the window.
+
+namespace myotact {
+namespace {
+
+using nlohmann::json;
+using testing::GuiProgram;
+using ::testing::HasSubstr;
+
+class LearnGui : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (const std::string missing = testing::missing_tools(); !missing.empty()) {
+      GTEST_SKIP() << "not installed:" << missing << " (packages xvfb, xdotool, imagemagick)";
+    }
+  }
+};
+
+/// A folder of data with a quiz, one that is cut off, and later the results.
+std::filesystem::path data_with_quizzes() {
+  const std::filesystem::path data = std::filesystem::path(MYOTACT_GUI_PICTURES) / "learn_data";
+  std::filesystem::remove_all(data);
+  std::filesystem::create_directories(data / "myotact" / "lessons");
+  std::ofstream(data / "myotact" / "lessons" / "cut.json") << R"({"schema": 1, "key": "cut)";
+  std::ofstream(data / "myotact" / "lessons" / "quiz.json") << R"({
+    "schema": 1, "key": "quiz", "title": "A quiz", "scene": "elbow", "steps": [
+    {"title": "Read", "text": "All of it.", "view": "medial", "show": {"muscles": ["brachialis"]}},
+    {"title": "Choose", "text": "Which bone is it?", "hints": ["Not the radius."],
+     "task": {"kind": "name", "part": "ulna", "options": ["radius", "ulna"]}},
+    {"title": "Type", "text": "Its name?", "task": {"kind": "name", "part": "brachialis"}}]})";
+  return data;
+}
+
+TEST_F(LearnGui, AQuizOfOnesOwnIsAnsweredAndItsResultsAreKept) {
+  const auto data = data_with_quizzes();
+  GuiProgram gui("learn_quiz", "elbow", "XDG_DATA_HOME=" + data.string());
+  gui.click("tasks.learn");
+  ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.shows("learn.refresh"); }));
+  gui.screenshot("list");
+  gui.click("learn.start.quiz");
+  ASSERT_TRUE(gui.wait_until([](const json& state) { return state["view"]["hidden_muscles"].size() == 6; }));
+  EXPECT_LT(gui.state()["view"]["camera"]["azimuth_rad"], 0.0) << "the medial view";
+  gui.click("learn.next");
+  gui.click("learn.option.radius");
+  gui.click("learn.hint");
+  gui.screenshot("wrong");
+  gui.click("learn.option.ulna");
+  gui.click("learn.next");
+  ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.shows("learn.typed"); }));
+  EXPECT_EQ(gui.state()["view"]["selected_muscle"], "brachialis");
+  gui.click("learn.typed");
+  gui.type("M. brachialis");
+  gui.click("learn.answer");
+  gui.click("learn.next");
+  gui.click("learn.student");
+  gui.type("Ada L");
+  gui.click("learn.save");
+  const auto file = data / "myotact" / "results" / "Ada_L_quiz.csv";
+  ASSERT_TRUE(gui.wait_until([&](const json&) { return std::filesystem::exists(file); }, 5.0));
+  gui.screenshot("results");
+  std::ifstream in(file);
+  const std::string csv((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  EXPECT_THAT(csv, HasSubstr("quiz,2,name,ulna,1,2,1,"));
+  EXPECT_THAT(csv, HasSubstr("quiz,3,name,M. brachialis,1,1,0,"));
+  gui.click("learn.close");
+  EXPECT_TRUE(gui.wait_until([](const json& state) { return state["view"]["hidden_muscles"].empty(); }, 5.0));
+}
+
+TEST_F(LearnGui, TheElbowIsStiffenedInItsLesson) {
+  GuiProgram gui("learn_stiffen", "elbow");
+  gui.click("tasks.learn");
+  gui.click("learn.start.3_co_contraction");
+  gui.click("learn.next");
+  gui.click("learn.leave_out");
+  ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.shows("learn.stiffness"); })) << "it comes to rest";
+  gui.drag_slider("learn.common", 0.02, 0.75);
+  EXPECT_TRUE(gui.wait_until([&](const json&) { return gui.shows("learn.next"); }, 30.0)) << "three times as stiff";
+  gui.screenshot("stiff");
+}
+
+}  // namespace
+}  // namespace myotact
