@@ -184,33 +184,37 @@ void SceneRenderer::move_limb(const Picture& picture) {
   limb_program_.set("map_colours", cividis_table());
 }
 
-/// What is opaque first, then lines and tools, then what shines through, from the far side to the near one.
+/// What is opaque first, from the near side, so that little is painted twice; then lines and tools; then what shines
+/// through, from the far side.
 void SceneRenderer::draw_limb(const Picture& picture) {
-  std::vector<Part> clear;
+  std::vector<Part> opaque, clear;
+  const auto sort_out = [&](const Part& part) {
+    const float opacity = picture.opacity(part);
+    if (opacity > kLeast) (opacity < kOpaque ? clear : opaque).push_back(part);
+  };
+  for (int m = 0; m < static_cast<int>(picture.muscles.size()); ++m) sort_out({PartKind::Muscle, m});
+  for (int b = 0; b < static_cast<int>(picture.bones.size()); ++b) sort_out({PartKind::Bone, b});
+  const glm::vec3 eye_m = picture.view.camera.eye_world_m();
+  const auto nearer = [&](const Part& a, const Part& b) {
+    return glm::distance(limb_.middle_world_m(a), eye_m) < glm::distance(limb_.middle_world_m(b), eye_m);
+  };
+  std::stable_sort(opaque.begin(), opaque.end(), nearer);
+  std::stable_sort(clear.begin(), clear.end(), nearer);
   const bool cut = picture.view.section.on;
   if (cut) glEnable(GL_CLIP_DISTANCE0);
-  const auto draw_opaque = [&](const Part& part) {
-    const float opacity = picture.opacity(part);
-    if (opacity >= kOpaque) draw_part(picture, part, 1.0f);
-    if (opacity > kLeast && opacity < kOpaque) clear.push_back(part);
-  };
-  if (!cut) glEnable(GL_CULL_FACE);
-  for (int m = 0; m < static_cast<int>(picture.muscles.size()); ++m) draw_opaque({PartKind::Muscle, m});
-  for (int b = 0; b < static_cast<int>(picture.bones.size()); ++b) draw_opaque({PartKind::Bone, b});
+  if (!cut) glEnable(GL_CULL_FACE);  // of what is cut the inside is seen
+  for (const Part& part : opaque) draw_part(picture, part, 1.0f);
   glDisable(GL_CULL_FACE);
   draw_attachments(picture);
   glDisable(GL_CLIP_DISTANCE0);
   draw_fibres(picture);
   draw_lines_and_tools(picture);
-  const glm::vec3 eye_m = picture.view.camera.eye_world_m();
-  std::stable_sort(clear.begin(), clear.end(), [&](const Part& a, const Part& b) {
-    return glm::distance(limb_.middle_world_m(a), eye_m) > glm::distance(limb_.middle_world_m(b), eye_m);
-  });
   if (cut) glEnable(GL_CLIP_DISTANCE0);
   limb_program_.use();
   glEnable(GL_CULL_FACE);
   glDepthMask(GL_FALSE);
-  for (const Part& part : clear) draw_part(picture, part, picture.opacity(part));
+  std::for_each(clear.rbegin(), clear.rend(),
+                [&](const Part& part) { draw_part(picture, part, picture.opacity(part)); });
   glDepthMask(GL_TRUE);
   glDisable(GL_CULL_FACE);
   glDisable(GL_CLIP_DISTANCE0);
