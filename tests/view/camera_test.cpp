@@ -54,8 +54,9 @@ TEST(ColourMap, RisesInBrightnessFromEndToEnd) {
 }
 
 TEST(KeyBindings, NoKeyIsBoundTwice) {
-  std::set<int> keys;
-  for (const KeyBinding& binding : key_bindings()) EXPECT_TRUE(keys.insert(binding.key).second) << binding.name;
+  std::set<std::pair<int, int>> keys;
+  for (const KeyBinding& binding : key_bindings())
+    EXPECT_TRUE(keys.insert({binding.key, binding.mods}).second) << name_of(binding);
 }
 
 }  // namespace

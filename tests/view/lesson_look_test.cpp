@@ -71,7 +71,7 @@ TEST(LessonLook, NoNameIsOnTheScreenWhereOneIsAskedFor) {
 TEST(LessonLook, WhatIsToBeNamedIsMarkedAndAllIsThereAgainAfterwards) {
   Looked looked(R"("show": {"bones": []}, "task": {"kind": "name", "part": "extensor"})");
   EXPECT_EQ(looked.view.selected_muscle, 1);
-  show_all(looked.view);
+  end_lesson_look(looked.view);
   EXPECT_EQ(looked.view.selected_muscle, -1);
   EXPECT_FALSE(looked.view.names_hidden);
   EXPECT_EQ(looked.view.bones, std::vector<PartLook>(2));
