@@ -12,7 +12,7 @@ namespace myotact::view {
 
 namespace {
 
-constexpr int kAround = 16;
+constexpr int kAround = 16, kAroundThread = 6;
 
 /// Two unit vectors that make a right-handed frame with `axis`.
 std::pair<glm::vec3, glm::vec3> across(const glm::vec3& axis) {
@@ -25,21 +25,23 @@ struct Ring {
   glm::vec3 centre;
   float radius;
   float slope = 0.0f;  // of the normals along the axis
+  int around = kAround;
 };
 
 /// A ring of vertices and, from the second ring on, the quads to the ring before.
 void add_ring(DrawMesh& mesh, const Ring& ring, const glm::vec3& axis, const glm::vec4& colour, bool join) {
   const auto [u, v] = across(axis);
   const auto start = static_cast<std::uint32_t>(mesh.vertices.size());
-  for (int j = 0; j < kAround; ++j) {
-    const float t = 2.0f * std::numbers::pi_v<float> * static_cast<float>(j) / kAround;
+  for (int j = 0; j < ring.around; ++j) {
+    const float t = 2.0f * std::numbers::pi_v<float> * static_cast<float>(j) / static_cast<float>(ring.around);
     const glm::vec3 out = std::cos(t) * u + std::sin(t) * v;
     mesh.vertices.push_back({ring.centre + ring.radius * out, glm::normalize(out + ring.slope * axis), colour});
   }
   if (!join) return;
-  for (std::uint32_t j = 0; j < kAround; ++j) {
-    const std::uint32_t next = (j + 1) % kAround;
-    const std::uint32_t a = start - kAround + j, b = start - kAround + next, c = start + j, d = start + next;
+  const auto around = static_cast<std::uint32_t>(ring.around);
+  for (std::uint32_t j = 0; j < around; ++j) {
+    const std::uint32_t next = (j + 1) % around;
+    const std::uint32_t a = start - around + j, b = start - around + next, c = start + j, d = start + next;
     mesh.indices.insert(mesh.indices.end(), {a, b, d, a, d, c});
   }
 }
@@ -106,6 +108,15 @@ void add_tube(DrawMesh& mesh, const glm::vec3& from_m, const glm::vec3& to_m, fl
   const glm::vec3 axis = (to_m - from_m) / length;
   add_ring(mesh, {from_m, radius_m}, axis, colour, false);
   add_ring(mesh, {to_m, radius_m}, axis, colour, true);
+}
+
+void add_thread(DrawMesh& mesh, const glm::vec3& from_m, const glm::vec3& to_m, float radius_m,
+                const glm::vec4& colour) {
+  const float length = glm::length(to_m - from_m);
+  if (length < 1e-7f) return;
+  const glm::vec3 axis = (to_m - from_m) / length;
+  add_ring(mesh, {from_m, radius_m, 0.0f, kAroundThread}, axis, colour, false);
+  add_ring(mesh, {to_m, radius_m, 0.0f, kAroundThread}, axis, colour, true);
 }
 
 void add_cone(DrawMesh& mesh, const glm::vec3& from_m, const glm::vec3& to_m, const EndRadii& radii,

@@ -43,6 +43,9 @@ class Drawable {
 // Shapes, appended to a mesh; world metres.
 void add_sphere(DrawMesh& mesh, const glm::vec3& centre_m, float radius_m, const glm::vec4& colour);
 void add_tube(DrawMesh& mesh, const glm::vec3& from_m, const glm::vec3& to_m, float radius_m, const glm::vec4& colour);
+/// A tube so thin that six sides look round.
+void add_thread(DrawMesh& mesh, const glm::vec3& from_m, const glm::vec3& to_m, float radius_m,
+                const glm::vec4& colour);
 struct EndRadii {
   float from_m = 0.0f, to_m = 0.0f;
 };

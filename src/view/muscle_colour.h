@@ -30,7 +30,7 @@ struct Legend {
 };
 
 /// Of no activation, no tension: calm, so that what is at work stands out.
-inline constexpr glm::vec3 kIdleMuscle{0.80f, 0.66f, 0.61f};
+inline constexpr glm::vec3 kIdleMuscle{0.82f, 0.64f, 0.58f};
 
 /// Atlases paint origins red and insertions blue; these are Okabe and Ito's.
 inline constexpr glm::vec3 kOriginColour{0.84f, 0.37f, 0.00f}, kInsertionColour{0.00f, 0.45f, 0.70f};

@@ -285,7 +285,7 @@ void SceneRenderer::draw_lines_and_tools(const Picture& picture) {
     if (m < picture.muscles.size() && picture.muscles[m] <= kLeast) continue;
     const auto& line = picture.frame.lines_world_m[m];
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-      add_tube(scratch_, to_glm(line[i]), to_glm(line[i + 1]), kLineRadius_m, kLine);
+      add_thread(scratch_, to_glm(line[i]), to_glm(line[i + 1]), kLineRadius_m, kLine);
     }
   }
   upload_and_draw(lines_, GL_TRIANGLES);
