@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "anatomy/part_facts.h"
 #include "app/options.h"
 #include "app/scripted_student.h"
+#include "core/data_folder.h"
 #include "core/error.h"
 #include "core/json_reader.h"
 #include "core/text.h"
@@ -76,7 +78,8 @@ int play(const Options& options, const scene::Scene& scene, const learn::Lesson&
   constexpr int kNoSamples = 1'000'000'000;
   scene::SampleTable samples(scene.specimen, scene::hands_of(scene), kNoSamples);
   scene::LockstepSession session(scene, simulation, samples, nullptr);
-  learn::LessonRun run(lesson, scene.specimen);
+  const anatomy::FactsByKey facts = anatomy::load_part_facts(data_folder() / "assets" / "canine" / "names.json");
+  learn::LessonRun run(lesson, scene.specimen, facts);
   ScriptedStudent(scene, simulation, session, run).play(answers);
   std::cout << learn::results_csv(run);
   const double most = learn::most_points(lesson);

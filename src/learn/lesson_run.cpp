@@ -4,8 +4,8 @@
 
 namespace myotact::learn {
 
-LessonRun::LessonRun(const Lesson& lesson, const anatomy::Specimen& specimen)
-    : lesson_(&lesson), specimen_(&specimen), states_(lesson.steps.size()) {}
+LessonRun::LessonRun(const Lesson& lesson, const anatomy::Specimen& specimen, const anatomy::FactsByKey& facts)
+    : lesson_(&lesson), specimen_(&specimen), facts_(&facts), states_(lesson.steps.size()) {}
 
 void LessonRun::observe(const Observation& seen) {
   constexpr double kLongestPicture_s = 5.0;  // longer ones are a machine that slept
@@ -36,7 +36,7 @@ void LessonRun::choose(std::size_t option) {
 void LessonRun::type(const std::string& name) {
   const auto* task = std::get_if<NameTask>(&step().task);
   if (task == nullptr || finished_ || now().done) return;
-  count_answer(names_part(name, task->part, *specimen_, task->accept), name, now());
+  count_answer(names_part(name, task->part, {*specimen_, *facts_, task->accept}), name, now());
 }
 
 void LessonRun::predict(Motion motion) {

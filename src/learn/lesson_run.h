@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "anatomy/part_facts.h"
 #include "anatomy/specimen.h"
 #include "learn/lesson.h"
 #include "learn/task_state.h"
@@ -14,8 +15,8 @@ namespace myotact::learn {
 /// and without one alike. One thread.
 class LessonRun {
  public:
-  /// Both outlive the run.
-  LessonRun(const Lesson& lesson, const anatomy::Specimen& specimen);
+  /// `facts`: other names of the parts that may be typed. All outlive the run.
+  LessonRun(const Lesson& lesson, const anatomy::Specimen& specimen, const anatomy::FactsByKey& facts);
 
   void observe(const Observation& seen);
 
@@ -42,6 +43,7 @@ class LessonRun {
 
   const Lesson* lesson_;
   const anatomy::Specimen* specimen_;
+  const anatomy::FactsByKey* facts_;
   std::vector<TaskState> states_;
   std::size_t index_ = 0;
   double clock_s_ = 0.0;
@@ -53,9 +55,15 @@ class LessonRun {
 /// never below none. A wrong prediction that the pull has put right still earns the half.
 double points_of(const Step& step, const TaskState& state);
 
-/// Whether the text names the part: its key, Latin or English name or one of `accept`, capitals and spaces aside, "m."
-/// for "musculus", and with a slip or two in a long word.
-bool names_part(const std::string& text, const Part& part, const anatomy::Specimen& specimen,
-                const std::vector<std::string>& accept);
+/// What a typed name is compared with.
+struct NameBook {
+  const anatomy::Specimen& specimen;
+  const anatomy::FactsByKey& facts;
+  const std::vector<std::string>& accept;  // of the part asked for, besides its own
+};
+
+/// Whether the text names the part: its key, Latin or English name, a synonym or one of `accept`, capitals and spaces
+/// aside, "m." for "musculus", and with one slip of typing in each long word, unless that is another part's name.
+bool names_part(const std::string& text, const Part& part, const NameBook& book);
 
 }  // namespace myotact::learn

@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <numeric>
 
+#include "anatomy/name_search.h"
 #include "core/text.h"
 #include "learn/lesson_run.h"
 
@@ -22,73 +22,64 @@ std::string plain_name(const std::string& text) {
   return join(words, " ");
 }
 
-/// Letters to be put in, taken out or changed (Levenshtein 1966).
-std::size_t edits_between(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({changed, diagonal + 1, row[j] + 1});
-    }
-  }
-  return row.back();
-}
-
-constexpr std::size_t kTooMany = 1000;
+constexpr int kTooMany = 1000;
 
 /// Slips by which two names of the same number of words differ, at most one in each word of five letters or more:
 /// biceps is no slip of triceps.
-std::size_t slips_between(const std::string& a, const std::string& b) {
+int slips_between(const std::string& a, const std::string& b) {
   constexpr std::size_t kLongWord = 5;
   const auto words_a = words_of(a), words_b = words_of(b);
   if (words_a.size() != words_b.size()) return kTooMany;
-  std::size_t slips = 0;
+  int slips = 0;
   for (std::size_t w = 0; w < words_a.size(); ++w) {
-    const std::size_t edits = edits_between(std::string(words_a[w]), std::string(words_b[w]));
-    if (edits > (words_b[w].size() < kLongWord ? 0u : 1u)) return kTooMany;
-    slips += edits;
+    const int here = anatomy::typing_slips(words_a[w], words_b[w]);
+    if (here > (words_b[w].size() < kLongWord ? 0 : 1)) return kTooMany;
+    slips += here;
   }
   return slips;
 }
 
-std::size_t slips_to(const std::string& typed, const std::vector<std::string>& names) {
-  std::size_t fewest = kTooMany;
+int slips_to(const std::string& typed, const std::vector<std::string>& names) {
+  int fewest = kTooMany;
   for (const std::string& name : names) fewest = std::min(fewest, slips_between(typed, plain_name(name)));
   return fewest;
 }
 
-std::vector<std::string> names_of(const anatomy::Specimen& specimen, const Part& part) {
+std::vector<std::string> names_of(const NameBook& book, const Part& part) {
+  const std::string key = key_of(book.specimen, part);
+  std::vector<std::string> names = anatomy::facts_of(book.facts, key).synonyms;
+  names.push_back(key.substr(key.find('.') + 1));
+  const auto add = [&](const auto& item) {
+    names.push_back(item.name_la);
+    names.push_back(item.name_en);
+  };
   if (part.muscle >= 0) {
-    const anatomy::Muscle& muscle = specimen.muscles[static_cast<std::size_t>(part.muscle)];
-    return {muscle.key.substr(muscle.key.find('.') + 1), muscle.name_la, muscle.name_en};
+    add(book.specimen.muscles[static_cast<std::size_t>(part.muscle)]);
+  } else {
+    add(book.specimen.bones[static_cast<std::size_t>(part.bone)]);
   }
-  const anatomy::Bone& bone = specimen.bones[static_cast<std::size_t>(part.bone)];
-  return {bone.key, bone.name_la, bone.name_en};
+  return names;
 }
 
 }  // namespace
 
-bool names_part(const std::string& text, const Part& part, const anatomy::Specimen& specimen,
-                const std::vector<std::string>& accept) {
+bool names_part(const std::string& text, const Part& part, const NameBook& book) {
   constexpr std::size_t kLongest = 100;  // no name is longer, and comparing is quadratic
   const std::string typed = plain_name(text.substr(0, kLongest));
   if (typed.empty()) return false;
-  std::vector<std::string> names = names_of(specimen, part);
-  names.insert(names.end(), accept.begin(), accept.end());
-  const std::size_t slips = slips_to(typed, names);
+  std::vector<std::string> names = names_of(book, part);
+  names.insert(names.end(), book.accept.begin(), book.accept.end());
+  const int slips = slips_to(typed, names);
   if (slips == 0) return true;
   if (slips == kTooMany) return false;
   // A slip must not make one muscle's name out of another's: tibialis cranialis, tibialis caudalis.
   const auto nearer = [&](const Part& other) {
-    return other != part && slips_to(typed, names_of(specimen, other)) <= slips;
+    return other != part && slips_to(typed, names_of(book, other)) <= slips;
   };
-  for (int m = 0; m < static_cast<int>(specimen.muscles.size()); ++m) {
+  for (int m = 0; m < static_cast<int>(book.specimen.muscles.size()); ++m) {
     if (nearer({m, -1})) return false;
   }
-  for (int b = 0; b < static_cast<int>(specimen.bones.size()); ++b) {
+  for (int b = 0; b < static_cast<int>(book.specimen.bones.size()); ++b) {
     if (nearer({-1, b})) return false;
   }
   return true;

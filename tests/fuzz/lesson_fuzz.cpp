@@ -23,7 +23,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   testing::check_reader("f.json", [&] {
     const learn::Lesson lesson = learn::parse_lesson(std::string(testing::as_text(data, size)), "f.json", specimen());
     testing::require(!lesson.steps.empty());
-    learn::LessonRun run(lesson, specimen());
+    const anatomy::FactsByKey facts;
+    learn::LessonRun run(lesson, specimen(), facts);
     const messages::SceneFrame frame;
     while (!run.finished()) {
       run.observe({specimen(), frame, 0.0, {0, -1}});

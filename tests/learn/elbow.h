@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "anatomy/part_facts.h"
 #include "anatomy/specimen.h"
 #include "learn/lesson_file.h"
 
@@ -12,6 +13,12 @@ inline const anatomy::Specimen& elbow() {
   static const anatomy::Specimen kElbow =
       anatomy::load_specimen(std::filesystem::path(MYOTACT_SOURCE_DIR) / "meshes" / "canine_elbow");
   return kElbow;
+}
+
+/// One synonym.
+inline const anatomy::FactsByKey& facts() {
+  static const anatomy::FactsByKey kFacts = {{"ulna", {{"elbow bone"}, "", "", "", "", "", ""}}};
+  return kFacts;
 }
 
 /// A lesson of the elbow whose only step holds these members, the first of them the task.

@@ -14,7 +14,7 @@ using testing::lesson_of;
 
 TEST(LessonResults, OneRowATaskQuotedAsSpreadsheetsReadIt) {
   const Lesson lesson = lesson_of(R"("task": {"kind": "name", "part": "biceps_brachii"}, "hints": ["h"])");
-  LessonRun run(lesson, elbow());
+  LessonRun run(lesson, elbow(), testing::facts());
   const messages::SceneFrame frame;
   run.observe({elbow(), frame, 10.0, {}});
   run.observe({elbow(), frame, 12.345, {}});
@@ -32,7 +32,7 @@ TEST(LessonResults, OneRowATaskQuotedAsSpreadsheetsReadIt) {
 
 TEST(LessonResults, ReadingIsNoRow) {
   const Lesson lesson = lesson_of(R"("points": 0)");
-  const LessonRun run(lesson, elbow());
+  const LessonRun run(lesson, elbow(), testing::facts());
   EXPECT_EQ(results_csv(run), "lesson,step,task,answer,right,attempts,hints,seconds,score\n");
 }
 

@@ -15,7 +15,7 @@ constexpr int kBiceps = 0, kBrachialis = 1;
 /// A scene as the simulation would publish it, and the student before it.
 class Class {
  public:
-  explicit Class(const std::string& members) : lesson(lesson_of(members)), run(lesson, elbow()) {
+  explicit Class(const std::string& members) : lesson(lesson_of(members)), run(lesson, elbow(), testing::facts()) {
     frame.joints.resize(elbow().joints.size());
     for (auto& joint : frame.joints) joint.muscles.resize(elbow().muscles.size());
     frame.tools.resize(1);
@@ -236,7 +236,7 @@ TEST(LessonRun, LeftOutStepsEarnNothingAndGoingBackKeepsAnswers) {
     {"title": "c", "text": "x", "task": {"kind": "find", "part": "ulna"}}]})";
   const Lesson lesson = parse_lesson(steps, "l.json", elbow());
   EXPECT_EQ(most_points(lesson), 2.0);
-  LessonRun run(lesson, elbow());
+  LessonRun run(lesson, elbow(), testing::facts());
   run.go_back();
   EXPECT_EQ(run.index(), 0u);
   run.go_on();

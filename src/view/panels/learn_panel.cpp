@@ -77,18 +77,18 @@ void LearnPanel::draw_listed(const learn::ListedLesson& lesson, PanelContext& co
   if (lesson.head.scene == context.facts.name) {
     const bool start = ImGui::Button(fmt::format("{}###start", ui::tr("learn.start")).c_str());
     ui::note_control(fmt::format("learn.start.{}", lesson.head.key).c_str());
-    if (start) open(lesson, context.specimen);
+    if (start) open(lesson, context);
   } else {
     ui::paragraph(ui::tr("learn.other_scene", lesson.head.scene));
   }
   ImGui::PopID();
 }
 
-void LearnPanel::open(const learn::ListedLesson& lesson, const anatomy::Specimen& specimen) {
+void LearnPanel::open(const learn::ListedLesson& lesson, const PanelContext& context) {
   message_.clear();
   typed_.clear();
   try {
-    open_ = std::make_unique<Open>(learn::load_lesson(lesson.path, specimen), specimen);
+    open_ = std::make_unique<Open>(learn::load_lesson(lesson.path, context.specimen), context);
   } catch (const Error& error) {
     message_ = ui::tr("learn.broken", error.what());
   }

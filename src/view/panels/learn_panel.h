@@ -22,8 +22,8 @@ class LearnPanel {
  private:
   /// A lesson under way; refers to the specimen of the scene that is open.
   struct Open {
-    Open(learn::Lesson read, const anatomy::Specimen& specimen)
-        : lesson(std::move(read)), run(lesson, specimen), specimen(&specimen) {}
+    Open(learn::Lesson read, const PanelContext& context)
+        : lesson(std::move(read)), run(lesson, context.specimen, context.part_facts), specimen(&context.specimen) {}
     learn::Lesson lesson;
     learn::LessonRun run;
     const anatomy::Specimen* specimen;
@@ -35,7 +35,7 @@ class LearnPanel {
   void draw_step(PanelContext& context, float aspect);
   void draw_steps_buttons();
   void draw_results(PanelContext& context);
-  void open(const learn::ListedLesson& lesson, const anatomy::Specimen& specimen);
+  void open(const learn::ListedLesson& lesson, const PanelContext& context);
   void close(ViewState& view);
   void save_results();
 
