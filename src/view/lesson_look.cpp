@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "view/limb_bounds.h"
-
 namespace myotact::view {
 
 namespace {
@@ -27,10 +25,18 @@ MuscleColour colour_of(const std::string& name) {
   return found == kColours.end() ? MuscleColour::Kind : found->second;
 }
 
-/// In these tasks a name on the screen would be the answer.
-bool asks_for_a_name(const learn::Task& task) {
+/// In these tasks a name on the screen, or what is told of a muscle beside it, would be the answer.
+bool is_told_by_names(const learn::Task& task) {
   return std::holds_alternative<learn::FindTask>(task) || std::holds_alternative<learn::NameTask>(task) ||
-         std::holds_alternative<learn::IdentifyTask>(task);
+         std::holds_alternative<learn::PredictTask>(task) || std::holds_alternative<learn::IdentifyTask>(task);
+}
+
+/// What the task is about, where to find it is not the task.
+learn::Part marked_part(const learn::Task& task) {
+  if (const auto* name = std::get_if<learn::NameTask>(&task)) return name->part;
+  if (const auto* press = std::get_if<learn::PressTask>(&task)) return {press->muscle, -1};
+  if (const auto* predict = std::get_if<learn::PredictTask>(&task)) return {predict->muscle, -1};
+  return {};
 }
 
 void set_scene(const learn::Setting& set, SceneState& scene) {
@@ -50,8 +56,7 @@ void set_scene(const learn::Setting& set, SceneState& scene) {
 
 }  // namespace
 
-void show_step(const learn::Step& step, const anatomy::Specimen& specimen, float aspect, ViewState& view,
-               SceneState& scene) {
+void show_step(const learn::Step& step, ViewState& view, SceneState& scene) {
   show_only(step.show.muscles, view.muscles);
   show_only(step.show.bones, view.bones);
   for (const learn::Part& part : step.show.faded) {
@@ -61,15 +66,20 @@ void show_step(const learn::Step& step, const anatomy::Specimen& specimen, float
   view.layers = {};
   view.section.on = false;
   view.colour = colour_of(step.show.colour);
-  view.names_hidden = asks_for_a_name(step.task);
+  view.names_hidden = is_told_by_names(step.task);
   view.labels = step.show.labels && !view.names_hidden;
-  const auto* name = std::get_if<learn::NameTask>(&step.task);
-  view.selected_muscle = name == nullptr ? -1 : name->part.muscle;
-  view.selected_bone = name == nullptr ? -1 : name->part.bone;
-  if (!step.view.empty()) {
-    view.camera = standard_view(step.view, specimen.side != "right", bounds_of(specimen), aspect).value_or(view.camera);
-  }
+  const learn::Part marked = marked_part(step.task);
+  view.selected_muscle = marked.muscle;
+  view.selected_bone = marked.bone;
   set_scene(step.set, scene);
+}
+
+PointerMode pointer_mode_for(const learn::Task& task) {
+  if (std::holds_alternative<learn::PredictTask>(task)) return PointerMode::Pull;
+  const bool touches = std::holds_alternative<learn::TouchTask>(task) ||
+                       std::holds_alternative<learn::PressTask>(task) ||
+                       std::holds_alternative<learn::IdentifyTask>(task);
+  return touches ? PointerMode::Touch : PointerMode::Look;
 }
 
 void end_lesson_look(ViewState& view) {

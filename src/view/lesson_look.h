@@ -4,15 +4,17 @@
 
 #include "anatomy/specimen.h"
 #include "learn/lesson.h"
+#include "view/panels/panel.h"
 #include "view/scene_state.h"
 #include "view/view_state.h"
 
 namespace myotact::view {
 
-/// Shows and sets what a step of a lesson asks for, as a person could by hand, so that undo brings back what was.
-/// `aspect`: width over height of the picture.
-void show_step(const learn::Step& step, const anatomy::Specimen& specimen, float aspect, ViewState& view,
-               SceneState& scene);
+/// Shows and sets what a step of a lesson asks for, as a person could by hand, so that undo brings back what was. The
+/// side from which it is seen is left to the window.
+void show_step(const learn::Step& step, ViewState& view, SceneState& scene);
+/// What the mouse has to be for the task.
+PointerMode pointer_mode_for(const learn::Task& task);
 /// Everything drawn and named again, as after a lesson.
 void end_lesson_look(ViewState& view);
 

@@ -81,7 +81,13 @@ std::optional<PickHit> Pointer::look_through(const PanelContext& context, const 
   const ImVec2 at = ImGui::GetIO().MousePos;
   const Ray ray = ray_through(context.view.camera, (at.x - scene.x) / scene.width, (at.y - scene.y) / scene.height,
                               scene.width / scene.height);
-  return pick(context.specimen, context.frame, context.view, superficial, ray);
+  if (!context.view.names_hidden || mode_ == PointerMode::Look) {
+    return pick(context.specimen, context.frame, context.view, superficial, ray);
+  }
+  // What is to be known by touch is felt where it cannot be seen.
+  ViewState uncovered = context.view;
+  for (PartLook& look : uncovered.muscles) look = {};
+  return pick(context.specimen, context.frame, uncovered, superficial, ray);
 }
 
 void Pointer::turn(PanelContext& context) {

@@ -9,9 +9,6 @@
 
 namespace myotact::view {
 
-/// What the mouse is over the scene.
-enum class PointerMode { Look, Touch, Pull };
-
 /// The mouse over the scene. Always: the wheel comes nearer, the right button shifts the picture or, without a drag,
 /// opens a part's menu; Ctrl and the mouse are the hand, freely.
 ///

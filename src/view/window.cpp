@@ -227,13 +227,13 @@ struct Window::Impl {
     };
     tab("tasks.feel", [&] { feel.draw(context); });
     tab("tasks.demonstrate", [&] { demonstrate.draw(context); });
-    tab("tasks.learn",
-        [&] { learn.draw(context, layout.scene.empty() ? 1.0f : layout.scene.width / layout.scene.height); });
+    tab("tasks.learn", [&] { learn.draw(context); });
     tab("tasks.plots", [&] { plots.draw(); });
     ImGui::EndTabBar();
   }
 
   void obey(const WindowAsks& asks, const messages::SceneFrame& frame) {
+    if (asks.pointer_mode) pointer.set_mode(*asks.pointer_mode);
     if (asks.standard_view != nullptr) look(asks.standard_view, frame);
     if (asks.frame_selection) look_at_selection(frame);
     if (asks.help) help = !help;

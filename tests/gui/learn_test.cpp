@@ -48,7 +48,7 @@ TEST_F(LearnGui, AQuizOfOnesOwnIsAnsweredAndItsResultsAreKept) {
   gui.screenshot("list");
   gui.click("learn.start.quiz");
   ASSERT_TRUE(gui.wait_until([](const json& state) { return state["view"]["hidden_muscles"].size() == 6; }));
-  EXPECT_LT(gui.state()["view"]["camera"]["azimuth_rad"], 0.0) << "the medial view";
+  EXPECT_TRUE(gui.wait_until([](const json& state) { return state["view"]["camera"]["azimuth_rad"] < 0.0; }, 5.0));
   gui.click("learn.next");
   gui.click("learn.option.radius");
   gui.click("learn.hint");

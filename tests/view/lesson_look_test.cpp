@@ -21,7 +21,7 @@ struct Looked {
     view.section.on = true;
     view.selected_bone = 1;
     before = view;
-    show_step(lesson.steps[0], specimen, 1.0f, view, scene);
+    show_step(lesson.steps[0], view, scene);
   }
   anatomy::Specimen specimen;
   learn::Lesson lesson;
@@ -47,7 +47,6 @@ TEST(LessonLook, ShowsSetsAndLooksAsTheStepSays) {
   EXPECT_EQ(looked.view.bones, (std::vector<PartLook>{{true, false}, {true, false}}));
   EXPECT_EQ(looked.view.colour, MuscleColour::Tension);
   EXPECT_TRUE(looked.view.labels);
-  EXPECT_NE(looked.view.camera, looked.before.camera);
   EXPECT_EQ(looked.scene.drive, Drive::Balance);
   EXPECT_EQ(looked.scene.common, 0.4);
   EXPECT_TRUE(looked.scene.hold_posture);
@@ -60,12 +59,19 @@ TEST(LessonLook, ShowsSetsAndLooksAsTheStepSays) {
 TEST(LessonLook, NoNameIsOnTheScreenWhereOneIsAskedFor) {
   for (const char* task : {R"({"kind": "find", "part": "flexor"})",
                            R"({"kind": "identify", "part": "flexor", "options": ["flexor", "extensor"]})",
+                           R"({"kind": "predict", "muscle": "flexor", "joint": "elbow", "motion": "flexion"})",
                            R"({"kind": "name", "part": "flexor"})"}) {
     const Looked looked(R"("show": {"labels": true}, "task": )" + std::string(task));
     EXPECT_TRUE(looked.view.names_hidden) << task;
     EXPECT_FALSE(looked.view.labels) << task;
   }
   EXPECT_FALSE(Looked(R"("task": {"kind": "touch", "part": "flexor"})").view.names_hidden);
+}
+
+TEST(LessonLook, TheMouseIsWhatTheTaskNeeds) {
+  EXPECT_EQ(pointer_mode_for(learn::PressTask{}), PointerMode::Touch);
+  EXPECT_EQ(pointer_mode_for(learn::PredictTask{}), PointerMode::Pull);
+  EXPECT_EQ(pointer_mode_for(learn::FindTask{}), PointerMode::Look);
 }
 
 TEST(LessonLook, WhatIsToBeNamedIsMarkedAndAllIsThereAgainAfterwards) {

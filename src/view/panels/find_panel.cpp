@@ -107,11 +107,12 @@ void FindPanel::draw_tree(PanelContext& context) {
 
 void FindPanel::draw(PanelContext& context) {
   hovered_ = {};
+  if (context.view.names_hidden) return ui::paragraph(ui::tr("learn.names_hidden"));
   ImGui::SetNextItemWidth(-1.0f);
   if (focus_) ImGui::SetKeyboardFocusHere();
   focus_ = false;
   ui::input_text("find.search", text_);
-  const bool card = static_cast<bool>(selected_part(context.view)) && !context.view.names_hidden;
+  const bool card = static_cast<bool>(selected_part(context.view));
   constexpr float kCard = 0.42f;  // of the panel's height
   const float below = card ? kCard * ImGui::GetWindowHeight() : 0.0f;
   ImGui::BeginChild("parts", ImVec2(0.0f, -below));

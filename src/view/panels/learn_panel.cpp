@@ -42,10 +42,10 @@ void LearnPanel::observe(PanelContext& context) {
   open_->run.observe({context.specimen, context.frame, ImGui::GetTime(), selected});
 }
 
-void LearnPanel::draw(PanelContext& context, float aspect) {
+void LearnPanel::draw(PanelContext& context) {
   if (!open_) return draw_list(context);
   if (open_->run.finished()) return draw_results(context);
-  draw_step(context, aspect);
+  draw_step(context);
 }
 
 void LearnPanel::draw_list(PanelContext& context) {
@@ -100,10 +100,12 @@ void LearnPanel::close(ViewState& view) {
   end_lesson_look(view);
 }
 
-void LearnPanel::draw_step(PanelContext& context, float aspect) {
+void LearnPanel::draw_step(PanelContext& context) {
   learn::LessonRun& run = open_->run;
   if (open_->shown != run.index()) {
-    show_step(run.step(), context.specimen, aspect, context.view, context.controls.scene);
+    show_step(run.step(), context.view, context.controls.scene);
+    if (!run.step().view.empty()) context.asks.standard_view = run.step().view.c_str();
+    context.asks.pointer_mode = pointer_mode_for(run.step().task);
     open_->shown = run.index();
     typed_.clear();
   }
@@ -122,28 +124,26 @@ void LearnPanel::draw_step(PanelContext& context, float aspect) {
     ui::paragraph(ui::tr("learn.hint_text", run.step().hints[static_cast<std::size_t>(h)]));
   }
   ImGui::EndChild();
-  draw_steps_buttons();
-  ImGui::SameLine();
-  if (ui::button("learn.close")) close(context.view);
+  draw_steps_buttons(context.view);
 }
 
-void LearnPanel::draw_steps_buttons() {
+/// Each has its place whatever the step, so that a second click never meets another one.
+void LearnPanel::draw_steps_buttons(ViewState& view) {
   learn::LessonRun& run = open_->run;
-  if (run.index() > 0) {
-    if (ui::button("learn.back")) run.go_back();
+  const auto enabled_button = [](bool enabled, const char* key) {
+    ImGui::BeginDisabled(!enabled);
+    const bool pressed = ui::button(key);
+    ImGui::EndDisabled();
     ImGui::SameLine();
-  }
-  const bool reading = std::holds_alternative<learn::ReadTask>(run.step().task);
+    return pressed;
+  };
   const bool hints_left = run.state().hints < static_cast<int>(run.step().hints.size());
-  if (hints_left && !run.state().done) {
-    if (ui::button("learn.hint")) run.ask_hint();
-    ImGui::SameLine();
-  }
-  if (run.state().done || reading) {
-    if (ui::button("learn.next")) run.go_on();
-  } else if (ui::button("learn.leave_out")) {
-    run.go_on();
-  }
+  if (enabled_button(run.index() > 0, "learn.back")) run.go_back();
+  if (enabled_button(hints_left && !run.state().done, "learn.hint")) run.ask_hint();
+  const bool goes_on = run.state().done || std::holds_alternative<learn::ReadTask>(run.step().task);
+  const bool ends = enabled_button(true, "learn.close");
+  if (ui::button(goes_on ? "learn.next" : "learn.leave_out")) run.go_on();
+  if (ends) close(view);
 }
 
 void LearnPanel::draw_results(PanelContext& context) {

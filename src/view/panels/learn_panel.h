@@ -16,8 +16,7 @@ class LearnPanel {
  public:
   /// Every picture, drawn or not, so that a task goes on while the person looks at another panel.
   void observe(PanelContext& context);
-  /// `aspect`: width over height of the scene's picture.
-  void draw(PanelContext& context, float aspect);
+  void draw(PanelContext& context);
 
  private:
   /// A lesson under way; refers to the specimen of the scene that is open.
@@ -32,8 +31,8 @@ class LearnPanel {
 
   void draw_list(PanelContext& context);
   void draw_listed(const learn::ListedLesson& lesson, PanelContext& context);
-  void draw_step(PanelContext& context, float aspect);
-  void draw_steps_buttons();
+  void draw_step(PanelContext& context);
+  void draw_steps_buttons(ViewState& view);
   void draw_results(PanelContext& context);
   void open(const learn::ListedLesson& lesson, const PanelContext& context);
   void close(ViewState& view);

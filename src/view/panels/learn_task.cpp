@@ -71,14 +71,23 @@ void draw_band(double force_N, const learn::PressTask& task) {
   ui::paragraph(ui::tr("learn.press.force", force_N, task.low_N, task.high_N, ui::tr(where)));
 }
 
+/// Says so where the tool is on another muscle than the one asked for.
+void draw_place(const Scribe& s, int messages::ToolFrame::*what, int wanted, const char* key) {
+  for (const messages::ToolFrame& tool : s.context.frame.tools) {
+    if (tool.*what >= 0 && tool.*what != wanted) ui::paragraph(ui::tr(key, s.name({tool.*what, -1})));
+  }
+}
+
 void draw(const Scribe&, const learn::ReadTask&) {}
 
 void draw(const Scribe& s, const learn::FindTask&) {
   if (!s.state().done) ui::paragraph(ui::tr("learn.find"));
 }
 
-void draw(const Scribe& s, const learn::TouchTask&) {
-  if (!s.state().done) ui::paragraph(ui::tr("learn.touch"));
+void draw(const Scribe& s, const learn::TouchTask& task) {
+  if (s.state().done) return;
+  ui::paragraph(ui::tr("learn.touch"));
+  draw_place(s, &messages::ToolFrame::touched_muscle, task.part.muscle, "learn.on_other");
 }
 
 void draw(const Scribe& s, const learn::NameTask& task) {
@@ -94,6 +103,7 @@ void draw(const Scribe& s, const learn::PressTask& task) {
   ui::paragraph(ui::tr("learn.press", s.name({task.muscle, -1})));
   draw_band(s.state().force_N, task);
   draw_time_held(s.state().held_s, task.hold_s);
+  draw_place(s, &messages::ToolFrame::touched_muscle, task.muscle, "learn.on_other");
 }
 
 void draw_explanation(const Scribe& s, const learn::PredictTask& task) {
@@ -118,6 +128,7 @@ void draw(const Scribe& s, const learn::PredictTask& task) {
   ui::paragraph(ui::tr("learn.pull", s.name({task.muscle, -1})));
   draw_share("learn.turned", std::abs(state.turned_rad) / task.turn_rad,
              ui::tr("learn.turned", kDegrees * state.turned_rad));
+  draw_place(s, &messages::ToolFrame::grabbed_line, task.muscle, "learn.holds_other");
 }
 
 void draw(const Scribe& s, const learn::StiffenTask& task) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,12 @@ struct SceneFacts {
   int joint = 0;                            // that is watched: co-contracted, or the first
 };
 
+/// What the mouse is over the scene.
+enum class PointerMode { Look, Touch, Pull };
+
 /// What a panel asks of the window itself, once.
 struct WindowAsks {
+  std::optional<PointerMode> pointer_mode;
   const char* standard_view = nullptr;  // to look from; null: none
   bool frame_selection = false;         // to come near what is selected; all when nothing is
   bool undo = false, redo = false;
