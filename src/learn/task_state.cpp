@@ -46,9 +46,8 @@ void hold(bool holds, double dt_s, TaskState& state) {
 }
 
 void feel(const Part& part, const Look& look, TaskState& state) {
-  if (state.touched) return;
   state.held_s = tool_on(part, look.seen) != nullptr ? state.held_s + look.dt_s : 0.0;
-  state.touched = state.held_s >= kTouch_s;
+  state.touched = state.touched || state.held_s >= kTouch_s;
 }
 
 void watch_task(const ReadTask&, const Look&, TaskState&) {}

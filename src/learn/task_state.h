@@ -32,8 +32,8 @@ struct TaskState {
   Part wrong_part;  // of the last wrong answer, where it was a part
 
   // As of the last picture, for the student to see.
-  bool touched = false;  // the part asked for, long enough
-  double held_s = 0.0;   // of the time that is asked for
+  bool touched = false;  // the part asked for, long enough, now or before
+  double held_s = 0.0;   // so long now, of the time that is asked for
   double force_N = 0.0;  // on the hand
   std::optional<Motion> predicted;
   double lever_m = 0.0;     // of the muscle about the joint, positive flexes

@@ -151,7 +151,8 @@ void draw(const Scribe& s, const learn::StiffenTask& task) {
 
 void draw(const Scribe& s, const learn::IdentifyTask& task) {
   if (s.state().done) return;
-  ui::paragraph(ui::tr(s.state().touched ? "learn.identify.found" : "learn.identify"));
+  const bool on_it = s.state().touched && s.state().held_s > 0.0;
+  ui::paragraph(ui::tr(on_it ? "learn.identify.found" : s.state().touched ? "learn.identify.left" : "learn.identify"));
   draw_options(s, task.options);
 }
 
