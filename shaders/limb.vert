@@ -50,7 +50,7 @@ void main() {
   float seen = mix(exposure.x, exposure.y, together);
   float key = max(0.15 + 0.85 * dot(n, key_world), 0.0);
   vec3 sky = mix(vec3(0.38, 0.35, 0.34), vec3(0.52, 0.55, 0.58), 0.5 + 0.5 * n.z);
-  vec3 light = vec3(0.62, 0.60, 0.56) * key * (0.35 + 0.65 * seen) + sky * (0.25 + 0.75 * seen);
+  vec3 light = vec3(0.57, 0.55, 0.515) * key * (0.35 + 0.65 * seen) + sky * (0.25 + 0.75 * seen);
   float rim = 1.0 - dot(n, to_eye);
   rim *= rim * rim;
   float shine = pow(max(dot(n, normalize(key_world + to_eye)), 0.0), 28.0) * finish.y * seen;

@@ -9,11 +9,15 @@ namespace myotact::app {
 
 namespace {
 
+/// Of the picture's width, for the limb when names stand at its sides.
+constexpr float kShareBesideNames = 0.62f;
+
 view::ViewState look_of(const scene::Scene& scene, const messages::SceneFrame& frame, const PictureWish& wish) {
   const float aspect = static_cast<float>(wish.size.width) / static_cast<float>(wish.size.height);
   view::ViewState look = view::start_view(scene.specimen, aspect);
   view::apply_show_options(wish.show, scene.specimen, look);
-  look.camera = view::camera_of(wish.view, scene.specimen, view::bounds_of(scene.specimen, frame), aspect);
+  const float limb_aspect = look.labels ? kShareBesideNames * aspect : aspect;
+  look.camera = view::camera_of(wish.view, scene.specimen, view::bounds_of(scene.specimen, frame), limb_aspect);
   return look;
 }
 

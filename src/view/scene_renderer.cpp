@@ -16,7 +16,7 @@ namespace myotact::view {
 
 namespace {
 
-constexpr glm::vec3 kBone{0.93f, 0.89f, 0.79f};
+constexpr glm::vec3 kBone{0.90f, 0.86f, 0.76f};
 constexpr glm::vec4 kLine{0.72f, 0.13f, 0.10f, 1.0f};
 constexpr glm::vec4 kFibre{0.33f, 0.10f, 0.08f, 0.75f};
 constexpr glm::vec4 kSelected{0.76f, 0.18f, 0.52f, 1.0f}, kHovered{0.36f, 0.36f, 0.42f, 0.9f};
