@@ -178,16 +178,15 @@ bool ScriptedStudent::touch(int muscle) {
   return false;
 }
 
-bool ScriptedStudent::pull(int muscle) {
+void ScriptedStudent::pull(int muscle) {
   constexpr double kDrag_m = 0.010, kPull_s = 3.0;
   const std::vector<Reach> reaches = reaches_of(muscle, scene_->specimen, *simulation_);
   for (std::size_t i = 0; i < std::min(kTries, reaches.size()) && !run_->state().done; ++i) {
     let_go();
     go_to_side(muscle, reaches[i]);
     begin(scene::GrabLine{muscle, reaches[i].at, reaches[i].from, kDrag_m * reaches[i].from}, kPull_s);
-    wait(kPull_s);
+    for (double passed_s = 0.0; passed_s < kPull_s && !run_->state().done; passed_s += scene_->settings.dt_s) step();
   }
-  return run_->state().done;
 }
 
 }  // namespace myotact::app

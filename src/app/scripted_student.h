@@ -46,7 +46,8 @@ class ScriptedStudent {
 
   /// Until the muscle is touched, at one of its clearest places; false where none can be reached.
   bool touch(int muscle);
-  bool pull(int muscle);
+  /// Until the lesson has seen the joint turn, or no place is left to take the line at.
+  void pull(int muscle);
   void begin(const scene::Deed& deed, double duration_s);
   void let_go();
   /// Round the limb at a distance, to the side from which the muscle is reached.

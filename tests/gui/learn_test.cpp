@@ -75,6 +75,44 @@ TEST_F(LearnGui, AQuizOfOnesOwnIsAnsweredAndItsResultsAreKept) {
   EXPECT_TRUE(gui.wait_until([](const json& state) { return state["view"]["hidden_muscles"].empty(); }, 5.0));
 }
 
+/// With the left button down at a muscle, moved by a few pixels a time.
+void hold_at(GuiProgram& gui, const std::string& muscle, double step_px) {
+  const auto place = gui.place_of("muscles", muscle);
+  gui.move_to(place[0], place[1]);
+  testing::pause_s(1.0);
+  gui.press();
+  testing::pause_s(1.5);
+  for (int i = 1; i <= 20; ++i) gui.move_to(place[0] + step_px * i, place[1]);
+}
+
+TEST_F(LearnGui, TheMouseTouchesPressesAndPulls) {
+  const auto data = data_with_quizzes();
+  std::ofstream(data / "myotact" / "lessons" / "hands.json") << R"({
+    "schema": 1, "key": "hands", "title": "Hands", "scene": "elbow", "steps": [
+    {"title": "a", "text": "t", "view": "lateral", "task": {"kind": "touch", "part": "triceps_brachii_long"}},
+    {"title": "b", "text": "t", "view": "lateral",
+     "task": {"kind": "press", "muscle": "triceps_brachii_long", "band_N": [0.05, 3], "hold_s": 0.5}},
+    {"title": "c", "text": "t", "view": "medial", "set": {"hold_posture": false},
+     "task": {"kind": "predict", "muscle": "biceps_brachii", "joint": "elbow", "motion": "flexion"}}]})";
+  GuiProgram gui("learn_hands", "elbow", "XDG_DATA_HOME=" + data.string());
+  gui.click("tasks.learn");
+  gui.click("learn.start.hands");
+  for (int step = 0; step < 2; ++step) {
+    testing::pause_s(1.0);  // until the camera has come round
+    hold_at(gui, "triceps_brachii_long", 0.0);
+    EXPECT_TRUE(gui.wait_until([&](const json&) { return gui.shows("learn.next"); }, 10.0)) << "step " << step;
+    gui.screenshot("touched");
+    gui.release();
+    gui.click("learn.next");
+  }
+  gui.click("learn.flexion");
+  testing::pause_s(1.0);
+  hold_at(gui, "biceps_brachii", 4.0);  // cranially: to the right in the medial view
+  EXPECT_TRUE(gui.wait_until([&](const json&) { return gui.shows("learn.next"); }, 10.0));
+  gui.screenshot("pulled");
+  gui.release();
+}
+
 TEST_F(LearnGui, TheElbowIsStiffenedInItsLesson) {
   GuiProgram gui("learn_stiffen", "elbow");
   gui.click("tasks.learn");

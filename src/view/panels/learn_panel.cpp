@@ -44,8 +44,10 @@ void LearnPanel::observe(PanelContext& context) {
 
 void LearnPanel::draw(PanelContext& context) {
   if (!open_) return draw_list(context);
-  if (open_->run.finished()) return draw_results(context);
-  draw_step(context);
+  if (!open_->run.finished()) return draw_step(context);
+  if (open_->shown) end_lesson_look(context.view);
+  open_->shown.reset();  // to be shown again by who goes back
+  draw_results(context);
 }
 
 void LearnPanel::draw_list(PanelContext& context) {
