@@ -12,9 +12,10 @@ namespace myotact::view {
 namespace {
 
 std::string key_name(int key) {
-  constexpr std::array kNames = {std::pair{GLFW_KEY_SPACE, "Space"},         std::pair{GLFW_KEY_RIGHT, "Right"},
-                                 std::pair{GLFW_KEY_BACKSPACE, "Backspace"}, std::pair{GLFW_KEY_HOME, "Home"},
-                                 std::pair{GLFW_KEY_ESCAPE, "Esc"},          std::pair{GLFW_KEY_ENTER, "Enter"}};
+  constexpr std::array kNames = {std::pair{GLFW_KEY_SPACE, "Space"}, std::pair{GLFW_KEY_RIGHT, "Right"},
+                                 std::pair{GLFW_KEY_LEFT, "Left"},   std::pair{GLFW_KEY_BACKSPACE, "Backspace"},
+                                 std::pair{GLFW_KEY_HOME, "Home"},   std::pair{GLFW_KEY_ESCAPE, "Esc"},
+                                 std::pair{GLFW_KEY_ENTER, "Enter"}};
   for (const auto& [code, name] : kNames) {
     if (code == key) return name;
   }
@@ -46,6 +47,7 @@ const std::vector<KeyBinding>& key_bindings() {
       {GLFW_KEY_ENTER, 0, KeyAction::EnableForces, "keys.enable_forces"},
       {GLFW_KEY_SPACE, 0, KeyAction::PauseOrPlay, "keys.pause"},
       {GLFW_KEY_RIGHT, 0, KeyAction::Step, "keys.step"},
+      {GLFW_KEY_LEFT, 0, KeyAction::StepBack, "keys.step_back"},
       {GLFW_KEY_BACKSPACE, 0, KeyAction::Reset, "keys.reset"},
       {GLFW_KEY_V, 0, KeyAction::Look, "keys.look"},
       {GLFW_KEY_T, 0, KeyAction::Touch, "keys.touch"},

@@ -10,6 +10,7 @@ enum class KeyAction {
   Help,
   PauseOrPlay,
   Step,
+  StepBack,
   Reset,
   Look,
   Touch,

@@ -28,6 +28,7 @@
 #include "view/panels/part_menu.h"
 #include "view/panels/plots_panel.h"
 #include "view/panels/status_bar.h"
+#include "view/panels/timeline_panel.h"
 #include "view/panels/toolbar.h"
 #include "view/part_actions.h"
 #include "view/pointer.h"
@@ -133,7 +134,10 @@ struct Window::Impl {
       case KeyAction::PauseOrPlay:
         controls.paused = !controls.paused;
         return;
+      case KeyAction::StepBack:
+        return timeline.step(-1);
       case KeyAction::Step:
+        if (timeline.looks_back()) return timeline.step(1);
         controls.paused = true;
         ++controls.steps;
         return;
@@ -241,7 +245,8 @@ struct Window::Impl {
     if (asks.redo) restore(history.redo());
   }
 
-  void draw_panels(PanelContext& context) {
+  /// `seen`: of the frame that is drawn, which is a past one while the person looks back.
+  void draw_panels(PanelContext& context, PanelContext& seen) {
     plots.add(context);
     learn.observe(context);
     in_area("toolbar", layout.toolbar, [&] {
@@ -249,11 +254,14 @@ struct Window::Impl {
     });
     in_area("find", layout.find, [&] { find.draw(context); });
     in_area("tasks", layout.tasks, [&] { draw_tasks(context); });
+    in_area("timeline", layout.timeline, [&] { timeline.draw(context); });
     in_area("status", layout.status, [&] { draw_status_bar(context); });
     if (help) draw_help(help);
     hold_buttons();
     handle_keys(context);
-    pointer.update(context, layout.scene, renderer.superficial());
+    if (!timeline.looks_back() || pointer.mode() == PointerMode::Look) {  // the past cannot be touched
+      pointer.update(seen, layout.scene, renderer.superficial());
+    }
     menu.draw(context);
     hovered = pointer.hovered() ? pointer.hovered() : find.hovered();
     obey(context.asks, context.frame);
@@ -302,14 +310,17 @@ struct Window::Impl {
       history = History(state);
     }
     WindowAsks asks;
+    const messages::SceneFrame& shown = timeline.choose(frame);
     PanelContext context{*specimen, frame, facts, readings, part_facts, hovered, state.view, controls, asks};
-    draw_panels(context);
-    overlay.draw(*specimen, frame, state.view, renderer.superficial(), layout.scene, {{}, SceneExtras{}.background},
+    PanelContext seen{*specimen, shown, facts, readings, part_facts, hovered, state.view, controls, asks};
+    draw_panels(context, seen);
+    overlay.draw(*specimen, shown, state.view, renderer.superficial(), layout.scene, {{}, SceneExtras{}.background},
                  *ImGui::GetBackgroundDrawList());
+    timeline.draw_banner(layout.scene);
     ImGui::Render();
     int width = 0, height = 0;
     glfwGetFramebufferSize(window.get(), &width, &height);
-    draw_scene(frame, width, height);
+    draw_scene(shown, width, height);
     imgui.end();
     if (screenshot) save_picture(width, height);
     glfwSwapBuffers(window.get());
@@ -339,6 +350,7 @@ struct Window::Impl {
   FeelPanel feel;
   DemonstratePanel demonstrate;
   LearnPanel learn;
+  TimelinePanel timeline;
   PlotsPanel plots;
   bool help = false;
   std::optional<std::filesystem::path> screenshot;

@@ -1,0 +1,75 @@
+#include "view/panels/timeline_panel.h"
+
+#include <algorithm>
+
+#include <imgui.h>
+
+#include "view/ui/controls.h"
+#include "view/ui/text.h"
+
+namespace myotact::view {
+
+const messages::SceneFrame& TimelinePanel::choose(const messages::SceneFrame& present) {
+  history_.add(present);
+  newest_s_ = present.time_s;
+  if (past_s_ && (history_.size() == 0 || *past_s_ > newest_s_)) back_to_now();  // the scene was begun anew
+  if (!past_s_) return present;
+  history_.fetch(*history_.nearest(*past_s_), past_);
+  return past_;
+}
+
+void TimelinePanel::step(int by) {
+  if (history_.size() == 0) return;
+  const auto at = static_cast<std::ptrdiff_t>(*history_.nearest(past_s_.value_or(newest_s_)));
+  const std::ptrdiff_t next = std::max<std::ptrdiff_t>(at + by, 0);
+  if (next >= static_cast<std::ptrdiff_t>(history_.size()) - 1) return back_to_now();
+  past_s_ = history_.time_s(static_cast<std::size_t>(next));
+}
+
+void TimelinePanel::draw(PanelContext& context) {
+  ViewControls& controls = context.controls;
+  if (ui::button("keep.step_back")) step(-1);
+  ImGui::SameLine();
+  if (ui::button(controls.paused ? "keep.play" : "keep.pause")) {
+    controls.paused = !controls.paused;
+    back_to_now();
+  }
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!looks_back());
+  if (ui::button("keep.step_forward")) step(1);
+  ImGui::SameLine();
+  if (ui::button("keep.now")) back_to_now();
+  ImGui::EndDisabled();
+  if (history_.size() < 2) return;
+  ImGui::SameLine();
+  double time_s = past_s_.value_or(newest_s_);
+  const float em = ImGui::GetFontSize();
+  ImGui::SetNextItemWidth(std::max(ImGui::GetContentRegionAvail().x - em, 4.0f * em));
+  const ui::Range range{static_cast<float>(history_.time_s(0)), static_cast<float>(newest_s_)};
+  if (ui::slider("keep.time", time_s, range, "%.2f s")) {
+    // The very end of the track is the present, which moves on under the pointer.
+    const double end_s = newest_s_ - 0.005 * (newest_s_ - history_.time_s(0));
+    if (time_s >= end_s) {
+      back_to_now();
+    } else {
+      past_s_ = time_s;
+    }
+  }
+}
+
+void TimelinePanel::draw_banner(const Area& scene) const {
+  if (!looks_back() || scene.empty()) return;
+  const std::string text = ui::tr("keep.looking_back", newest_s_ - past_.time_s);
+  const float em = ImGui::GetFontSize();
+  const float width = std::max(scene.width - 2.0f * em, em);
+  const float wrap = std::min(ImGui::CalcTextSize(text.c_str()).x + em, width);
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
+  const ImVec2 corner(scene.x + 0.5f * (scene.width - size.x), scene.y + 0.7f * em);
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  list.AddRectFilled(ImVec2(corner.x - 0.6f * em, corner.y - 0.3f * em),
+                     ImVec2(corner.x + size.x + 0.6f * em, corner.y + size.y + 0.3f * em), IM_COL32(255, 214, 102, 255),
+                     0.3f * em);
+  list.AddText(ImGui::GetFont(), em, corner, IM_COL32(20, 20, 20, 255), text.c_str(), nullptr, wrap);
+}
+
+}  // namespace myotact::view
