@@ -17,7 +17,8 @@ glm::vec3 cividis(double level) {
                                                                  {196, 181, 108},
                                                                  {228, 207, 91},
                                                                  {255, 234, 70}}};
-  const double place = std::clamp(level, 0.0, 1.0) * static_cast<double>(kStops.size() - 1);
+  const double share = level > 0.0 ? std::min(level, 1.0) : 0.0;  // of what is no number as well
+  const double place = share * static_cast<double>(kStops.size() - 1);
   const std::size_t below = std::min(static_cast<std::size_t>(place), kStops.size() - 2);
   const auto s = static_cast<float>(place - static_cast<double>(below));
   glm::vec3 colour;

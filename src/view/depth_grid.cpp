@@ -9,8 +9,8 @@ namespace myotact::view {
 namespace {
 
 /// First cell whose middle is not before x, and the last whose middle is not after it, within 0 .. count - 1.
-int first_cell(float x) {
-  return static_cast<int>(std::ceil(std::max(x, 0.0f) - 0.5f));
+int first_cell(float x, int count) {
+  return static_cast<int>(std::ceil(std::clamp(x, 0.0f, static_cast<float>(count) + 1.0f) - 0.5f));
 }
 int last_cell(float x, int count) {
   return static_cast<int>(std::floor(std::clamp(x, -1.0f, static_cast<float>(count)) - 0.5f));
@@ -32,9 +32,9 @@ void DepthGrid::clear() {
 
 void DepthGrid::add(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, int owner) {
   const float area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
-  if (!(std::abs(area) > 1e-12f)) return;  // seen from its edge, or not a number
-  const int x0 = first_cell(std::min({a.x, b.x, c.x})), x1 = last_cell(std::max({a.x, b.x, c.x}), width_);
-  const int y0 = first_cell(std::min({a.y, b.y, c.y})), y1 = last_cell(std::max({a.y, b.y, c.y}), height_);
+  if (!(std::abs(area) > 1e-12f) || !std::isfinite(area)) return;  // seen from its edge, or not a number
+  const int x0 = first_cell(std::min({a.x, b.x, c.x}), width_), x1 = last_cell(std::max({a.x, b.x, c.x}), width_);
+  const int y0 = first_cell(std::min({a.y, b.y, c.y}), height_), y1 = last_cell(std::max({a.y, b.y, c.y}), height_);
   // Shares of b and c at (x, y), and the depth, are linear in x and y.
   const glm::vec2 b_slope((c.y - a.y) / area, -(c.x - a.x) / area), c_slope(-(b.y - a.y) / area, (b.x - a.x) / area);
   for (int y = y0; y <= y1; ++y) {

@@ -142,7 +142,7 @@ Image OffscreenRenderer::render_with_text(const messages::SceneFrame& frame, con
   impl_->draw_scene(frame, view, extras);
   const Area whole{0.0f, 0.0f, static_cast<float>(impl_->width), static_cast<float>(impl_->height)};
   impl_->imgui.draw([&](ImDrawList& list) {
-    SceneOverlay().draw(*impl_->specimen, frame, view, superficial(), whole, {extras.hovered, extras.background}, list);
+    SceneOverlay().draw({*impl_->specimen, frame, view, superficial(), extras.hovered, extras.background}, whole, list);
   });
   return read_back();
 }

@@ -30,17 +30,14 @@ ImU32 to_im(const glm::vec3& colour, float opacity = 1.0f) {
 
 /// What the parts of the overlay share.
 struct Sheet {
-  const anatomy::Specimen& specimen;
-  const messages::SceneFrame& frame;
-  const ViewState& view;
+  const OverlaidScene& scene;
   const Area& area;
-  const SceneOverlay::Look& look;
   ImDrawList& list;
 
   float em() const { return ImGui::GetFontSize(); }
   /// Black or white, whichever stands out from the background; both reach 10:1 on the backgrounds in use.
   glm::vec3 ink() const {
-    const float light = glm::dot(look.background, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+    const float light = glm::dot(scene.background, glm::vec3(0.2126f, 0.7152f, 0.0722f));
     return light > 0.4f ? glm::vec3(0.10f, 0.11f, 0.14f) : glm::vec3(0.94f);
   }
   void write(const glm::vec2& corner, const std::string& text, float opacity = 1.0f) const {
@@ -52,7 +49,7 @@ struct Sheet {
   }
   /// So that what is written can be read over anything.
   void paper(const glm::vec2& corner, const glm::vec2& size) const {
-    list.AddRectFilled(to_im(corner), to_im(corner + size), to_im(look.background, kLegibility), 0.25f * em());
+    list.AddRectFilled(to_im(corner), to_im(corner + size), to_im(scene.background, kLegibility), 0.25f * em());
   }
   glm::vec2 on_screen(const glm::vec2& place) const {
     return {area.x + area.width * place.x, area.y + area.height * place.y};
@@ -70,7 +67,7 @@ void draw_label(const Sheet& sheet, const LabelWish& wish, const PlacedLabel& pl
   const glm::vec2 corner = placed.corner;
   const glm::vec2 end(placed.on_left ? corner.x + wish.size.x : corner.x, corner.y + 0.5f * wish.size.y);
   sheet.list.AddLine(to_im(wish.anchor), to_im(end), to_im(sheet.ink(), 0.55f), std::max(1.0f, 0.07f * sheet.em()));
-  sheet.list.AddCircleFilled(to_im(wish.anchor), kDot * sheet.em(), to_im(sheet.look.background, 0.9f));
+  sheet.list.AddCircleFilled(to_im(wish.anchor), kDot * sheet.em(), to_im(sheet.scene.background, 0.9f));
   sheet.list.AddCircleFilled(to_im(wish.anchor), 0.65f * kDot * sheet.em(), to_im(sheet.ink()));
   sheet.paper(corner, wish.size);
   if (chosen) {
@@ -141,7 +138,7 @@ float draw_legend(const Sheet& sheet, const Legend& legend) {
 void draw_scale_bar(const Sheet& sheet) {
   const float em = sheet.em();
   const float metres_a_pixel =
-      2.0f * sheet.view.camera.distance_m * std::tan(0.5f * Camera::kFieldOfView_rad) / sheet.area.height;
+      2.0f * sheet.scene.view.camera.distance_m * std::tan(0.5f * Camera::kFieldOfView_rad) / sheet.area.height;
   const double length_m = round_length_m(static_cast<double>(kScaleLength * em * metres_a_pixel));
   const float length = static_cast<float>(length_m) / metres_a_pixel;
   const glm::vec2 end(sheet.area.x + sheet.area.width - 2.0f * kMargin * em,
@@ -157,29 +154,47 @@ void draw_scale_bar(const Sheet& sheet) {
   sheet.write({0.5f * (start.x + end.x - sheet.size_of(text).x), end.y - 1.5f * em}, text);
 }
 
-/// `below`: height at the area's bottom that is left free. `placed`: in the last picture; then in this one.
-void draw_labels(const Sheet& sheet, const std::vector<bool>& superficial, float below,
-                 std::vector<PlacedLabel>& placed) {
-  const ViewState& view = sheet.view;
-  const Part selected = selected_part(view);
-  const bool any = view.labels || selected || sheet.look.hovered;
-  if (!any) {
-    placed.clear();
-    return;
+/// Anchors are found on a coarse grid: one that moves by no more than a few of its cells glides there.
+void steady(std::vector<LabelWish>& wishes, const std::vector<LabelWish>& before, float reach) {
+  constexpr float kGlide = 0.25f;  // of the way, a picture
+  for (LabelWish& wish : wishes) {
+    const auto last = std::find_if(before.begin(), before.end(), [&](const auto& w) { return w.id == wish.id; });
+    if (last == before.end() || glm::distance(last->anchor, wish.anchor) > reach) continue;
+    wish.anchor = glm::mix(last->anchor, wish.anchor, kGlide);
   }
-  const float em = sheet.em();
-  const glm::vec2 pad(2.0f * kPad * em, kPad * em);
-  const SeenLimb limb =
-      seen_parts(sheet.specimen, sheet.frame, view, superficial, sheet.area.width / sheet.area.height);
+}
+
+/// What would be named, with `texts`.
+std::vector<LabelWish> wishes_of(const Sheet& sheet, const SeenLimb& limb, std::vector<std::string>& texts) {
+  const glm::vec2 pad(2.0f * kPad * sheet.em(), kPad * sheet.em());
   std::vector<LabelWish> wishes;
-  std::vector<std::string> texts;
   for (const SeenPart& seen : limb.parts) {
-    const bool chosen = seen.part == selected || seen.part == sheet.look.hovered;
-    if (!view.labels && !chosen) continue;
-    texts.push_back(name_of(sheet.specimen, seen.part, view.names));
+    const bool chosen = seen.part == selected_part(sheet.scene.view) || seen.part == sheet.scene.hovered;
+    if (!sheet.scene.view.labels && !chosen) continue;
+    texts.push_back(name_of(sheet.scene.specimen, seen.part, sheet.scene.view.names));
     wishes.push_back({id_of(seen.part), sheet.on_screen(seen.place), sheet.size_of(texts.back()) + pad,
                       sheet.area.x + sheet.area.width * seen.middle, chosen ? 2.0f : seen.share});
   }
+  return wishes;
+}
+
+/// `below`: height at the area's bottom that is left free. `placed` and `before`: in the last picture; then in this
+/// one.
+void draw_labels(const Sheet& sheet, float below, std::vector<PlacedLabel>& placed, std::vector<LabelWish>& before) {
+  const ViewState& view = sheet.scene.view;
+  const Part selected = selected_part(view);
+  const bool any = view.labels || selected || sheet.scene.hovered;
+  if (!any) {
+    placed.clear();
+    before.clear();
+    return;
+  }
+  const float em = sheet.em();
+  const SeenLimb limb = seen_parts(sheet.scene.specimen, sheet.scene.frame, view, sheet.scene.superficial,
+                                   sheet.area.width / sheet.area.height);
+  std::vector<std::string> texts;
+  std::vector<LabelWish> wishes = wishes_of(sheet, limb, texts);
+  steady(wishes, before, em);
   LabelArea room;
   room.lowest = glm::vec2(sheet.area.x, sheet.area.y) + kMargin * em;
   room.highest = glm::vec2(sheet.area.x + sheet.area.width, sheet.area.y + sheet.area.height - below) - kMargin * em;
@@ -192,6 +207,7 @@ void draw_labels(const Sheet& sheet, const std::vector<bool>& superficial, float
     const bool chosen = label.id == id_of(selected) && selected;
     draw_label(sheet, *wish, label, texts[static_cast<std::size_t>(wish - wishes.begin())], chosen && view.labels);
   }
+  before = std::move(wishes);
 }
 
 }  // namespace
@@ -215,13 +231,12 @@ double round_length_m(double longest_m) {
   return decade;
 }
 
-void SceneOverlay::draw(const anatomy::Specimen& specimen, const messages::SceneFrame& frame, const ViewState& view,
-                        const std::vector<bool>& superficial, const Area& area, const Look& look, ImDrawList& list) {
+void SceneOverlay::draw(const OverlaidScene& scene, const Area& area, ImDrawList& list) {
   if (area.empty()) return;
-  const Sheet sheet{specimen, frame, view, area, look, list};
+  const Sheet sheet{scene, area, list};
   list.PushClipRect(ImVec2(area.x, area.y), ImVec2(area.x + area.width, area.y + area.height));
-  const float legend_height = draw_legend(sheet, legend_of(specimen, view));
-  if (!view.names_hidden) draw_labels(sheet, superficial, legend_height, placed_);
+  const float legend_height = draw_legend(sheet, legend_of(scene.specimen, scene.view));
+  if (!scene.view.names_hidden) draw_labels(sheet, legend_height, placed_, wishes_);
   draw_scale_bar(sheet);
   list.PopClipRect();
 }

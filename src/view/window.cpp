@@ -314,7 +314,7 @@ struct Window::Impl {
     PanelContext context{*specimen, frame, facts, readings, part_facts, hovered, state.view, controls, asks};
     PanelContext seen{*specimen, shown, facts, readings, part_facts, hovered, state.view, controls, asks};
     draw_panels(context, seen);
-    overlay.draw(*specimen, shown, state.view, renderer.superficial(), layout.scene, {{}, SceneExtras{}.background},
+    overlay.draw({*specimen, shown, state.view, renderer.superficial(), {}, SceneExtras{}.background}, layout.scene,
                  *ImGui::GetBackgroundDrawList());
     timeline.draw_banner(layout.scene);
     ImGui::Render();

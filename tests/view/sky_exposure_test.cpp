@@ -1,6 +1,7 @@
 #include "view/sky_exposure.h"
 
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -26,6 +27,11 @@ TEST(DepthGrid, KeepsTheNearestAtTheMiddlesOfItsCells) {
   EXPECT_TRUE(std::isinf(grid.depth(3, 2)));
   grid.add({-50, -50, 3}, {500, -50, 3}, {-50, 500, 3}, 9);  // far out of the grid on all sides, behind
   EXPECT_EQ(grid.owner(3, 2), 9);
+  EXPECT_EQ(grid.owner(0, 0), 8);
+  constexpr float kHuge = 1e30f, kNaN = std::numeric_limits<float>::quiet_NaN();
+  const float infinity = std::numeric_limits<float>::infinity();
+  for (const float wild : {kHuge, -kHuge, infinity, -infinity, kNaN})
+    grid.add({wild, 0, 1}, {2, wild, 1}, {0, 1, 1}, 10);
   EXPECT_EQ(grid.owner(0, 0), 8);
 }
 
