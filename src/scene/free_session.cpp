@@ -223,7 +223,7 @@ void FreeSession::publish_frame() {
   simulation_->write_frame(frame_);
   frame_.tools.clear();
   for (std::size_t t = 0; t < tools_.size(); ++t) {
-    frame_.tools.push_back(tool_frame(loops_[t]->tool_states().front(), scene_->tools[t], *simulation_));
+    frame_.tools.push_back(tool_frame(loops_[t]->tool_states().front(), *scene_, t, *simulation_));
   }
   const double wall_s = std::max(static_cast<double>(realtime::steady_now_ns() - started_ns_) * 1e-9, 1e-3);
   frame_.rates.simulation_hz = static_cast<double>(step_count_) / wall_s;

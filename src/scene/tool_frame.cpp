@@ -4,8 +4,9 @@
 
 namespace myotact::scene {
 
-messages::ToolFrame tool_frame(const messages::ToolState& tool, const ToolSettings& settings,
+messages::ToolFrame tool_frame(const messages::ToolState& tool, const Scene& scene, std::size_t index,
                                const simulation::Simulation& simulation) {
+  const ToolSettings& settings = scene.tools[index];
   messages::ToolFrame frame;
   frame.tool_world_m = tool.tool_position_world_m;
   frame.proxy_world_m = tool.proxy_position_world_m;
@@ -14,7 +15,9 @@ messages::ToolFrame tool_frame(const messages::ToolState& tool, const ToolSettin
   frame.shape = settings.shape;
   frame.left = settings.hand == "left";
   frame.in_contact = tool.contact.surface >= 0;
-  frame.touched_muscle = tool.contact.surface < simulation.muscle_count() ? tool.contact.surface : -1;
+  const int bone = tool.contact.surface - simulation.muscle_count();  // surfaces: muscles, then bones
+  if (bone < 0) frame.touched_muscle = tool.contact.surface;
+  if (bone >= 0) frame.touched_body = scene.specimen.bones[static_cast<std::size_t>(bone)].body;
   frame.forces_stopped = (tool.faults & haptics::bit(haptics::Fault::Stopped)) != 0;
   frame.grabbed_line = tool.grabbed_line;
   frame.grabbed_body = tool.grabbed_body;

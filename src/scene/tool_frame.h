@@ -7,8 +7,8 @@
 
 namespace myotact::scene {
 
-/// The tool as the view draws it: with the bone's point in hand where it is now.
-messages::ToolFrame tool_frame(const messages::ToolState& tool, const ToolSettings& settings,
+/// The scene's tool of that index as the view draws it: with the bone's point in hand where it is now.
+messages::ToolFrame tool_frame(const messages::ToolState& tool, const Scene& scene, std::size_t index,
                                const simulation::Simulation& simulation);
 
 }  // namespace myotact::scene
