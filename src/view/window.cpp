@@ -27,6 +27,7 @@
 #include "view/panels/learn_panel.h"
 #include "view/panels/part_menu.h"
 #include "view/panels/plots_panel.h"
+#include "view/panels/see_panel.h"
 #include "view/panels/status_bar.h"
 #include "view/panels/timeline_panel.h"
 #include "view/panels/toolbar.h"
@@ -230,6 +231,7 @@ struct Window::Impl {
       ImGui::EndTabItem();
     };
     tab("tasks.feel", [&] { feel.draw(context); });
+    tab("tasks.see", [&] { draw_see_panel(context); });
     tab("tasks.demonstrate", [&] { demonstrate.draw(context); });
     tab("tasks.learn", [&] { learn.draw(context); });
     tab("tasks.plots", [&] { plots.draw(); });
