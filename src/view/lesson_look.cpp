@@ -25,12 +25,6 @@ MuscleColour colour_of(const std::string& name) {
   return found == kColours.end() ? MuscleColour::Kind : found->second;
 }
 
-/// In these tasks a name on the screen, or what is told of a muscle beside it, would be the answer.
-bool is_told_by_names(const learn::Task& task) {
-  return std::holds_alternative<learn::FindTask>(task) || std::holds_alternative<learn::NameTask>(task) ||
-         std::holds_alternative<learn::PredictTask>(task) || std::holds_alternative<learn::IdentifyTask>(task);
-}
-
 /// What the task is about, where to find it is not the task.
 learn::Part marked_part(const learn::Task& task) {
   if (const auto* name = std::get_if<learn::NameTask>(&task)) return name->part;
@@ -66,12 +60,17 @@ void show_step(const learn::Step& step, ViewState& view, SceneState& scene) {
   view.layers = {};
   view.section.on = false;
   view.colour = colour_of(step.show.colour);
-  view.names_hidden = is_told_by_names(step.task);
+  view.names_hidden = hides_names(step.task);
   view.labels = step.show.labels && !view.names_hidden;
   const learn::Part marked = marked_part(step.task);
   view.selected_muscle = marked.muscle;
   view.selected_bone = marked.bone;
   set_scene(step.set, scene);
+}
+
+bool hides_names(const learn::Task& task) {
+  return std::holds_alternative<learn::FindTask>(task) || std::holds_alternative<learn::NameTask>(task) ||
+         std::holds_alternative<learn::PredictTask>(task) || std::holds_alternative<learn::IdentifyTask>(task);
 }
 
 PointerMode pointer_mode_for(const learn::Task& task) {

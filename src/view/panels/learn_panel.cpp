@@ -39,7 +39,10 @@ void LearnPanel::observe(PanelContext& context) {
     return;
   }
   const learn::Part selected{context.view.selected_muscle, context.view.selected_bone};
-  open_->run.observe({context.specimen, context.frame, ImGui::GetTime(), selected});
+  learn::LessonRun& run = open_->run;
+  run.observe({context.specimen, context.frame, ImGui::GetTime(), selected});
+  // Also after an undo. What has been answered may be read again.
+  context.view.names_hidden = !run.finished() && !run.state().done && hides_names(run.step().task);
 }
 
 void LearnPanel::draw(PanelContext& context) {
