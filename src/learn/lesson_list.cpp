@@ -1,23 +1,18 @@
 #include "learn/lesson_list.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 #include <fmt/format.h>
 
 #include "core/data_folder.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "core/user_folder.h"
 #include "learn/lesson_file.h"
 
 namespace myotact::learn {
 
 namespace {
-
-std::filesystem::path folder_of(const char* variable) {
-  const char* value = std::getenv(variable);
-  return value == nullptr ? std::filesystem::path() : std::filesystem::path(value);
-}
 
 void add_folder(const std::filesystem::path& folder, std::vector<ListedLesson>& lessons) {
   std::error_code failure;  // no folder, no lessons
@@ -40,10 +35,8 @@ void add_folder(const std::filesystem::path& folder, std::vector<ListedLesson>& 
 }  // namespace
 
 std::filesystem::path own_lessons_folder() {
-  // The XDG base directory specification wants an absolute path, and says to ignore others.
-  if (const auto data = folder_of("XDG_DATA_HOME"); data.is_absolute()) return data / "myotact" / "lessons";
-  const auto home = folder_of("HOME");
-  return home.empty() ? home : home / ".local" / "share" / "myotact" / "lessons";
+  const std::filesystem::path own = user_data_folder();
+  return own.empty() ? own : own / "lessons";
 }
 
 std::vector<ListedLesson> list_lessons() {

@@ -1,30 +1,18 @@
 #pragma once
 
-#include <string>
-#include <vector>
+#include "view/plot_record.h"
 
 namespace myotact::view {
 
-/// A scrolling curve of the last seconds: keeps the samples, draws itself into the current ImGui window.
-class Plot {
- public:
-  /// `label`: key of its text, which names the unit. The range of the axis is never smaller than `smallest_range`.
-  Plot(std::string label, double smallest_range) : label_(std::move(label)), smallest_range_(smallest_range) {}
-
-  void add(double time_s, double value);
-  void clear();
-  /// Draws a curve of the given height in pixels; the cursor reads values.
-  void draw(float height) const;
-
- private:
-  struct Sample {
-    double time_s, value;
-  };
-  static constexpr double kWindow_s = 8.0;
-
-  std::string label_;
-  double smallest_range_;
-  std::vector<Sample> samples_;  // rising in time
+/// Which rows of a record, and how high [pixels].
+struct PlotSpan {
+  std::size_t first = 0;
+  double window_s = 8.0;  // the time axis ends with the last row
+  float height = 80.0f;
 };
+
+/// Draws a sheet's curves into the current ImGui window: name and newest value of each, lowest and highest of all at
+/// the axis, the times at its ends; where the cursor is, the values there.
+void draw_plot(const PlotRecord& record, const PlotSheet& sheet, const PlotSpan& span);
 
 }  // namespace myotact::view

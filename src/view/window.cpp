@@ -234,7 +234,7 @@ struct Window::Impl {
     tab("tasks.see", [&] { draw_see_panel(context); });
     tab("tasks.demonstrate", [&] { demonstrate.draw(context); });
     tab("tasks.learn", [&] { learn.draw(context); });
-    tab("tasks.plots", [&] { plots.draw(); });
+    tab("tasks.plots", [&] { plots.draw(context); });
     ImGui::EndTabBar();
   }
 

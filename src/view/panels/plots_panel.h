@@ -1,21 +1,32 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "view/panels/panel.h"
-#include "view/plot.h"
+#include "view/plot_record.h"
 
 namespace myotact::view {
 
-/// Curves of the last seconds.
+/// Curves of the last seconds: of the joint that is watched, of the tools' force, of the tension of muscles that a
+/// person chose. They can be held and written to files.
 class PlotsPanel {
  public:
   /// Every picture, drawn or not, so that no curve has gaps.
   void add(const PanelContext& context);
-  void draw();
+  void draw(const PanelContext& context);
 
  private:
-  Plot angle_{"plots.angle", 4.0};
-  Plot stiffness_{"plots.stiffness", 1.0};
-  Plot force_{"plots.force", 1.0};  // of all tools, added up
+  void draw_buttons(const PanelContext& context, const std::vector<PlotSheet>& sheets);
+  /// Into the person's folder "exports"; message_ says where, or what is wrong.
+  void save_csv(const PanelContext& context, const std::vector<PlotSheet>& sheets);
+  void save_svg(const PanelContext& context, const std::vector<PlotSheet>& sheets);
+  const PlotRecord& shown() const { return held_ ? *held_ : record_; }
+
+  PlotRecord record_;
+  std::optional<PlotRecord> held_;  // while the curves stand still
+  double window_s_ = 8.0;
+  std::string message_;
 };
 
 }  // namespace myotact::view
