@@ -28,7 +28,12 @@ struct Axes {
   double lowest, highest, end_s, window_s;
 
   float x(double t) const { return corner.x + size.x * static_cast<float>(1.0 - (end_s - t) / window_s); }
-  float y(double v) const { return corner.y + size.y * static_cast<float>(1.0 - (v - lowest) / (highest - lowest)); }
+  /// A curve along the edge of its range stays a little off the frame, or half of it would be cut away.
+  float y(double v) const {
+    constexpr float kMargin = 0.06f;
+    const auto share = static_cast<float>((v - lowest) / (highest - lowest));
+    return corner.y + size.y * (1.0f - kMargin - (1.0f - 2.0f * kMargin) * share);
+  }
 };
 
 /// Zero is always within; at least the sheet's smallest range.
