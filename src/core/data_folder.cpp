@@ -15,12 +15,14 @@ bool holds_data(const std::filesystem::path& folder) {
          std::filesystem::is_directory(folder / "assets", ignored);
 }
 
+/// PREFIX/share/myotact of PREFIX/bin/myotact. In a build folder that is a link to the sources (MyotactInstall.cmake):
+/// no path is compiled in, and what is installed can be moved.
 std::optional<std::filesystem::path> above_executable() {
   std::error_code failure;
   auto folder = std::filesystem::read_symlink("/proc/self/exe", failure).parent_path();
   while (!failure && folder.has_relative_path()) {
-    if (holds_data(folder)) return folder;
-    if (holds_data(folder / "share" / "myotact")) return folder / "share" / "myotact";
+    const auto data = folder / "share" / "myotact";
+    if (holds_data(data)) return std::filesystem::canonical(data);
     folder = folder.parent_path();
   }
   return std::nullopt;
@@ -34,7 +36,6 @@ std::filesystem::path find_data_folder() {
     }
     return given;
   }
-  if (holds_data(MYOTACT_SOURCE_DIR)) return MYOTACT_SOURCE_DIR;
   if (const auto found = above_executable()) return *found;
   throw Error(ExitStatus::NoInput,
               "the folder with shaders/, assets/ and meshes/ is not found; name it in the variable MYOTACT_DATA_DIR");

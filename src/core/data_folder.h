@@ -4,8 +4,8 @@
 
 namespace myotact {
 
-/// The folder that holds shaders/, assets/ and meshes/ (and tests/validation/, in a source tree): MYOTACT_DATA_DIR if
-/// set, else the source tree the program was built from, else the nearest folder above the executable that holds them.
+/// The folder that holds shaders/, assets/, meshes/ and tests/validation/: MYOTACT_DATA_DIR if set, else the nearest
+/// share/myotact above the executable, which in a build folder is a link to the sources.
 /// Throws Error NoInput naming the remedy.
 const std::filesystem::path& data_folder();
 

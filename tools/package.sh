@@ -1,0 +1,12 @@
+#!/usr/bin/env bash
+# Builds the Debian packages myotact and myotact-prepare and says where they are. Two builds of one commit by the same
+# compiler give the same bytes.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+install_missing "$project/tools/packages.txt"
+build release -- myotact-manual myotact-prepare-manual
+SOURCE_DATE_EPOCH="$(git -C "$project" log -1 --format=%ct 2>/dev/null || date +%s)"
+export SOURCE_DATE_EPOCH
+(cd "$project/build/release" && umask 022 && cpack >&2)
+ls "$project"/build/release/packages/*.deb
