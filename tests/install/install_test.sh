@@ -17,13 +17,16 @@ prefix="$folder/moved there"
 mkdir "$folder/elsewhere"
 cd "$folder/elsewhere"
 run() { env -i PATH=/usr/bin:/bin HOME="$folder" "$@"; }
-run "$prefix/bin/myotact" --version >text && grep -q '^[0-9]' text || fail "no version"
+run "$prefix/bin/myotact" --version >text
+grep -q '^[0-9]' text || fail "no version"
 run "$prefix/bin/myotact" run plane --seconds 0.1 --out out >/dev/null || fail "a scene does not run"
 [ -s out/samples.csv ] || fail "a run leaves no samples.csv"
-run "$prefix/bin/myotact" lesson >text && grep -q co_contraction text || fail "the lessons are not found"
+run "$prefix/bin/myotact" lesson >text
+grep -q co_contraction text || fail "the lessons are not found"
 run "$prefix/bin/myotact" validate --filter activation_rise >/dev/null || fail "the validation cases are not found"
 
-# Without its data it says so, and does not look at the sources.
+# Without its data it says so, and does not look at the sources (whose path, when short, no search below would find: it can
+# stand in the instructions).
 mv "$prefix/share/myotact" "$folder/away"
 status=0
 run "$prefix/bin/myotact" run plane --out out 2>message >/dev/null || status=$?
