@@ -28,6 +28,7 @@ Error no_egl(const std::string& what) {
 class EglContext {
  public:
   EglContext() {
+    if (!epoxy_has_egl()) throw no_egl("libEGL.so.1 is not there");  // any call would abort
     display_ = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
     if (display_ == EGL_NO_DISPLAY || eglInitialize(display_, nullptr, nullptr) != EGL_TRUE) {
       throw no_egl("EGL has no surfaceless display");
