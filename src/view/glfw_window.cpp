@@ -43,6 +43,9 @@ GlfwWindow::GlfwWindow(const char* title, int width, int height) {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  // By these a desktop knows the program, and shows the name and icon of its menu entry.
+  glfwWindowHintString(GLFW_X11_CLASS_NAME, "Myotact");
+  glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "myotact");
   window_ = open_window(title, width, height, kSamples);
   if (window_ != nullptr && draws_in_software()) {
     // There the samples cost three times the whole picture.
