@@ -18,9 +18,6 @@ constexpr Size kLimbSize{520, 700};
 constexpr Size kPartSize{300, 300};
 /// Radius of a mark, as a part of the diagonal of what is seen.
 constexpr float kMarkShare = 0.014f;
-/// The colour of a half active muscle: neither of the marks' colours is near it.
-constexpr double kActivation = 0.45;
-constexpr float kMuscleOpacity = 0.82f;  // bones shine through
 
 std::string base64(const std::string& bytes) {
   std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');
@@ -55,7 +52,6 @@ messages::SceneFrame frame_of(const anatomy::Specimen& specimen) {
       skin.push_back({static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())});
     }
   }
-  frame.activations.assign(specimen.muscles.size(), kActivation);
   for (const anatomy::MuscleLine& line : specimen.lines) {
     auto& points = frame.lines_world_m.emplace_back();
     for (const anatomy::LinePoint& point : line.points) points.push_back(to_array(point.position_m));
@@ -74,7 +70,6 @@ PicturePair draw(const anatomy::Specimen& specimen, const Size& size, const std:
     const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
     view::ViewState look = view::start_view(specimen, aspect);
     look.camera = view::standard_view(side, specimen.side != "right", box, aspect).value_or(look.camera);
-    look.layers.superficial = look.layers.deep = kMuscleOpacity;
     view::SceneExtras extras;
     extras.marks = balls;
     return base64(view::png_bytes(renderer.render(frame, look, extras)));
