@@ -137,7 +137,7 @@ nlohmann::json run_free(const Options& options, const scene::Scene& scene, simul
     if (frame.time_s >= end_s) break;
   }
   const scene::FreeTiming timing = session.stop();
-  if (recorder) recorder->close();
+  if (!session.recording_fault().empty()) throw Error(ExitStatus::InputOutput, session.recording_fault());
   summary.simulated_s = timing.simulated_s;
   summary.wall_s = timing.wall_s;
   summary.steps = timing.steps;

@@ -2,23 +2,20 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <memory>
 #include <optional>
+#include <string>
 #include <thread>
 #include <utility>
 
 #include <spdlog/spdlog.h>
 
-#include "app/guarded_motors.h"
 #include "app/interruption.h"
-#include "app/joint_watch.h"
 #include "app/options.h"
-#include "app/picture.h"
+#include "app/stage.h"
+#include "core/error.h"
 #include "core/file.h"
-#include "device/mouse_device.h"
-#include "device/simulated_device.h"
-#include "haptics/stiffness_bound.h"
-#include "scene/free_session.h"
 #include "view/window.h"
 
 namespace myotact::app {
@@ -32,91 +29,6 @@ constexpr double kForever_s = 1e12;
 void leave_time_to_the_simulation(std::chrono::steady_clock::duration drawing) {
   constexpr std::chrono::milliseconds kPicture(16);
   std::this_thread::sleep_for(std::max<std::chrono::steady_clock::duration>(kPicture - drawing, drawing));
-}
-
-/// The devices of a scene's tools, and which of them the script moves.
-struct Hands {
-  Hands(const scene::Scene& scene, std::size_t led, GuardedMotors* guarded);
-
-  std::size_t led;            // the tool that the mouse moves; none: as many as there are tools
-  device::MouseDevice mouse;  // of that one
-  std::vector<std::unique_ptr<device::SimulatedDevice>> simulated;
-  std::vector<scene::ToolDevice> devices;  // one a tool
-};
-
-Hands::Hands(const scene::Scene& scene, std::size_t led_tool, GuardedMotors* guarded)
-    : led(led_tool), mouse(scene::start_of_hand(scene, led_tool < scene.tools.size() ? led_tool : 0)) {
-  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
-    if (t == led) {
-      devices.push_back({&mouse, nullptr});
-      continue;
-    }
-    simulated.push_back(std::make_unique<device::SimulatedDevice>("simulated", scene::start_of_hand(scene, t)));
-    if (guarded != nullptr) simulated.back()->drive(guarded->motors[t]);
-    devices.push_back({simulated.back().get(), simulated.back().get()});
-  }
-}
-
-/// The tool that the mouse moves. Without devices named the person leads the right hand, or the only one.
-std::size_t led_tool(const Options& options, const scene::Scene& scene) {
-  for (std::size_t t = 0; t < options.devices.size(); ++t) {
-    if (options.devices[t] == "mouse") return t;
-  }
-  if (!options.devices.empty()) return scene.tools.size();
-  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
-    if (scene.tools[t].hand == "right") return t;
-  }
-  return 0;
-}
-
-/// Where a person leads, the script does no more than move the other hand.
-void leave_the_lead(std::size_t led, scene::Scene& scene) {
-  if (led >= scene.tools.size()) return;
-  std::erase_if(scene.script, [led](const scene::ScriptAction& action) {
-    return !scene::moves_hand(action.deed) || action.tool == led;
-  });
-}
-
-std::vector<device::DeviceProfile> profiles_of(const Hands& hands) {
-  std::vector<device::DeviceProfile> profiles;
-  for (const scene::ToolDevice& tool : hands.devices) profiles.push_back(tool.device->profile());
-  return profiles;
-}
-
-std::string device_notes(const scene::Scene& scene, const Hands& hands) {
-  std::string notes;
-  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
-    const std::string note =
-        haptics::stiffness_notice(hands.devices[t].device->profile(), scene.tools[t].stiffness_N_m);
-    if (!note.empty()) notes += note + "\n";
-  }
-  return notes;
-}
-
-view::SceneState start_of(const scene::Scene& scene) {
-  view::SceneState start;
-  start.gravity = scene.settings.gravity_m_s2.norm() > 0.0;
-  if (scene.co_contraction) {
-    start.common = scene.co_contraction->common;
-    start.difference = scene.co_contraction->difference;
-    start.hold_posture = scene.co_contraction->hold_posture;
-  }
-  return start;
-}
-
-view::WindowSettings window_settings(const scene::Scene& scene, const Hands& hands) {
-  view::WindowSettings settings;
-  settings.facts.name = scene.name;
-  settings.facts.title = "Myotact: " + scene.title;
-  settings.facts.note = device_notes(scene, hands) + scene.note;
-  settings.facts.device_peaks_N.clear();
-  for (const scene::ToolDevice& tool : hands.devices) {
-    settings.facts.device_peaks_N.push_back(tool.device->profile().peak_force_N);
-  }
-  settings.facts.joint = watched_joint(scene);
-  settings.hand_start_world_m = to_array(scene::start_of_hand(scene, hands.led < scene.tools.size() ? hands.led : 0));
-  settings.start = start_of(scene);
-  return settings;
 }
 
 /// `driven`: the person took over from the script before; where undo goes back to the script's, the levels that the
@@ -138,6 +50,7 @@ scene::Requests requests_of(const view::ViewControls& controls, bool driven) {
   requests.steps = controls.steps;
   requests.resets = controls.resets;
   requests.shoves = controls.shoves;
+  requests.recording_ends = controls.recording_ends;
   return requests;
 }
 
@@ -165,48 +78,117 @@ class WindowReport {
   std::chrono::steady_clock::time_point next_;
 };
 
+/// What the person asked for, as the command line would have said it.
+Options options_of(const Options& given, const view::SceneWish& wish) {
+  Options options = given;
+  options.scene = wish.scene;
+  options.record = wish.recording;
+  if (wish.tissue.empty()) return options;
+  std::erase_if(options.set, [](const std::string& pair) { return pair.starts_with("tissue.default="); });
+  options.set.push_back("tissue.default=" + wish.tissue);
+  return options;
+}
+
+/// The window and what it shows: one stage that runs and, after a wish for another, the next one being built.
+class Performance {
+ public:
+  explicit Performance(const Options& options)
+      : options_(options), building_(options), report_(options.report_state), next_(build(options)) {}
+
+  ~Performance() {
+    if (next_.valid()) next_.wait();
+  }
+  Performance(const Performance&) = delete;
+  Performance& operator=(const Performance&) = delete;
+
+  /// Until the window is closed, the time is over or the program is interrupted. Throws Error when there is no display,
+  /// or when the first scene cannot be opened.
+  void run(double end_s) {
+    while (!window_.should_close() && interruption() == 0 && (!stage_ || stage_->session().running())) {
+      if (next_.valid() && next_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) change_stage();
+      if (!draw(end_s)) break;
+    }
+    end_session();
+  }
+
+ private:
+  std::future<std::unique_ptr<Stage>> build(const Options& options) {
+    return std::async(std::launch::async, [this, options] { return std::make_unique<Stage>(options, guarded_); });
+  }
+
+  void change_stage() {
+    std::unique_ptr<Stage> built;
+    try {
+      built = next_.get();
+    } catch (const Error& failure) {
+      if (!stage_) throw;
+      spdlog::warn("{}", failure.what());
+      window_.tell(failure.what());
+      return;
+    }
+    end_session();
+    window_.open(built->scene().specimen, built->window_settings(building_));
+    stage_ = std::move(built);
+    frame_ = {};
+    driven_ = false;
+    stage_->session().start();
+  }
+
+  void end_session() {
+    if (!stage_) return;
+    if (const scene::FreeTiming timing = stage_->session().stop(); !timing.refused.empty()) {
+      spdlog::warn("{}", timing.refused);
+    }
+  }
+
+  /// One picture; false when it was the last.
+  bool draw(double end_s) {
+    if (stage_) stage_->session().fetch_frame(frame_);
+    const bool last = frame_.time_s >= end_s;
+    if (last) window_.save_next_picture(options_.out / "window.png");
+    const auto since = std::chrono::steady_clock::now();
+    if (stage_) {
+      window_.set_news({stage_->session().recording(), next_.valid()});
+      window_.set_readings(stage_->readings(frame_, common_));
+    }
+    const view::ViewControls& controls = window_.draw(frame_);
+    if (stage_) report_.write(window_, frame_);
+    leave_time_to_the_simulation(std::chrono::steady_clock::now() - since);
+    if (stage_) lead(controls);
+    if (const auto wish = window_.take_wish(); wish && !next_.valid()) {
+      building_ = options_of(options_, *wish);
+      next_ = build(building_);
+    }
+    return !last;
+  }
+
+  /// What the person asks for goes to the session and the hand.
+  void lead(const view::ViewControls& controls) {
+    common_ = controls.scene.common;
+    driven_ = driven_ || controls.scene.drive != view::Drive::Script;
+    stage_->session().request(requests_of(controls, driven_));
+    stage_->move_hand(controls);
+  }
+
+  GuardedMotors guarded_;  // first: the watchdog is forked off before there are threads
+  Options options_;        // of the command line
+  Options building_;       // of the newest stage
+  WindowReport report_;
+  std::unique_ptr<Stage> stage_;              // none before the first is built
+  std::future<std::unique_ptr<Stage>> next_;  // being built
+  view::Window window_;                       // after the stages: it shows their specimens
+  messages::SceneFrame frame_;
+  double common_ = 0.0;
+  bool driven_ = false;
+};
+
 }  // namespace
 
 int view(const Options& options) {
-  scene::Scene scene = scene_of(options);
-  const std::size_t led = led_tool(options, scene);
-  leave_the_lead(led, scene);
-  std::optional<GuardedMotors> guarded;
-  // First: the watchdog is forked off before there are threads.
-  if (scene.tools.size() > 1 || led >= scene.tools.size()) guarded.emplace();
-  Hands hands(scene, led, guarded ? &*guarded : nullptr);
   if (options.seconds) make_writable_folder(options.out);
-  // First: without a display nothing is built.
-  view::Window window(scene.specimen, window_settings(scene, hands));
-  simulation::Simulation simulation(scene.specimen, scene.settings);
-  const auto recorder = open_recorder(options, scene, profiles_of(hands));
-  scene::FreeSession session(scene, simulation, hands.devices, recorder.get(), guarded ? &guarded->watchdog : nullptr);
-  if (!session.notice().empty()) spdlog::warn("{}", session.notice());
+  Performance performance(options);
   watch_for_interruption();
-  session.start();
-  messages::SceneFrame frame;
-  JointWatch watch(scene);
-  WindowReport report(options.report_state);
-  double common = scene.co_contraction ? scene.co_contraction->common : 0.0;
-  bool driven = false;
-  const double end_s = options.seconds.value_or(kForever_s);
-  while (!window.should_close() && session.running() && interruption() == 0) {
-    session.fetch_frame(frame);
-    const bool last = frame.time_s >= end_s;
-    if (last) window.save_next_picture(options.out / "window.png");
-    const auto drawing_since = std::chrono::steady_clock::now();
-    window.set_readings(watch.read(frame, common, session));
-    const view::ViewControls& controls = window.draw(frame);
-    report.write(window, frame);
-    common = controls.scene.common;
-    driven = driven || controls.scene.drive != view::Drive::Script;
-    leave_time_to_the_simulation(std::chrono::steady_clock::now() - drawing_since);
-    session.request(requests_of(controls, driven));
-    hands.mouse.set_pointer(to_vec3(controls.hand_world_m), controls.hand_buttons);
-    if (last) break;
-  }
-  if (const scene::FreeTiming timing = session.stop(); !timing.refused.empty()) spdlog::warn("{}", timing.refused);
-  if (recorder) recorder->close();
+  performance.run(options.seconds.value_or(kForever_s));
   return interruption();
 }
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/error.h"
 #include "haptics/faults.h"
 #include "haptics/haptic_group.h"
 #include "layer/simulation_engine.h"
@@ -36,6 +37,7 @@ FreeSession::FreeSession(const Scene& scene, simulation::Simulation& simulation,
     : scene_(&scene),
       simulation_(&simulation),
       recorder_(recorder),
+      recording_(recorder != nullptr),
       conductor_(scene, simulation),
       extremes_(devices.size()) {
   for (std::size_t t = 0; t < devices.size(); ++t) {
@@ -79,6 +81,7 @@ FreeTiming FreeSession::stop() {
   running_ = false;
   if (thread_.joinable()) thread_.join();
   haptic_thread_->stop();
+  end_recording();
   if (failure_) std::rethrow_exception(failure_);
   FreeTiming timing;
   timing.wall_s = static_cast<double>(realtime::steady_now_ns() - started_ns_) * 1e-9;
@@ -126,6 +129,31 @@ void FreeSession::obey(const Requests& requests) {
   }
   if (requests.resets != obeyed_.resets) conductor_.restart();
   if (requests.shoves != obeyed_.shoves) conductor_.ask_shove_test();
+  if (requests.recording_ends != obeyed_.recording_ends) end_recording();
+}
+
+/// A full disk ends the recording, not the session.
+template <typename... Record>
+void FreeSession::record(const Record&... what) {
+  if (recorder_ == nullptr) return;
+  try {
+    recorder_->add(what...);
+  } catch (const Error& failure) {
+    recording_fault_ = failure.what();
+    recorder_ = nullptr;
+    recording_ = false;
+  }
+}
+
+void FreeSession::end_recording() {
+  if (recorder_ == nullptr) return;
+  try {
+    recorder_->close();
+  } catch (const Error& failure) {
+    recording_fault_ = failure.what();
+  }
+  recorder_ = nullptr;
+  recording_ = false;
 }
 
 void FreeSession::simulate() {
@@ -179,7 +207,7 @@ void FreeSession::step() {
   take_ticks();
   if (recorder_ == nullptr) return;
   input_.state_hash = simulation_->state_hash();
-  recorder_->add(input_);
+  record(input_);
 }
 
 void FreeSession::take_ticks() {
@@ -191,7 +219,7 @@ void FreeSession::take_ticks() {
       tools_[t]->faults.add(tick.tool.faults, realtime::steady_now_ns());
       if (recorder_ != nullptr) ticks.push_back(record_of(tick));
     }
-    if (!ticks.empty()) recorder_->add(t, ticks);
+    if (!ticks.empty()) record(t, ticks);
   }
 }
 
@@ -200,12 +228,12 @@ void FreeSession::publish_models() {
   for (std::size_t t = 0; t < tools_.size(); ++t) {
     haptics::HapticLoop& loop = tools_[t]->loop;
     const messages::ToolState& state = loop.tool_states().front();
-    const ModelRecord record{++tools_[t]->model_sequence, realtime::steady_now_ns(), obeyed_.paused,
-                             state.tool_position_world_m, 0};
-    write_model(*simulation_, {state, static_cast<int>(t), record, step_ns, report_radius_m(scene_->tools[t])},
+    const ModelRecord model{++tools_[t]->model_sequence, realtime::steady_now_ns(), obeyed_.paused,
+                            state.tool_position_world_m, 0};
+    write_model(*simulation_, {state, static_cast<int>(t), model, step_ns, report_radius_m(scene_->tools[t])},
                 loop.models().back());
     loop.models().publish();
-    if (recorder_ != nullptr) recorder_->add(t, record);
+    record(t, model);
   }
 }
 
@@ -230,7 +258,7 @@ void FreeSession::publish_frame() {
   frame_.rates.haptic_hz = static_cast<double>(haptic_thread_->tick_count()) / wall_s;
   frame_.rates.missed_ticks = haptic_thread_->missed_count();
   frame_.rates.time_factor = static_cast<double>(step_count_) * scene_->settings.dt_s / wall_s;
-  frame_.notice = fault_text();
+  frame_.notice = recording_fault_.empty() ? fault_text() : recording_fault_;
   if (frame_.notice.empty()) frame_.notice = conductor_.notice();
   shove_ = conductor_.shove_test().record();
   ++frame_.sequence;

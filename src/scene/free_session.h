@@ -37,11 +37,12 @@ struct Requests {
   bool hold_posture = true;
   bool gravity = false;
   bool paused = false;
-  std::uint32_t stops = 0;   // emergency stops asked for so far
-  std::uint32_t arms = 0;    // times that forces were enabled again
-  std::uint32_t steps = 0;   // single steps asked for so far
-  std::uint32_t resets = 0;  // resets asked for so far
-  std::uint32_t shoves = 0;  // shove tests asked for so far
+  std::uint32_t stops = 0;           // emergency stops asked for so far
+  std::uint32_t arms = 0;            // times that forces were enabled again
+  std::uint32_t steps = 0;           // single steps asked for so far
+  std::uint32_t resets = 0;          // resets asked for so far
+  std::uint32_t shoves = 0;          // shove tests asked for so far
+  std::uint32_t recording_ends = 0;  // times that a recording was to end
 };
 
 /// What a free run reports when it ends.
@@ -85,6 +86,11 @@ class FreeSession {
   void request(const Requests& requests);
   /// Copies the newest frame; false when there is none newer.
   bool fetch_frame(messages::SceneFrame& frame);
+  /// Whether a recording is being written. One that cannot be written any more ends, and the notice says why; what was
+  /// written stays readable, and the session goes on.
+  bool recording() const { return recording_.load(std::memory_order_relaxed); }
+  /// After stop(): why the recording could not be written to its end; empty when it was, or when there was none.
+  const std::string& recording_fault() const { return recording_fault_; }
   /// The newest shove test that came to its end; joint -1: none has.
   ShoveRecord fetch_shove();
 
@@ -105,12 +111,17 @@ class FreeSession {
   void publish_models();
   void publish_frame();
   std::string fault_text() const;
+  template <typename... Record>
+  void record(const Record&... what);
+  void end_recording();
   /// Ticks since the last time: for the summary and the recording.
   void take_ticks();
 
   const Scene* scene_;
   simulation::Simulation* simulation_;
-  RecordingWriter* recorder_;
+  RecordingWriter* recorder_;  // null: none, or it ended
+  std::atomic<bool> recording_;
+  std::string recording_fault_;  // why it ended, if it had to
   Conductor conductor_;
   std::vector<std::unique_ptr<Tool>> tools_;  // as in the scene
   std::vector<haptics::HapticLoop*> loops_;   // theirs

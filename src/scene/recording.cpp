@@ -8,6 +8,8 @@
 #include <optional>
 #include <string_view>
 
+#include <utility>
+
 #include <fmt/format.h>
 #include <zlib.h>
 
@@ -255,6 +257,7 @@ void RecordingWriter::add(std::size_t tool, const ModelRecord& model) {
 }
 
 void RecordingWriter::close() {
+  if (std::exchange(closed_, true)) return;
   write_chunk(kEnd, "");
   file_.flush();
 }

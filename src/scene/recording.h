@@ -67,13 +67,14 @@ class RecordingWriter {
   void add(const StepRecord& step);
   void add(std::size_t tool, const std::vector<TickRecord>& ticks);
   void add(std::size_t tool, const ModelRecord& model);
-  void close();
+  void close();  // once; later calls do nothing
 
  private:
   void write_chunk(std::uint32_t type, const std::string& payload);
 
   std::filesystem::path path_;
   std::ofstream file_;
+  bool closed_ = false;
 };
 
 /// Throws Error NoInput, or BadData when the file is no recording or its first chunk is damaged.

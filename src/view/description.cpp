@@ -91,7 +91,7 @@ Json places_json(const PanelContext& context, const Area& scene) {
 
 }  // namespace
 
-std::string describe(const PanelContext& context, const Layout& layout) {
+std::string describe(const PanelContext& context, const Layout& layout, bool looking_back) {
   Json controls = Json::array();
   for (const ui::ControlPlace& control : ui::controls_of_last_picture()) {
     controls.push_back({{"key", control.key},
@@ -99,7 +99,11 @@ std::string describe(const PanelContext& context, const Layout& layout) {
                         {"box", {control.x, control.y, control.width, control.height}}});
   }
   const Area& scene = layout.scene;
-  return Json{{"view", view_json(context.specimen, context.view)},
+  return Json{{"scene_name", context.facts.name},
+              {"recording", context.news.recording},
+              {"opening", context.news.opening},
+              {"looking_back", looking_back},
+              {"view", view_json(context.specimen, context.view)},
               {"scene", scene_json(context.controls)},
               {"frame", frame_json(context)},
               {"pictures_per_s", ImGui::GetIO().Framerate},

@@ -20,6 +20,7 @@ ImGuiSession::ImGuiSession(GLFWwindow* window) {
   ImGui::GetIO().LogFilename = nullptr;
   ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
   ui::add_font(kFontSize);
+  ImGui::GetIO().MouseDoubleClickTime = 0.5f;  // seconds; slow pictures see clicks late
   ImGui::StyleColorsDark();
   ImGui::GetStyle().WindowRounding = 0.0f;
   ImGui::GetStyle().FrameRounding = 3.0f;

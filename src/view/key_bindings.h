@@ -35,6 +35,7 @@ enum class KeyAction {
   StopForces,
   EnableForces,
   Screenshot,
+  Record,
   FullScreen
 };
 

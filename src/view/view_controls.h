@@ -11,12 +11,13 @@ namespace myotact::view {
 struct ViewControls {
   SceneState scene;
   bool paused = false;
-  std::uint32_t stops = 0;   // emergency stops asked for so far
-  std::uint32_t arms = 0;    // times that forces were enabled again
-  std::uint32_t steps = 0;   // single steps asked for so far
-  std::uint32_t resets = 0;  // resets asked for so far
-  std::uint32_t shoves = 0;  // shove tests asked for so far
-  bool hand_moves = false;   // the mouse is the hand now
+  std::uint32_t stops = 0;           // emergency stops asked for so far
+  std::uint32_t arms = 0;            // times that forces were enabled again
+  std::uint32_t steps = 0;           // single steps asked for so far
+  std::uint32_t resets = 0;          // resets asked for so far
+  std::uint32_t shoves = 0;          // shove tests asked for so far
+  std::uint32_t recording_ends = 0;  // times that a recording was to end
+  bool hand_moves = false;           // the mouse is the hand now
   std::array<double, 3> hand_world_m{};
   std::uint32_t hand_buttons = 0;
 };

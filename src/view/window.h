@@ -3,6 +3,7 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "anatomy/specimen.h"
@@ -13,8 +14,12 @@
 
 namespace myotact::view {
 
-struct WindowSettings {
+struct WindowSize {
   int width = 1280, height = 800;  // pixels
+};
+
+/// Of a scene that is opened.
+struct WindowSettings {
   SceneFacts facts;
   SceneState start;                            // what the controls show at first
   std::array<double, 3> hand_start_world_m{};  // where the mouse takes the hand up
@@ -23,14 +28,22 @@ struct WindowSettings {
 /// The window: scene, panels, mouse and keys. Everything on the thread that made it.
 class Window {
  public:
-  /// Throws Error Unavailable without a display or without OpenGL 3.3.
-  Window(const anatomy::Specimen& specimen, const WindowSettings& settings);
+  /// Shows that a scene is being prepared, until open(). Throws Error Unavailable without a display or without OpenGL
+  /// 3.3.
+  explicit Window(const WindowSize& size = {});
   ~Window();
 
+  /// Another scene, or the same one from its start; then view and settings stay. The specimen outlives its being shown.
+  void open(const anatomy::Specimen& specimen, const WindowSettings& settings);
   /// Handles input, draws one picture, waits for the display. Returns what the person asks for.
   const ViewControls& draw(const messages::SceneFrame& frame);
   /// What the panel says about the joint from the next picture on.
   void set_readings(const JointReadings& readings);
+  void set_news(const SessionNews& news);
+  /// A sentence for the person, shown until it has been read.
+  void tell(const std::string& message);
+  /// The scene that the person wants to be opened, once.
+  std::optional<SceneWish> take_wish();
   bool should_close() const;
   /// The next picture is also written to this PNG.
   void save_next_picture(const std::filesystem::path& path);

@@ -198,7 +198,7 @@ void GuiProgram::click(const std::string& control, int button) {
 void GuiProgram::double_click(const std::string& control) {
   const auto box = box_of(control);
   move_to(box[0] + 0.5 * box[2], box[1] + 0.5 * box[3]);
-  xdotool("click --repeat 2 --delay 120 1");
+  xdotool("click --repeat 2 --delay 220 1");
   pause_s(0.3);
 }
 

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <filesystem>
 
 #include <gtest/gtest.h>
 
@@ -99,6 +100,57 @@ TEST_F(WindowTest, AMuscleIsFoundThroughASlipIsolatedTouchedAndPulled) {
   EXPECT_TRUE(gui.wait_until([](const json& s) { return s["frame"]["tools"][0]["grabbed_line"] == ""; }));
   gui.key("Escape");
   EXPECT_TRUE(gui.wait_until([](const json& s) { return s["frame"]["tools"][0]["forces_stopped"] == true; }, 5.0));
+}
+
+TEST_F(WindowTest, APostureIsHeldRecordedLookedBackOnAndExported) {
+  GuiProgram gui("keep", "elbow");
+  gui.click("tasks.demonstrate");
+  gui.click("demonstrate.preset.firm");
+  ASSERT_TRUE(
+      gui.wait_until([](const json& s) { return s["scene"]["common"] == 1.0 && s["scene"]["hold_posture"]; }, 5.0));
+  gui.key("ctrl+r");  // begins the scene again, with what is set
+  ASSERT_TRUE(gui.wait_until([](const json& s) { return s["recording"] == true; }, 60.0));
+  EXPECT_EQ(gui.state()["scene"]["common"], 1.0);
+  EXPECT_TRUE(gui.wait_until([](const json& s) { return s["frame"]["time_s"] > 4.0; }, 60.0));
+  EXPECT_LT(std::abs(gui.state()["frame"]["joints"]["elbow"]["angle_rad"].get<double>()), 0.02);  // a degree
+  EXPECT_GT(gui.state()["frame"]["joints"]["elbow"]["K_Nm_rad"], 4.0);
+  gui.click("status.read");
+  gui.click("keep.stop_recording");
+  EXPECT_TRUE(gui.wait_until([](const json& s) { return s["recording"] == false; }));
+  const auto recordings = std::filesystem::directory_iterator(gui.folder() / "home/data/myotact/recordings");
+  const std::string file = recordings->path().string();
+
+  gui.drag_slider("keep.time", 0.98, 0.15);
+  ASSERT_TRUE(gui.wait_until([](const json& s) { return s["looking_back"] == true; }, 5.0));
+  EXPECT_LT(gui.state()["frame"]["time_s"], 3.0);
+  expect_drawn(gui, "looking_back");
+  gui.click("keep.now");
+  EXPECT_TRUE(gui.wait_until([](const json& s) { return s["looking_back"] == false; }, 5.0));
+
+  gui.click("tasks.plots");
+  expect_drawn(gui, "plots");
+  gui.click("plots.csv");
+  gui.click("plots.svg");
+  testing::pause_s(0.5);
+  int exports = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(gui.folder() / "home/data/myotact/exports")) {
+    EXPECT_GT(entry.file_size(), 1000u) << entry.path();
+    ++exports;
+  }
+  EXPECT_GE(exports, 2);  // a table and charts
+  testing::Child replay(std::string(MYOTACT_PROGRAM) + " replay '" + file + "'", gui.folder() / "replay.log");
+  EXPECT_EQ(replay.wait(120.0), 0) << "see replay.log";
+}
+
+TEST_F(WindowTest, AnotherSceneOpensWhileThisOneGoesOn) {
+  GuiProgram gui("scenes", "elbow --set tissue.default=line");
+  gui.click("tasks.demonstrate");
+  gui.click("demonstrate.scene");
+  gui.click("stifle");
+  ASSERT_TRUE(gui.wait_until([](const json& s) { return s["opening"] == true || s["scene_name"] == "stifle"; }));
+  EXPECT_TRUE(gui.wait_until([](const json& s) { return s["scene_name"] == "stifle"; }, 90.0));
+  EXPECT_TRUE(gui.wait_until([](const json& s) { return s["frame"]["time_s"] > 0.2; }, 30.0));
+  expect_drawn(gui, "stifle");
 }
 
 TEST_F(WindowTest, AWindowTooSmallForItsPanelsStillShowsTheLimb) {

@@ -236,5 +236,25 @@ TEST(TwoHands, ADamagedNumberOfToolsIsRefused) {
   std::filesystem::remove(path);
 }
 
+TEST(TwoHands, AFullDiskEndsTheRecordingAndNothingElse) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  const Scene scene = held_rod(1);
+  RecordingWriter writer("/dev/full", "{}");
+  simulation::Simulation simulation(scene.specimen, scene.settings);
+  device::SimulatedDevice right("simulated", start_of_hand(scene, 0)), left("simulated", start_of_hand(scene, 1));
+  const std::array<ToolDevice, 2> devices = {ToolDevice{&right, &right}, ToolDevice{&left, &left}};
+  FreeSession session(scene, simulation, devices, &writer);
+  session.start();
+  EXPECT_TRUE(session.recording());
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  EXPECT_TRUE(session.running());
+  EXPECT_FALSE(session.recording());
+  messages::SceneFrame frame;
+  session.fetch_frame(frame);
+  EXPECT_NE(frame.notice.find("free space"), std::string::npos) << frame.notice;
+  EXPECT_GT(session.stop().ticks, 300u);
+  EXPECT_NE(session.recording_fault().find("/dev/full"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace myotact::scene

@@ -1,12 +1,10 @@
 #include "view/camera.h"
 
 #include <cmath>
-#include <set>
 
 #include <gtest/gtest.h>
 
 #include "view/colour_map.h"
-#include "view/key_bindings.h"
 
 namespace myotact::view {
 namespace {
@@ -51,12 +49,6 @@ TEST(ColourMap, RisesInBrightnessFromEndToEnd) {
   };
   for (double level = 0.05; level <= 1.0; level += 0.05) EXPECT_GT(brightness(level), brightness(level - 0.05));
   EXPECT_EQ(cividis(-1.0), cividis(0.0));
-}
-
-TEST(KeyBindings, NoKeyIsBoundTwice) {
-  std::set<std::pair<int, int>> keys;
-  for (const KeyBinding& binding : key_bindings())
-    EXPECT_TRUE(keys.insert({binding.key, binding.mods}).second) << name_of(binding);
 }
 
 }  // namespace

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -64,6 +66,7 @@ void draw_joint(PanelContext& context) {
   const auto& joint = context.frame.joints[static_cast<std::size_t>(context.facts.joint)];
   const JointReadings& readings = context.readings;
   draw_headline(joint, readings);
+  ui::paragraph(ui::tr("demonstrate.torque", joint.torque_Nm, joint.angle_rad * 57.29577951308232));
   const std::array parts = {Part{"demonstrate.K_muscle", readings.K_muscle_Nm_rad},
                             Part{"demonstrate.K_geometry", readings.K_geometry_Nm_rad},
                             Part{"demonstrate.K_contact", readings.K_contact_Nm_rad},
@@ -77,14 +80,82 @@ void draw_joint(PanelContext& context) {
   if (!readings.shove.empty()) ui::paragraph(readings.shove);
 }
 
+/// Another scene, or other tissue: built beside, while this one goes on.
+void draw_scene_choice(PanelContext& context) {
+  const SceneFacts& facts = context.facts;
+  ImGui::BeginDisabled(context.news.opening);
+  std::vector<const char*> scenes;
+  for (const std::string& name : facts.scenes) scenes.push_back(name.c_str());
+  const auto found = std::find(facts.scenes.begin(), facts.scenes.end(), facts.name);
+  int scene = found == facts.scenes.end() ? -1 : static_cast<int>(found - facts.scenes.begin());
+  if (ui::choice("demonstrate.scene", scene, scenes)) {
+    context.asks.wish = SceneWish{facts.scenes[static_cast<std::size_t>(scene)], facts.tissue, {}};
+  }
+  constexpr std::array kTissues = {"fem", "line", "mass_spring", "rigid"};
+  constexpr std::array kTexts = {"demonstrate.tissue.fem", "demonstrate.tissue.line", "demonstrate.tissue.mass_spring",
+                                 "demonstrate.tissue.rigid"};
+  const auto* now = std::find(kTissues.begin(), kTissues.end(), facts.tissue);
+  int tissue = now == kTissues.end() ? 0 : static_cast<int>(now - kTissues.begin());
+  if (ui::choice("demonstrate.tissue", tissue, kTexts)) {
+    context.asks.wish = SceneWish{facts.file, kTissues[static_cast<std::size_t>(tissue)], {}};
+  }
+  ui::paragraph(ui::tr(fmt::format("{}.note", kTexts[static_cast<std::size_t>(tissue)])));
+  ImGui::EndDisabled();
+}
+
+/// Same picture, different feel: two states to switch between.
+void draw_stored(SceneState& scene, std::array<std::optional<SceneState>, 2>& stored) {
+  constexpr std::array kStore = {"demonstrate.store_a", "demonstrate.store_b"};
+  constexpr std::array kShow = {"demonstrate.show_a", "demonstrate.show_b"};
+  for (std::size_t i = 0; i < stored.size(); ++i) {
+    if (i > 0) ImGui::SameLine();
+    if (ui::button(kStore[i])) stored[i] = scene;
+    ImGui::SameLine();
+    ImGui::BeginDisabled(!stored[i]);
+    if (ui::toggle_button(kShow[i], stored[i] == scene)) scene = *stored[i];
+    ImGui::EndDisabled();
+  }
+}
+
+/// Ready states that show something, by the joint.
+void draw_presets(SceneState& scene) {
+  struct Preset {
+    const char* key;
+    double common, difference;
+  };
+  constexpr std::array kPresets = {
+      Preset{"demonstrate.preset.rest", 0.0, 0.0}, Preset{"demonstrate.preset.light", 0.25, 0.0},
+      Preset{"demonstrate.preset.firm", 1.0, 0.0}, Preset{"demonstrate.preset.flex", 0.25, 0.1}};
+  bool first = true;
+  for (const Preset& preset : kPresets) {
+    if (!first) ImGui::SameLine();
+    first = false;
+    const bool on =
+        scene.drive == Drive::Balance && scene.common == preset.common && scene.difference == preset.difference;
+    if (!ui::toggle_button(preset.key, on)) continue;
+    scene.drive = Drive::Balance;
+    scene.common = preset.common;
+    scene.difference = preset.difference;
+    scene.hold_posture = preset.difference == 0.0;
+  }
+}
+
 }  // namespace
 
 void DemonstratePanel::draw(PanelContext& context) {
+  if (context.specimen.muscles.size() > 1) {
+    ui::heading("demonstrate.presets");
+    draw_presets(context.controls.scene);
+    draw_stored(context.controls.scene, stored_);
+    ui::heading("demonstrate.bench");
+  }
   const bool has_muscles = !context.specimen.muscles.empty();
   if (has_muscles) draw_sliders(context.controls.scene);
   ui::checkbox("demonstrate.gravity", context.controls.scene.gravity);
   ImGui::Separator();
   if (has_muscles && context.facts.joint < static_cast<int>(context.frame.joints.size())) draw_joint(context);
+  ui::heading("demonstrate.model");
+  draw_scene_choice(context);
 }
 
 }  // namespace myotact::view

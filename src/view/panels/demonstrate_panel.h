@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "view/panels/panel.h"
 
 namespace myotact::view {
@@ -8,6 +11,9 @@ namespace myotact::view {
 class DemonstratePanel {
  public:
   void draw(PanelContext& context);
+
+ private:
+  std::array<std::optional<SceneState>, 2> stored_;  // A and B
 };
 
 }  // namespace myotact::view

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,9 +18,25 @@ namespace myotact::view {
 /// What does not change while a scene is open.
 struct SceneFacts {
   std::string name, title;
+  std::string file;                         // by which it is opened: a name or a path
+  std::string tissue;                       // of all muscles, as asked for; empty: as the scene says
   std::string note;                         // what a person should know about its settings
   std::vector<double> device_peaks_N{3.3};  // of the tools' devices
   int joint = 0;                            // that is watched: co-contracted, or the first
+  std::vector<std::string> scenes;          // that can be opened by name
+};
+
+/// What the session is about.
+struct SessionNews {
+  bool recording = false;
+  bool opening = false;  // another scene is being built
+};
+
+/// A scene to be opened.
+struct SceneWish {
+  std::string scene;                               // name or path
+  std::string tissue;                              // "fem", "line" ...; empty: as the scene says
+  std::optional<std::filesystem::path> recording;  // file to record it to
 };
 
 /// What the mouse is over the scene.
@@ -31,8 +48,11 @@ struct WindowAsks {
   const char* standard_view = nullptr;  // to look from; null: none
   bool frame_selection = false;         // to come near what is selected; all when nothing is
   bool undo = false, redo = false;
-  bool help = false;  // to be shown or hidden
-  Part menu_of;       // the menu of this part is to open under the pointer
+  bool help = false;              // to be shown or hidden
+  bool record = false;            // to begin, or to end
+  std::optional<SceneWish> wish;  // a scene to be opened
+  std::string message;            // a sentence for the person to read
+  Part menu_of;                   // the menu of this part is to open under the pointer
 };
 
 /// What every panel gets to read and to change, each picture anew. Panels draw with ImGui between its NewFrame and
@@ -42,6 +62,7 @@ struct PanelContext {
   const messages::SceneFrame& frame;
   const SceneFacts& facts;
   const JointReadings& readings;
+  const SessionNews& news;
   const anatomy::FactsByKey& part_facts;
   Part hovered;            // under the pointer, in the scene or in a list
   ViewState& view;         // how it is looked at

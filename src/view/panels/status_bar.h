@@ -1,10 +1,13 @@
 #pragma once
 
+#include <string>
+
 #include "view/panels/panel.h"
 
 namespace myotact::view {
 
-/// Along the bottom: what a person should know now, rates, and that this is no medical device.
-void draw_status_bar(const PanelContext& context);
+/// Along the bottom: what a person should know now, and whether the computer keeps up. `message`: a sentence that stays
+/// until it is dismissed; empty: none.
+void draw_status_bar(PanelContext& context, std::string& message);
 
 }  // namespace myotact::view

@@ -28,6 +28,10 @@ void TimelinePanel::step(int by) {
 
 void TimelinePanel::draw(PanelContext& context) {
   ViewControls& controls = context.controls;
+  if (ui::toggle_button(context.news.recording ? "keep.stop_recording" : "keep.record", context.news.recording)) {
+    context.asks.record = true;
+  }
+  ImGui::SameLine();
   if (ui::button("keep.step_back")) step(-1);
   ImGui::SameLine();
   if (ui::button(controls.paused ? "keep.play" : "keep.pause")) {

@@ -1,0 +1,338 @@
+#include "view/shown_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <epoxy/gl.h>
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+
+#include "core/data_folder.h"
+#include "core/error.h"
+#include "core/user_folder.h"
+#include "messages/device.h"
+#include "view/description.h"
+#include "view/limb_bounds.h"
+#include "view/panels/help.h"
+#include "view/panels/see_panel.h"
+#include "view/panels/status_bar.h"
+#include "view/panels/toolbar.h"
+#include "view/part_actions.h"
+#include "view/ui/controls.h"
+#include "view/ui/text.h"
+
+namespace myotact::view {
+
+namespace {
+
+const char* view_of(KeyAction action) {
+  constexpr std::array kViews = {std::pair{KeyAction::Lateral, "lateral"}, std::pair{KeyAction::Medial, "medial"},
+                                 std::pair{KeyAction::Cranial, "cranial"}, std::pair{KeyAction::Caudal, "caudal"},
+                                 std::pair{KeyAction::Dorsal, "dorsal"},   std::pair{KeyAction::Palmar, "palmar"}};
+  const auto* found =
+      std::find_if(kViews.begin(), kViews.end(), [&](const auto& view) { return view.first == action; });
+  return found == kViews.end() ? nullptr : found->second;
+}
+
+/// An ImGui window over one area; draws nothing into an empty one.
+template <typename Draw>
+void in_area(const char* id, const Area& area, const Draw& draw) {
+  if (area.empty()) return;
+  ImGui::SetNextWindowPos(ImVec2(area.x, area.y));
+  ImGui::SetNextWindowSize(ImVec2(area.width, area.height));
+  ImGui::Begin(id, nullptr,
+               ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
+                   ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoBringToFrontOnFocus);
+  draw();
+  ImGui::End();
+}
+
+}  // namespace
+
+ShownScene::ShownScene(const anatomy::Specimen& specimen, const WindowSettings& settings)
+    : specimen_(&specimen),
+      facts_(settings.facts),
+      part_facts_(anatomy::load_part_facts(data_folder() / "assets" / "canine" / "names.json")),
+      renderer_(specimen),
+      state_{start_view(specimen, 1.0f), settings.start},
+      history_(state_) {
+  controls_.hand_world_m = settings.hand_start_world_m;
+  controls_.scene = settings.start;
+}
+
+void ShownScene::take_over(const ShownScene& before) {
+  state_ = before.state_;
+  history_ = before.history_;
+  const ViewControls start = controls_;
+  controls_ = before.controls_;
+  controls_.hand_world_m = start.hand_world_m;
+  controls_.paused = false;
+  pointer_ = before.pointer_;
+  message = before.message;
+  layout_ = before.layout_;
+}
+
+/// Turns there within a quarter of a second.
+void ShownScene::look(const Camera& camera) {
+  turn_ = {state_.view.camera, camera, 0.0f};
+}
+
+void ShownScene::look(const char* name, const messages::SceneFrame& frame) {
+  const ViewBox box = bounds_of(*specimen_, frame);
+  if (const auto camera = standard_view(name, specimen_->side != "right", box, scene_aspect())) look(*camera);
+}
+
+void ShownScene::look_at_selection(const messages::SceneFrame& frame) {
+  const Part part = selected_part(state_.view);
+  const ViewBox box = part ? bounds_of(*specimen_, frame, part) : bounds_of(*specimen_, frame);
+  look(framed(state_.view.camera, box, scene_aspect()));
+}
+
+void ShownScene::go_on_turning() {
+  if (turn_.share >= 1.0f) return;
+  constexpr float kTime_s = 0.25f;
+  turn_.share = std::min(1.0f, turn_.share + ImGui::GetIO().DeltaTime / kTime_s);
+  state_.view.camera = between(turn_.from, turn_.to, turn_.share);
+}
+
+void ShownScene::restore(const WorkState& earlier) {
+  state_ = earlier;
+  controls_.scene = earlier.scene;
+  turn_.share = 1.0f;
+}
+
+/// What the keys of the selected part do; false for other keys.
+bool ShownScene::act_on_part(KeyAction action) {
+  const Part part = selected_part(state_.view);
+  switch (action) {
+    case KeyAction::Hide:
+      if (part) look_of(state_.view, part).hidden = true;
+      return true;
+    case KeyAction::Isolate:
+      if (part) isolate(state_.view, part);
+      return true;
+    case KeyAction::ShowAll:
+      show_all(state_.view);
+      return true;
+    case KeyAction::Labels:
+      state_.view.labels = !state_.view.labels;
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// What the keys of time and forces do; false for other keys.
+bool ShownScene::act_on_play(KeyAction action) {
+  switch (action) {
+    case KeyAction::PauseOrPlay:
+      controls_.paused = !controls_.paused;
+      timeline_.back_to_now();
+      return true;
+    case KeyAction::Step:
+      if (timeline_.looks_back()) {
+        timeline_.step(1);
+      } else {
+        controls_.paused = true;
+        ++controls_.steps;
+      }
+      return true;
+    case KeyAction::StepBack:
+      timeline_.step(-1);
+      return true;
+    case KeyAction::Reset:
+      ++controls_.resets;
+      return true;
+    case KeyAction::StopForces:
+      ++controls_.stops;
+      return true;
+    case KeyAction::EnableForces:
+      ++controls_.arms;
+      return true;
+    default:
+      return false;
+  }
+}
+
+void ShownScene::act(KeyAction action, WindowAsks& asks, GlfwWindow& window) {
+  if (act_on_part(action) || act_on_play(action)) return;
+  switch (action) {
+    case KeyAction::Help:
+      asks.help = true;
+      return;
+    case KeyAction::Look:
+      return pointer_.set_mode(PointerMode::Look);
+    case KeyAction::Touch:
+      return pointer_.set_mode(PointerMode::Touch);
+    case KeyAction::Pull:
+      return pointer_.set_mode(PointerMode::Pull);
+    case KeyAction::FrameSelection:
+      asks.frame_selection = true;
+      return;
+    case KeyAction::FrameAll:
+      asks.standard_view = "lateral";
+      return;
+    case KeyAction::Search:
+      return find_.focus();
+    case KeyAction::Undo:
+      asks.undo = true;
+      return;
+    case KeyAction::Redo:
+      asks.redo = true;
+      return;
+    case KeyAction::Screenshot:
+      wants_screenshot = true;
+      return;
+    case KeyAction::Record:
+      asks.record = true;
+      return;
+    case KeyAction::FullScreen:
+      return window.toggle_full_screen();
+    case KeyAction::GrabLine:
+    case KeyAction::GrabBone:
+      return;  // held: read in hold_buttons()
+    default:
+      asks.standard_view = view_of(action);
+  }
+}
+
+/// Keys that are typed into a text, or that move the control with the keyboard's focus, mean that alone; a stop goes
+/// before anything else.
+void ShownScene::handle_keys(WindowAsks& asks, GlfwWindow& window) {
+  const ImGuiIO& io = ImGui::GetIO();
+  for (const GlfwWindow::KeyPress& press : window.take_presses()) {
+    const auto& all = key_bindings();
+    const auto binding = std::find_if(all.begin(), all.end(), [&](const KeyBinding& known) {
+      return known.key == press.key && known.mods == press.mods;
+    });
+    if (binding == all.end()) continue;
+    const bool plain = binding->mods == 0 && binding->key < GLFW_KEY_F1;
+    const bool taken = io.WantTextInput || (plain && io.NavVisible);
+    if (!taken || press.key == GLFW_KEY_ESCAPE) act(binding->action, asks, window);
+  }
+}
+
+void ShownScene::hold_buttons(const GlfwWindow& window) {
+  controls_.hand_buttons = 0;
+  if (ImGui::GetIO().WantTextInput) return;
+  for (const KeyBinding& binding : key_bindings()) {
+    if (!is_held(binding.action) || !window.is_down(binding.key)) continue;
+    controls_.hand_buttons |= binding.action == KeyAction::GrabLine ? messages::kGrabButton : messages::kGrabBoneButton;
+  }
+}
+
+void ShownScene::draw_tasks(PanelContext& context) {
+  if (!ImGui::BeginTabBar("tasks")) return;
+  const auto tab = [](const char* key, const auto& draw) {
+    const bool open = ImGui::BeginTabItem(fmt::format("{}###{}", ui::tr(key), key).c_str());
+    ui::note_control(key, open ? "on" : "off");
+    if (!open) return;
+    ImGui::BeginChild(key);
+    draw();
+    ImGui::EndChild();
+    ImGui::EndTabItem();
+  };
+  tab("tasks.feel", [&] { feel_.draw(context); });
+  tab("tasks.see", [&] { draw_see_panel(context); });
+  tab("tasks.demonstrate", [&] { demonstrate_.draw(context); });
+  tab("tasks.learn", [&] { learn_.draw(context); });
+  tab("tasks.plots", [&] { plots_.draw(context); });
+  ImGui::EndTabBar();
+}
+
+void ShownScene::obey(const WindowAsks& asks, const messages::SceneFrame& frame) {
+  if (asks.standard_view != nullptr) look(asks.standard_view, frame);
+  if (asks.frame_selection) look_at_selection(frame);
+  if (asks.help) help_ = !help_;
+  if (asks.undo) restore(history_.undo());
+  if (asks.redo) restore(history_.redo());
+  if (asks.pointer_mode) pointer_.set_mode(*asks.pointer_mode);
+  if (asks.record) begin_or_end_recording();
+  if (asks.wish) wish = asks.wish;
+  if (!asks.message.empty()) message = asks.message;
+}
+
+void ShownScene::begin_or_end_recording() {
+  if (news.recording) {
+    ++controls_.recording_ends;
+    return;
+  }
+  try {
+    const std::filesystem::path file = new_user_path("recordings", facts_.name, ".myorec");
+    wish = SceneWish{facts_.file, facts_.tissue, file};
+    message = ui::tr("keep.recording_begins", file.string());
+  } catch (const Error& failure) {
+    message = failure.what();
+  }
+}
+
+void ShownScene::draw_areas(PanelContext& context) {
+  in_area("toolbar", layout_.toolbar, [&] {
+    draw_toolbar(context, pointer_, {history_.can_undo(), history_.can_redo()});
+  });
+  in_area("find", layout_.find, [&] { find_.draw(context); });
+  in_area("tasks", layout_.tasks, [&] { draw_tasks(context); });
+  in_area("timeline", layout_.timeline, [&] { timeline_.draw(context); });
+  in_area("status", layout_.status, [&] { draw_status_bar(context, message); });
+  if (help_) draw_help(help_);
+}
+
+PanelContext ShownScene::context_of(const messages::SceneFrame& frame, WindowAsks& asks) {
+  return {*specimen_, frame, facts_, readings, news, part_facts_, hovered_, state_.view, controls_, asks};
+}
+
+void ShownScene::draw_panels(const messages::SceneFrame& now, GlfwWindow& window) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const bool first = layout_.scene.empty();
+  layout_ = layout_of(display.x, display.y, ImGui::GetFontSize());
+  if (first) {
+    state_.view.camera = framed(state_.view.camera, bounds_of(*specimen_, now), scene_aspect());
+    history_ = History(state_);
+  }
+  const messages::SceneFrame& shown = timeline_.choose(now);
+  shown_ = &shown;
+  WindowAsks asks;
+  PanelContext present = context_of(now, asks);
+  PanelContext seen = context_of(shown, asks);  // a past frame while the person looks back
+  plots_.add(present);
+  learn_.observe(present);
+  draw_areas(present);
+  hold_buttons(window);
+  handle_keys(asks, window);
+  if (!timeline_.looks_back() || pointer_.mode() == PointerMode::Look) {  // the past cannot be touched
+    pointer_.update(seen, layout_.scene, renderer_.superficial());
+  }
+  menu_.draw(present);
+  hovered_ = pointer_.hovered() ? pointer_.hovered() : find_.hovered();
+  obey(asks, shown);
+  go_on_turning();
+  state_.scene = controls_.scene;
+  history_.note(state_, ImGui::IsAnyItemActive() || ImGui::IsAnyMouseDown() || turn_.share < 1.0f);
+  overlay_.draw({*specimen_, shown, state_.view, renderer_.superficial(), {}, SceneExtras{}.background}, layout_.scene,
+                *ImGui::GetBackgroundDrawList());
+  timeline_.draw_banner(layout_.scene);
+}
+
+/// The scene's area is given in the window's pixels from the top, the framebuffer's from below.
+void ShownScene::draw_limb(int width, int height) {
+  const Area& area = layout_.scene;
+  if (area.empty() || shown_ == nullptr) return;
+  const float scale = static_cast<float>(width) / std::max(ImGui::GetIO().DisplaySize.x, 1.0f);
+  const auto pixels = [&](float length) { return static_cast<int>(length * scale); };
+  SceneExtras extras;
+  extras.joint = facts_.joint;
+  extras.hovered = hovered_;
+  renderer_.draw(*shown_, state_.view,
+                 {pixels(area.x), height - pixels(area.y + area.height), pixels(area.width), pixels(area.height)},
+                 extras);
+}
+
+std::string ShownScene::description(const messages::SceneFrame& now) {
+  WindowAsks none;
+  return describe(context_of(timeline_.looks_back() && shown_ != nullptr ? *shown_ : now, none), layout_,
+                  timeline_.looks_back());
+}
+
+}  // namespace myotact::view

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "anatomy/part_facts.h"
+#include "anatomy/specimen.h"
+#include "messages/scene_frame.h"
+#include "view/glfw_window.h"
+#include "view/history.h"
+#include "view/key_bindings.h"
+#include "view/layout.h"
+#include "view/panels/demonstrate_panel.h"
+#include "view/panels/feel_panel.h"
+#include "view/panels/find_panel.h"
+#include "view/panels/learn_panel.h"
+#include "view/panels/part_menu.h"
+#include "view/panels/plots_panel.h"
+#include "view/panels/timeline_panel.h"
+#include "view/pointer.h"
+#include "view/scene_overlay.h"
+#include "view/scene_renderer.h"
+#include "view/window.h"
+
+namespace myotact::view {
+
+/// The scene that a window shows, with its panels and all that a person did to it. Another scene is another one.
+class ShownScene {
+ public:
+  ShownScene(const anatomy::Specimen& specimen, const WindowSettings& settings);
+
+  /// The same scene from its start: what was set and shown stays.
+  void take_over(const ShownScene& before);
+
+  /// Panels, keys and mouse. Between ImGui's NewFrame and Render.
+  void draw_panels(const messages::SceneFrame& now, GlfwWindow& window);
+  /// The limb, into a framebuffer of that size.
+  void draw_limb(int width, int height);
+
+  const SceneFacts& facts() const { return facts_; }
+  const ViewControls& controls() const { return controls_; }
+  std::string description(const messages::SceneFrame& now);
+
+  JointReadings readings;
+  SessionNews news;
+  std::string message;            // to be read by the person; empty: none
+  std::optional<SceneWish> wish;  // of the person
+  bool wants_screenshot = false;
+
+ private:
+  PanelContext context_of(const messages::SceneFrame& frame, WindowAsks& asks);
+  float scene_aspect() const { return layout_.scene.empty() ? 1.0f : layout_.scene.width / layout_.scene.height; }
+  void look(const Camera& camera);
+  void look(const char* name, const messages::SceneFrame& frame);
+  void look_at_selection(const messages::SceneFrame& frame);
+  void go_on_turning();
+  void restore(const WorkState& earlier);
+  bool act_on_part(KeyAction action);
+  bool act_on_play(KeyAction action);
+  void act(KeyAction action, WindowAsks& asks, GlfwWindow& window);
+  void handle_keys(WindowAsks& asks, GlfwWindow& window);
+  void hold_buttons(const GlfwWindow& window);
+  void draw_areas(PanelContext& context);
+  void begin_or_end_recording();
+  void draw_tasks(PanelContext& context);
+  void obey(const WindowAsks& asks, const messages::SceneFrame& frame);
+
+  /// On the way from one view to another.
+  struct Turn {
+    Camera from, to;
+    float share = 1.0f;  // 1: there
+  };
+
+  const anatomy::Specimen* specimen_;
+  SceneFacts facts_;
+  anatomy::FactsByKey part_facts_;
+  SceneRenderer renderer_;
+  SceneOverlay overlay_;
+  Layout layout_;
+  WorkState state_;
+  History history_;
+  const messages::SceneFrame* shown_ = nullptr;  // now, or an earlier one
+  ViewControls controls_;
+  Part hovered_;
+  Turn turn_;
+  Pointer pointer_;
+  PartMenu menu_;
+  FindPanel find_;
+  FeelPanel feel_;
+  DemonstratePanel demonstrate_;
+  LearnPanel learn_;
+  PlotsPanel plots_;
+  TimelinePanel timeline_;
+  bool help_ = false;
+};
+
+}  // namespace myotact::view

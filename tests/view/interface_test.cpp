@@ -1,0 +1,140 @@
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <regex>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "view/key_bindings.h"
+#include "view/layout.h"
+#include "view/ui/text.h"
+
+// What holds for the interface as a whole: texts, keys, areas.
+
+namespace myotact::view {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kRoot = MYOTACT_SOURCE_DIR;
+
+/// The sources of the window, by path.
+std::map<std::string, std::string> window_sources() {
+  std::map<std::string, std::string> sources;
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot / "src" / "view")) {
+    if (entry.path().extension() == ".cpp" || entry.path().extension() == ".h") {
+      sources[entry.path().string()] = read_file(entry.path());
+    }
+  }
+  return sources;
+}
+
+std::vector<std::string> all_matches(const std::string& text, const std::regex& pattern) {
+  std::vector<std::string> found;
+  for (std::sregex_iterator it(text.begin(), text.end(), pattern), end; it != end; ++it) found.push_back((*it)[1]);
+  return found;
+}
+
+std::vector<std::string> places_of(const std::string& text) {
+  return all_matches(text, std::regex(R"((\{[^}]*\}))"));
+}
+
+TEST(Languages, HaveTheSameKeysAndTheSamePlaces) {
+  ASSERT_GE(ui::languages().size(), 2u);
+  const ui::Catalogue english = ui::load_catalogue("en");
+  for (const std::string& language : ui::languages()) {
+    const ui::Catalogue texts = ui::load_catalogue(language);
+    for (const auto& [key, text] : english) {
+      const auto found = texts.find(key);
+      ASSERT_NE(found, texts.end()) << language << " lacks " << key;
+      EXPECT_EQ(places_of(found->second), places_of(text)) << language << ": " << key;
+      EXPECT_EQ(found->second.empty(), text.empty()) << language << ": " << key;
+    }
+    for (const auto& [key, text] : texts)
+      EXPECT_TRUE(english.contains(key)) << "en lacks " << key << " of " << language;
+  }
+}
+
+TEST(Languages, HoldEveryKeyThatTheSourcesName) {
+  const ui::Catalogue english = ui::load_catalogue("en");
+  std::set<std::string> prefixes;
+  for (const auto& [key, text] : english) prefixes.insert(key.substr(0, key.find('.')));
+  const std::regex quoted(R"re("([a-z]+\.[a-zA-Z0-9_.]+)")re");
+  int keys = 0;
+  const std::regex note(R"re(note_control\([^;]*;)re");  // names places, not texts
+  for (const auto& [file, source] : window_sources()) {
+    for (const std::string& key : all_matches(std::regex_replace(source, note, ""), quoted)) {
+      if (!prefixes.contains(key.substr(0, key.find('.'))) || key.ends_with(".h") || key.ends_with('.')) continue;
+      ++keys;
+      EXPECT_TRUE(english.contains(key)) << file << " names " << key;
+    }
+  }
+  EXPECT_GT(keys, 100);
+}
+
+TEST(Languages, NoTextOfThePanelsStandsInTheSources) {
+  // Letters in a literal that a person would read; "%s", "##id" and single signs are none.
+  const std::regex literal(
+      R"re((?:TextUnformatted|TextWrapped|TextDisabled|Text|Button|Checkbox|SetTooltip|MenuItem)\(\s*"([^"#%]*[A-Za-z]{2,}[^"]*)")re");
+  for (const auto& [file, source] : window_sources()) {
+    EXPECT_EQ(all_matches(source, literal), std::vector<std::string>{}) << file;
+  }
+}
+
+TEST(Languages, OneThatIsNotThereIsNamedWithThoseThatAre) {
+  try {
+    ui::load_catalogue("xx");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), ExitStatus::NoInput);
+    EXPECT_NE(std::string(error.what()).find("en"), std::string::npos);
+  }
+}
+
+TEST(Languages, ATextWhosePlacesDoNotFitIsShownAsItIs) {
+  EXPECT_EQ(ui::tr("no.such.key", 1.0), "no.such.key");
+  EXPECT_EQ(ui::tr("find.nothing", std::string("x")).find('{'), std::string::npos);
+  EXPECT_NE(ui::tr("status.rates", std::string("not a number"), 1, 2, 3).find('{'), std::string::npos);
+}
+
+TEST(KeyBindings, NoKeyDoesTwoThingsAndEachHasAText) {
+  std::set<std::pair<int, int>> keys;
+  std::set<KeyAction> actions;
+  for (const KeyBinding& binding : key_bindings()) {
+    EXPECT_TRUE(keys.emplace(binding.key, binding.mods).second) << name_of(binding);
+    EXPECT_TRUE(actions.insert(binding.action).second) << name_of(binding);
+    EXPECT_TRUE(ui::has_text(binding.what)) << binding.what;
+  }
+}
+
+TEST(KeyBindings, StandInTheReadme) {
+  const std::string readme = read_file(kRoot / "README.md");
+  for (const KeyBinding& binding : key_bindings()) {
+    const std::string row = "| `" + name_of(binding) + "` | " + ui::tr(binding.what) + " |";
+    EXPECT_NE(readme.find(row), std::string::npos) << "README lacks: " << row;
+  }
+}
+
+TEST(WindowLayout, AreasLieWithinTheWindowAndTheSceneNeverVanishes) {
+  for (const float em : {13.0f, 15.0f, 30.0f}) {
+    for (float width = 1.0f; width < 4000.0f; width *= 1.37f) {
+      for (float height = 1.0f; height < 2200.0f; height *= 1.41f) {
+        const Layout layout = layout_of(width, height, em);
+        EXPECT_FALSE(layout.scene.empty());
+        for (const Area& area :
+             {layout.toolbar, layout.find, layout.scene, layout.timeline, layout.tasks, layout.status}) {
+          EXPECT_GE(area.x, 0.0f);
+          EXPECT_GE(area.y, 0.0f);
+          EXPECT_LE(area.x + area.width, width + 0.01f);
+          EXPECT_LE(area.y + area.height, height + 0.01f);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace myotact::view
