@@ -88,7 +88,8 @@ std::vector<MuscleTint> tint_muscles(const anatomy::Specimen& specimen, const me
       case MuscleColour::Tension:
         return tint_of_level(value_at(frame.tensions_N, m, 0.0) / tension_range_N(specimen));
       case MuscleColour::Stretch:
-        return tint_of_signed_level((value_at(frame.stretches, m, 1.0) - 1.0) / kStretchRange);
+        if (m >= frame.stretches.size()) break;  // not known: no colour of the scale
+        return tint_of_signed_level((frame.stretches[m] - 1.0) / kStretchRange);
       case MuscleColour::VolumeError:
         return tint_of_signed_level((value_at(frame.volume_ratios, m, 1.0) - 1.0) / kVolumeRange);
       case MuscleColour::StiffnessShare:
