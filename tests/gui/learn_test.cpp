@@ -113,6 +113,16 @@ TEST_F(LearnGui, TheMouseTouchesPressesAndPulls) {
   gui.release();
 }
 
+TEST_F(LearnGui, ALessonOfAnotherSceneOpensIt) {
+  GuiProgram gui("learn_scene", "elbow");
+  gui.click("tasks.learn");
+  gui.click("learn.open_scene.5_hock");
+  ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.shows("learn.start.5_hock"); }, 90.0));
+  gui.screenshot("opened");
+  gui.click("learn.start.5_hock");
+  EXPECT_TRUE(gui.wait_until([&](const json&) { return gui.shows("learn.next"); }));
+}
+
 TEST_F(LearnGui, TheElbowIsStiffenedInItsLesson) {
   GuiProgram gui("learn_stiffen", "elbow");
   gui.click("tasks.learn");

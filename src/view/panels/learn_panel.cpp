@@ -79,14 +79,16 @@ void LearnPanel::draw_listed(const learn::ListedLesson& lesson, PanelContext& co
   }
   title_line(lesson.head.title, true);
   ui::paragraph(ui::tr("learn.about", lesson.head.scene, lesson.head.steps));
-  if (lesson.head.scene == context.facts.name) {
-    const bool start = ImGui::Button(fmt::format("{}###start", ui::tr("learn.start")).c_str());
-    ui::note_control(fmt::format("learn.start.{}", lesson.head.key).c_str());
-    if (start) open(lesson, context);
-  } else {
-    ui::paragraph(ui::tr("learn.other_scene", lesson.head.scene));
-  }
+  const bool here = lesson.head.scene == context.facts.name;
+  ImGui::BeginDisabled(!here && context.news.opening);
+  const bool pressed =
+      ImGui::Button(fmt::format("{}###start", ui::tr(here ? "learn.start" : "learn.open_scene")).c_str());
+  ui::note_control(fmt::format("learn.{}.{}", here ? "start" : "open_scene", lesson.head.key).c_str());
+  ImGui::EndDisabled();
   ImGui::PopID();
+  if (!pressed) return;
+  if (here) return open(lesson, context);
+  context.asks.wish = SceneWish{lesson.head.scene, "", {}};
 }
 
 void LearnPanel::open(const learn::ListedLesson& lesson, const PanelContext& context) {
