@@ -57,7 +57,8 @@ ShownScene::ShownScene(const anatomy::Specimen& specimen, const WindowSettings& 
       part_facts_(anatomy::load_part_facts(data_folder() / "assets" / "canine" / "names.json")),
       renderer_(specimen),
       state_{start_view(specimen, 1.0f), settings.start},
-      history_(state_) {
+      history_(state_),
+      feel_(specimen) {
   controls_.hand_world_m = settings.hand_start_world_m;
   controls_.scene = settings.start;
 }
@@ -297,6 +298,7 @@ void ShownScene::draw_panels(const messages::SceneFrame& now, GlfwWindow& window
   PanelContext present = context_of(now, asks);
   PanelContext seen = context_of(shown, asks);  // a past frame while the person looks back
   plots_.add(present);
+  feel_.add(now);
   learn_.observe(present);
   draw_areas(present);
   hold_buttons(window);
@@ -324,6 +326,7 @@ void ShownScene::draw_limb(int width, int height) {
   SceneExtras extras;
   extras.joint = facts_.joint;
   extras.hovered = hovered_;
+  extras.pressures_Pa = feel_.map().peaks_Pa();
   renderer_.draw(*shown_, state_.view,
                  {pixels(area.x), height - pixels(area.y + area.height), pixels(area.width), pixels(area.height)},
                  extras);

@@ -1,26 +1,130 @@
 #include "view/panels/feel_panel.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
+#include <fmt/format.h>
 #include <imgui.h>
 
+#include "view/part_actions.h"
 #include "view/tool_drawing.h"
+#include "view/ui/controls.h"
 #include "view/ui/text.h"
 
 namespace myotact::view {
 
+namespace {
+
+constexpr double kPascals = 1000.0;  // a kilopascal
+
+double norm(const std::array<double, 3>& v) {
+  return std::hypot(v[0], v[1], v[2]);
+}
+
+void draw_force(const messages::ToolFrame& tool, double peak_N, bool alone) {
+  const double force_N = norm(tool.force_world_N);
+  const char* key = alone ? "feel.force" : tool.left ? "feel.force_left" : "feel.force_right";
+  const glm::vec3 colour = tool_colour(tool);
+  ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImVec4(colour.r, colour.g, colour.b, 1.0f));
+  ImGui::ProgressBar(static_cast<float>(force_N / peak_N), ImVec2(-1, 0), ui::tr(key, force_N, peak_N).c_str());
+  ImGui::PopStyleColor();
+  ui::note_control(key, fmt::format("{:.3f}", force_N));
+}
+
+/// What is touched or held, in words.
+void draw_touched(const PanelContext& context, const messages::ToolFrame& tool) {
+  const auto name = [&](PartKind kind, int index) { return name_of(context.specimen, {kind, index}, context.view); };
+  if (tool.forces_stopped) return ui::paragraph(ui::tr("feel.stopped"));
+  if (tool.grabbed_line >= 0) {
+    return ui::paragraph(ui::tr("feel.holds_line", name(PartKind::Muscle, tool.grabbed_line), tool.line_tension_N));
+  }
+  if (tool.grabbed_body >= 0) return ui::paragraph(ui::tr("feel.holds_bone"));
+  if (tool.touched_muscle >= 0)
+    return ui::paragraph(ui::tr("feel.touches", name(PartKind::Muscle, tool.touched_muscle)));
+  ui::paragraph(ui::tr(tool.in_contact ? "feel.touches_bone" : "feel.touches_nothing"));
+}
+
+struct PartOfForce {
+  const char* key;
+  double force_N;
+};
+
+/// The parts, the largest first.
+std::array<PartOfForce, 7> parts_of(const messages::ForceParts& parts) {
+  std::array all = {
+      PartOfForce{"feel.part.contact", norm(parts.contact)}, PartOfForce{"feel.part.friction", norm(parts.friction)},
+      PartOfForce{"feel.part.texture", norm(parts.texture)}, PartOfForce{"feel.part.line", norm(parts.line)},
+      PartOfForce{"feel.part.bone", norm(parts.bone)},       PartOfForce{"feel.part.damping", norm(parts.damping)},
+      PartOfForce{"feel.part.limits", norm(parts.limits)}};
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.force_N > b.force_N; });
+  return all;
+}
+
+/// The force in its parts: vectors that may work against each other, so that bars need not add up to the whole.
+void draw_why(const messages::ToolFrame& tool) {
+  constexpr double kFelt_N = 0.01;  // less is below what a finger tells
+  const auto parts = parts_of(tool.parts);
+  if (parts.front().force_N < kFelt_N) return ui::paragraph(ui::tr("feel.why_nothing"));
+  for (const PartOfForce& part : parts) {
+    if (part.force_N < kFelt_N) continue;
+    const std::string text = fmt::format("{:.2f} N  {}", part.force_N, ui::tr(part.key));
+    ImGui::ProgressBar(static_cast<float>(part.force_N / parts.front().force_N), ImVec2(-1, 0), text.c_str());
+    ui::note_control(part.key, fmt::format("{:.3f}", part.force_N));
+    ui::paragraph(ui::tr(fmt::format("{}.why", part.key)));
+  }
+}
+
+}  // namespace
+
+/// Pressure beside the band that is wanted: a number, a colour and a word.
+void FeelPanel::draw_gauge(const messages::ToolFrame& tool) {
+  const double now_kPa = pressure_Pa(tool) / kPascals;
+  const bool below = now_kPa<band_low_kPa_, above = now_kPa> band_high_kPa_;
+  const char* word = now_kPa == 0.0 ? "feel.band_none"
+                     : below        ? "feel.band_below"
+                     : above        ? "feel.band_above"
+                                    : "feel.band_in";
+  const double full_kPa = 2.0 * band_high_kPa_;
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, height = 1.4f * ImGui::GetFontSize();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const auto x_of = [&](double kPa) {
+    return corner.x + width * static_cast<float>(std::clamp(kPa / full_kPa, 0.0, 1.0));
+  };
+  const ImU32 in_band = IM_COL32(0, 158, 115, 255), outside = IM_COL32(213, 94, 0, 255);  // Okabe-Ito green, vermilion
+  list.AddRectFilled(corner, ImVec2(corner.x + width, corner.y + height), ImGui::GetColorU32(ImGuiCol_FrameBg));
+  list.AddRectFilled(corner, ImVec2(x_of(now_kPa), corner.y + height), below || above ? outside : in_band);
+  list.AddRect(ImVec2(x_of(band_low_kPa_), corner.y), ImVec2(x_of(band_high_kPa_), corner.y + height),
+               ImGui::GetColorU32(ImGuiCol_Text), 0.0f, 0, 2.0f);
+  ImGui::Dummy(ImVec2(width, height));
+  ui::note_control("feel.pressure", fmt::format("{:.2f}", now_kPa));
+  ui::paragraph(ui::tr("feel.pressure", now_kPa, ui::tr(word)));
+}
+
 void FeelPanel::draw(PanelContext& context) {
   const auto& tools = context.frame.tools;
   for (std::size_t t = 0; t < tools.size() && t < context.facts.device_peaks_N.size(); ++t) {
-    const auto& f = tools[t].force_world_N;
-    const double force_N = std::hypot(f[0], f[1], f[2]), peak_N = context.facts.device_peaks_N[t];
-    const char* key = tools.size() == 1 ? "feel.force" : tools[t].left ? "feel.force_left" : "feel.force_right";
-    const glm::vec3 colour = tool_colour(tools[t]);
-    ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImVec4(colour.r, colour.g, colour.b, 1.0f));
-    ImGui::ProgressBar(static_cast<float>(force_N / peak_N), ImVec2(-1, 0), ui::tr(key, force_N, peak_N).c_str());
-    ImGui::PopStyleColor();
+    draw_force(tools[t], context.facts.device_peaks_N[t], tools.size() == 1);
+    draw_touched(context, tools[t]);
   }
+  if (tools.empty()) return;
+  const messages::ToolFrame& tool = tools.front();
+  ui::paragraph(ui::tr("feel.scales", tool.force_scale, tool.motion_scale, 1e3 * tool.model_age_s));
+  ui::heading("feel.pressure_heading");
+  draw_gauge(tool);
+  ui::slider("feel.band_low", band_low_kPa_, {1.0f, 100.0f}, "%.0f kPa");
+  ui::slider("feel.band_high", band_high_kPa_, {1.0f, 200.0f}, "%.0f kPa");
+  band_high_kPa_ = std::max(band_high_kPa_, band_low_kPa_ + 1.0);
+  bool painted = context.view.colour == MuscleColour::Pressure;
+  if (ui::checkbox("feel.paint", painted)) {
+    context.view.colour = painted ? MuscleColour::Pressure : MuscleColour::Activation;
+  }
+  ImGui::SameLine();
+  if (ui::button("feel.clear")) map_.clear();
+  ui::heading("feel.why");
+  draw_why(tool);
 }
 
 }  // namespace myotact::view
