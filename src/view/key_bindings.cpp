@@ -1,5 +1,6 @@
 #include "view/key_bindings.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -74,6 +75,14 @@ const std::vector<KeyBinding>& key_bindings() {
       {GLFW_KEY_F11, 0, KeyAction::FullScreen, "keys.full_screen"},
   };
   return kBindings;
+}
+
+const KeyBinding* binding_of(int key, int mods) {
+  const auto& all = key_bindings();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const KeyBinding& known) {
+    return known.key == key && (known.mods == mods || known.action == KeyAction::StopForces);
+  });
+  return found == all.end() ? nullptr : &*found;
 }
 
 }  // namespace myotact::view

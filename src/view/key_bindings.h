@@ -49,6 +49,10 @@ struct KeyBinding {
 /// All bindings, in the order of the help.
 const std::vector<KeyBinding>& key_bindings();
 
+/// What a key does with these GLFW_MOD_* held; null: nothing. The stop of the forces is the same with any of them held:
+/// with Ctrl the mouse moves the hand, and that is when it is needed.
+const KeyBinding* binding_of(int key, int mods);
+
 /// As a person calls it: "Ctrl+Z", "Backspace", "G (hold)".
 std::string name_of(const KeyBinding& binding);
 

@@ -204,14 +204,11 @@ void ShownScene::act(KeyAction action, WindowAsks& asks, GlfwWindow& window) {
 void ShownScene::handle_keys(WindowAsks& asks, GlfwWindow& window) {
   const ImGuiIO& io = ImGui::GetIO();
   for (const GlfwWindow::KeyPress& press : window.take_presses()) {
-    const auto& all = key_bindings();
-    const auto binding = std::find_if(all.begin(), all.end(), [&](const KeyBinding& known) {
-      return known.key == press.key && known.mods == press.mods;
-    });
-    if (binding == all.end()) continue;
+    const KeyBinding* binding = binding_of(press.key, press.mods);
+    if (binding == nullptr) continue;
     const bool plain = binding->mods == 0 && binding->key < GLFW_KEY_F1;
     const bool taken = io.WantTextInput || (plain && io.NavVisible);
-    if (!taken || press.key == GLFW_KEY_ESCAPE) act(binding->action, asks, window);
+    if (!taken || binding->action == KeyAction::StopForces) act(binding->action, asks, window);
   }
 }
 

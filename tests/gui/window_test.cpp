@@ -100,6 +100,10 @@ TEST_F(WindowTest, AMuscleIsFoundThroughASlipIsolatedTouchedAndPulled) {
   EXPECT_TRUE(gui.wait_until([](const json& s) { return s["frame"]["tools"][0]["grabbed_line"] == ""; }));
   gui.key("Escape");
   EXPECT_TRUE(gui.wait_until([](const json& s) { return s["frame"]["tools"][0]["forces_stopped"] == true; }, 5.0));
+  gui.key("Return");
+  EXPECT_TRUE(gui.wait_until([](const json& s) { return s["frame"]["tools"][0]["forces_stopped"] == false; }, 5.0));
+  gui.key("ctrl+Escape");  // the hand is moved freely with Ctrl
+  EXPECT_TRUE(gui.wait_until([](const json& s) { return s["frame"]["tools"][0]["forces_stopped"] == true; }, 5.0));
 }
 
 TEST_F(WindowTest, APostureIsHeldRecordedLookedBackOnAndExported) {

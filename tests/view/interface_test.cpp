@@ -4,6 +4,8 @@
 #include <regex>
 #include <set>
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
@@ -108,6 +110,19 @@ TEST(KeyBindings, NoKeyDoesTwoThingsAndEachHasAText) {
     EXPECT_TRUE(actions.insert(binding.action).second) << name_of(binding);
     EXPECT_TRUE(ui::has_text(binding.what)) << binding.what;
   }
+}
+
+TEST(KeyBindings, EachIsFoundWithItsModifiersAloneTheStopWithAny) {
+  for (const KeyBinding& binding : key_bindings()) {
+    EXPECT_EQ(binding_of(binding.key, binding.mods), &binding) << name_of(binding);
+  }
+  for (int mods = 0; mods <= (GLFW_MOD_SHIFT | GLFW_MOD_CONTROL | GLFW_MOD_ALT); ++mods) {
+    const KeyBinding* stop = binding_of(GLFW_KEY_ESCAPE, mods);
+    ASSERT_NE(stop, nullptr) << mods;
+    EXPECT_EQ(stop->action, KeyAction::StopForces) << mods;
+  }
+  EXPECT_EQ(binding_of(GLFW_KEY_ENTER, GLFW_MOD_CONTROL), nullptr);  // forces come back by Enter alone
+  EXPECT_EQ(binding_of(GLFW_KEY_UNKNOWN, 0), nullptr);
 }
 
 TEST(KeyBindings, StandInTheReadme) {
