@@ -21,7 +21,6 @@ ImGuiSession::ImGuiSession(GLFWwindow* window) {
   ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
   ui::add_font(kFontSize);
   ImGui::GetIO().MouseDoubleClickTime = 0.5f;  // seconds; slow pictures see clicks late
-  ImGui::StyleColorsDark();
   ImGui::GetStyle().WindowRounding = 0.0f;
   ImGui::GetStyle().FrameRounding = 3.0f;
   ImGui_ImplGlfw_InitForOpenGL(window, true);

@@ -17,6 +17,7 @@
 #include "view/limb_bounds.h"
 #include "view/panels/help.h"
 #include "view/panels/see_panel.h"
+#include "view/panels/settings_panel.h"
 #include "view/panels/status_bar.h"
 #include "view/panels/toolbar.h"
 #include "view/part_actions.h"
@@ -237,6 +238,7 @@ void ShownScene::draw_tasks(PanelContext& context) {
   tab("tasks.demonstrate", [&] { demonstrate_.draw(context); });
   tab("tasks.learn", [&] { learn_.draw(context); });
   tab("tasks.plots", [&] { plots_.draw(context); });
+  tab("tasks.settings", [&] { draw_settings_panel(settings, message); });
   ImGui::EndTabBar();
 }
 

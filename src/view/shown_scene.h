@@ -20,6 +20,7 @@
 #include "view/pointer.h"
 #include "view/scene_overlay.h"
 #include "view/scene_renderer.h"
+#include "view/settings.h"
 #include "view/window.h"
 
 namespace myotact::view {
@@ -42,6 +43,7 @@ class ShownScene {
   std::string description(const messages::SceneFrame& now);
 
   JointReadings readings;
+  Settings settings;
   SessionNews news;
   std::string message;            // to be read by the person; empty: none
   std::optional<SceneWish> wish;  // of the person

@@ -13,6 +13,7 @@
 #include "view/glfw_window.h"
 #include "view/imgui_session.h"
 #include "view/offscreen.h"
+#include "view/settings.h"
 #include "view/shown_scene.h"
 #include "view/ui/controls.h"
 #include "view/ui/text.h"
@@ -33,7 +34,12 @@ void draw_waiting(const std::string& message) {
 }  // namespace
 
 struct Window::Impl {
-  explicit Impl(const WindowSize& size) : window("Myotact", size.width, size.height), imgui(window.get()) {}
+  explicit Impl(const WindowSize& size)
+      : window("Myotact", size.width, size.height),
+        imgui(window.get()),
+        settings(settings_or_defaults(settings_file(), settings_message)) {
+    apply(settings);
+  }
 
   /// Read before the buffers are swapped: afterwards their content is undefined.
   void save_picture(int width, int height) {
@@ -68,6 +74,8 @@ struct Window::Impl {
 
   GlfwWindow window;
   ImGuiSession imgui;
+  std::string settings_message;       // until a scene can show it
+  Settings settings;                  // that the first scene starts with
   std::unique_ptr<ShownScene> scene;  // none before the first one is open
   std::string message;                // while there is none
   std::optional<std::filesystem::path> screenshot;
@@ -80,6 +88,8 @@ Window::~Window() = default;
 void Window::open(const anatomy::Specimen& specimen, const WindowSettings& settings) {
   auto opened = std::make_unique<ShownScene>(specimen, settings);
   if (impl_->scene && impl_->scene->facts().name == settings.facts.name) opened->take_over(*impl_->scene);
+  opened->settings = impl_->scene ? impl_->scene->settings : impl_->settings;
+  if (!impl_->settings_message.empty()) opened->message = std::exchange(impl_->settings_message, {});
   impl_->scene = std::move(opened);
   glfwSetWindowTitle(impl_->window.get(), settings.facts.title.c_str());
 }

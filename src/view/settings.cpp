@@ -1,0 +1,73 @@
+#include "view/settings.h"
+
+#include <cstdlib>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/json_reader.h"
+#include "view/ui/text.h"
+#include "view/ui/theme.h"
+
+namespace myotact::view {
+
+namespace {
+
+constexpr int kSchema = 1;
+
+std::filesystem::path folder_of(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value == nullptr ? std::filesystem::path() : std::filesystem::path(value);
+}
+
+}  // namespace
+
+std::filesystem::path settings_file() {
+  const std::filesystem::path own = std::filesystem::path("myotact") / "settings.json";
+  // The XDG base directory specification wants an absolute path, and says to ignore others.
+  if (const auto config = folder_of("XDG_CONFIG_HOME"); config.is_absolute()) return config / own;
+  const auto home = folder_of("HOME");
+  return home.empty() ? home : home / ".config" / own;
+}
+
+Settings read_settings(const std::filesystem::path& file) {
+  Settings settings;
+  if (file.empty() || !std::filesystem::exists(file)) return settings;
+  const nlohmann::json json = read_json(file);
+  JsonObject object{JsonValue(json, file.string())};
+  object.at("schema").integer_between(kSchema, kSchema);
+  if (const auto language = object.find("language")) settings.language = language->one_of(ui::languages());
+  if (const auto theme = object.find("theme")) settings.light = theme->one_of({"dark", "light"}) == "light";
+  object.finish();
+  return settings;
+}
+
+Settings settings_or_defaults(const std::filesystem::path& file, std::string& message) {
+  try {
+    return read_settings(file);
+  } catch (const Error& failure) {
+    std::error_code refused;
+    const std::filesystem::path aside = file.string() + ".broken";
+    std::filesystem::rename(file, aside, refused);
+    message = ui::tr(refused ? "comfort.unusable" : "comfort.set_aside", failure.what(), aside.string());
+    return {};
+  }
+}
+
+void write_settings(const Settings& settings, const std::filesystem::path& file) {
+  if (file.empty()) {
+    throw Error(ExitStatus::InputOutput, "there is no folder for your settings: set HOME or XDG_CONFIG_HOME to one");
+  }
+  make_writable_folder(file.parent_path());
+  const nlohmann::json json = {
+      {"schema", kSchema}, {"language", settings.language}, {"theme", settings.light ? "light" : "dark"}};
+  write_file(file, json.dump(2) + "\n");
+}
+
+void apply(const Settings& settings) {
+  ui::set_language(settings.language);
+  ui::apply_theme(settings.light ? ui::Theme::Light : ui::Theme::Dark);
+}
+
+}  // namespace myotact::view

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace myotact::view {
+
+/// What a person likes, kept from one start to the next.
+struct Settings {
+  std::string language = "en";  // a folder of assets/languages
+  bool light = false;           // theme
+
+  friend bool operator==(const Settings&, const Settings&) = default;
+};
+
+/// $XDG_CONFIG_HOME/myotact/settings.json, or ~/.config/... in its place; empty without a home.
+std::filesystem::path settings_file();
+
+/// The defaults where there is no such file. Throws Error BadData, or what reading throws.
+Settings read_settings(const std::filesystem::path& file);
+/// As read_settings(), but a file that cannot be used is renamed to FILE.broken and `message` says so.
+Settings settings_or_defaults(const std::filesystem::path& file, std::string& message);
+/// Makes the folder. Throws Error InputOutput.
+void write_settings(const Settings& settings, const std::filesystem::path& file);
+
+/// To the window: its language, and the colours of the current ImGui context.
+void apply(const Settings& settings);
+
+}  // namespace myotact::view

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <span>
+
+#include <imgui.h>
+
+namespace myotact::view::ui {
+
+enum class Theme { Dark, Light };
+
+/// Sets the colours of the current ImGui context. Every text stands out by 4.5:1 or more (WCAG 2.1, 1.4.3).
+void apply_theme(Theme theme);
+
+/// A colour that is read on another one.
+struct TextPair {
+  ImGuiCol text, ground;
+};
+/// All that the panels use.
+std::span<const TextPair> text_pairs();
+
+}  // namespace myotact::view::ui
