@@ -39,7 +39,7 @@ void FrameHistory::pack_skins(const messages::SceneFrame& frame, Kept& kept) {
 
 std::size_t FrameHistory::bytes_of(const Kept& kept) {
   const messages::SceneFrame& rest = kept.rest;
-  std::size_t bytes = sizeof(Kept) + kept.skins.size() * sizeof(std::uint16_t);
+  std::size_t bytes = sizeof(FrameHistory::Kept) + kept.skins.size() * sizeof(std::uint16_t);
   bytes += kept.vertices.size() * sizeof(std::uint32_t) + rest.body_poses.size() * sizeof(rest.body_poses[0]);
   for (const auto* numbers :
        {&rest.activations, &rest.tensions_N, &rest.stretches, &rest.volume_ratios, &rest.smallest_volume_ratios}) {

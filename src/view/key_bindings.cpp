@@ -72,6 +72,7 @@ const std::vector<KeyBinding>& key_bindings() {
       {GLFW_KEY_Y, kCtrl, KeyAction::Redo, "keys.redo"},
       {GLFW_KEY_P, kCtrl, KeyAction::Screenshot, "keys.screenshot"},
       {GLFW_KEY_R, kCtrl, KeyAction::Record, "keys.record"},
+      {GLFW_KEY_P, kCtrl | kShift, KeyAction::SceneScreenshot, "keys.scene_screenshot"},
       {GLFW_KEY_F11, 0, KeyAction::FullScreen, "keys.full_screen"},
   };
   return kBindings;

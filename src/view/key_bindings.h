@@ -36,6 +36,7 @@ enum class KeyAction {
   EnableForces,
   Screenshot,
   Record,
+  SceneScreenshot,
   FullScreen
 };
 

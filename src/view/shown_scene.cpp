@@ -23,6 +23,7 @@
 #include "view/part_actions.h"
 #include "view/ui/controls.h"
 #include "view/ui/text.h"
+#include "view/window_pictures.h"
 
 namespace myotact::view {
 
@@ -185,7 +186,9 @@ void ShownScene::act(KeyAction action, WindowAsks& asks, GlfwWindow& window) {
       asks.redo = true;
       return;
     case KeyAction::Screenshot:
-      wants_screenshot = true;
+    case KeyAction::SceneScreenshot:
+      picture_wish_ = action;
+      message.clear();  // not to be in the picture
       return;
     case KeyAction::Record:
       asks.record = true;
@@ -317,18 +320,27 @@ void ShownScene::draw_panels(const messages::SceneFrame& now, GlfwWindow& window
 }
 
 /// The scene's area is given in the window's pixels from the top, the framebuffer's from below.
-void ShownScene::draw_limb(int width, int height) {
+Viewport ShownScene::viewport(int width, int height) const {
   const Area& area = layout_.scene;
-  if (area.empty() || shown_ == nullptr) return;
   const float scale = static_cast<float>(width) / std::max(ImGui::GetIO().DisplaySize.x, 1.0f);
   const auto pixels = [&](float length) { return static_cast<int>(length * scale); };
+  return {pixels(area.x), height - pixels(area.y + area.height), pixels(area.width), pixels(area.height)};
+}
+
+void ShownScene::draw_limb(int width, int height) {
+  if (layout_.scene.empty() || shown_ == nullptr) return;
   SceneExtras extras;
   extras.joint = facts_.joint;
   extras.hovered = hovered_;
   extras.pressures_Pa = feel_.map().peaks_Pa();
-  renderer_.draw(*shown_, state_.view,
-                 {pixels(area.x), height - pixels(area.y + area.height), pixels(area.width), pixels(area.height)},
-                 extras);
+  renderer_.draw(*shown_, state_.view, viewport(width, height), extras);
+}
+
+void ShownScene::take_picture(int width, int height) {
+  if (!picture_wish_ || width <= 0 || height <= 0) return;  // of a minimised window: when it is seen again
+  const bool alone = *picture_wish_ == KeyAction::SceneScreenshot && !layout_.scene.empty();
+  message = save_picture_for_person(facts_.name, alone ? viewport(width, height) : Viewport{0, 0, width, height});
+  picture_wish_.reset();
 }
 
 std::string ShownScene::description(const messages::SceneFrame& now) {

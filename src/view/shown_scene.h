@@ -47,7 +47,8 @@ class ShownScene {
   SessionNews news;
   std::string message;            // to be read by the person; empty: none
   std::optional<SceneWish> wish;  // of the person
-  bool wants_screenshot = false;
+  /// Saves the picture that the person asked for, if any, from the framebuffer [pixels]; message says where.
+  void take_picture(int width, int height);
 
  private:
   PanelContext context_of(const messages::SceneFrame& frame, WindowAsks& asks);
@@ -65,6 +66,7 @@ class ShownScene {
   void draw_areas(PanelContext& context);
   void begin_or_end_recording();
   void draw_tasks(PanelContext& context);
+  Viewport viewport(int width, int height) const;
   void obey(const WindowAsks& asks, const messages::SceneFrame& frame);
 
   /// On the way from one view to another.
@@ -93,6 +95,7 @@ class ShownScene {
   LearnPanel learn_;
   PlotsPanel plots_;
   TimelinePanel timeline_;
+  std::optional<KeyAction> picture_wish_;  // Screenshot or SceneScreenshot
   bool help_ = false;
 };
 

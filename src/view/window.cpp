@@ -12,11 +12,11 @@
 
 #include "view/glfw_window.h"
 #include "view/imgui_session.h"
-#include "view/offscreen.h"
 #include "view/settings.h"
 #include "view/shown_scene.h"
 #include "view/ui/controls.h"
 #include "view/ui/text.h"
+#include "view/window_pictures.h"
 
 namespace myotact::view {
 
@@ -41,15 +41,6 @@ struct Window::Impl {
     apply(settings);
   }
 
-  /// Read before the buffers are swapped: afterwards their content is undefined.
-  void save_picture(int width, int height) {
-    std::vector<std::uint8_t> pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3);
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
-    write_png(*screenshot, flipped(width, height, pixels));
-    screenshot.reset();
-  }
-
   void draw(const messages::SceneFrame& frame) {
     glfwPollEvents();
     imgui.begin();
@@ -67,8 +58,8 @@ struct Window::Impl {
     glClear(GL_COLOR_BUFFER_BIT);
     if (scene) scene->draw_limb(width, height);
     imgui.end();
-    if (scene && std::exchange(scene->wants_screenshot, false)) screenshot = "myotact.png";
-    if (screenshot) save_picture(width, height);
+    if (scene) scene->take_picture(width, height);
+    if (screenshot) save_framebuffer(*std::exchange(screenshot, std::nullopt), {0, 0, width, height});
     glfwSwapBuffers(window.get());
   }
 
