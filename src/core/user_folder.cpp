@@ -35,9 +35,9 @@ std::filesystem::path new_user_path(const std::string& kind, const std::string& 
   }
   make_writable_folder(own / kind);
   const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  const std::string stem = fmt::format("{} {:%Y-%m-%d %H.%M.%S}", name, fmt::localtime(now));
+  const std::string stem = fmt::format("{}_{:%Y-%m-%d_%H.%M.%S}", name, fmt::localtime(now));
   std::filesystem::path path = own / kind / (stem + extension);
-  for (int i = 2; std::filesystem::exists(path); ++i) path = own / kind / fmt::format("{} {}{}", stem, i, extension);
+  for (int i = 2; std::filesystem::exists(path); ++i) path = own / kind / fmt::format("{}_{}{}", stem, i, extension);
   return path;
 }
 

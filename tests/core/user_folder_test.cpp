@@ -53,7 +53,7 @@ TEST(UserFolder, NewPathsAreDatedAndNeverTakeAnOldFile) {
     EXPECT_FALSE(std::filesystem::exists(path));
     EXPECT_EQ(path.parent_path(), folder / "myotact" / "exports");
     EXPECT_TRUE(
-        std::regex_match(path.filename().string(), std::regex(R"(elbow \d{4}-\d\d-\d\d \d\d\.\d\d\.\d\d( \d)?\.csv)")))
+        std::regex_match(path.filename().string(), std::regex(R"(elbow_\d{4}-\d\d-\d\d_\d\d\.\d\d\.\d\d(_\d)?\.csv)")))
         << path;
     write_file(path, "x");
   }

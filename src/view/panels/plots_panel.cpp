@@ -57,7 +57,7 @@ void PlotsPanel::save_svg(const PanelContext& context, const std::vector<PlotShe
     std::string saved;
     for (const PlotSheet& sheet : sheets) {
       const std::string what = sheet.key.substr(sheet.key.find('.') + 1);
-      const auto path = new_user_path("exports", context.facts.name + " " + what, ".svg");
+      const auto path = new_user_path("exports", context.facts.name + "_" + what, ".svg");
       write_file(path, svg_of(shown(), sheet, shown().first_within(window_s_),
                               {context.facts.title, ui::tr(sheet.key.c_str()), ui::tr("plots.time")}));
       saved = path.parent_path().string();
