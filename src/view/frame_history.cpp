@@ -45,7 +45,8 @@ std::size_t FrameHistory::bytes_of(const Kept& kept) {
        {&rest.activations, &rest.tensions_N, &rest.stretches, &rest.volume_ratios, &rest.smallest_volume_ratios}) {
     bytes += numbers->size() * sizeof(double);
   }
-  for (const auto& line : rest.lines_world_m) bytes += sizeof(line) + line.size() * sizeof(std::array<double, 3>);
+  for (const auto& line : rest.lines_world_m)
+    bytes += sizeof(rest.lines_world_m[0]) + line.size() * sizeof(std::array<double, 3>);
   for (const messages::JointFrame& joint : rest.joints) {
     bytes += sizeof(joint) + joint.muscles.size() * sizeof(messages::MuscleJointFrame);
   }

@@ -1,5 +1,11 @@
 #include "view/imgui_session.h"
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <imgui.h>
 #include <imgui_impl_glfw.h>
 #include <imgui_impl_opengl3.h>
@@ -11,20 +17,37 @@ namespace myotact::view {
 namespace {
 
 constexpr float kFontSize = 15.0f;  // pixels
+constexpr float kLargestDisplayScale = 3.0f;
 
 }  // namespace
 
-ImGuiSession::ImGuiSession(GLFWwindow* window) {
+ImGuiSession::ImGuiSession(GLFWwindow* window) : window_(window) {
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;
   ImGui::GetIO().LogFilename = nullptr;
   ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
-  ui::add_font(kFontSize);
   ImGui::GetIO().MouseDoubleClickTime = 0.5f;  // seconds; slow pictures see clicks late
-  ImGui::GetStyle().WindowRounding = 0.0f;
-  ImGui::GetStyle().FrameRounding = 3.0f;
   ImGui_ImplGlfw_InitForOpenGL(window, true);
   ImGui_ImplOpenGL3_Init("#version 330");
+  set_scale(1.0f);
+}
+
+void ImGuiSession::set_scale(float scale) {
+  float across = 1.0f, down = 1.0f;
+  glfwGetWindowContentScale(window_, &across, &down);
+  const float wanted = scale * std::clamp(across, 1.0f, kLargestDisplayScale);
+  if (wanted == drawn_scale_) return;
+  if (drawn_scale_ > 0.0f) ImGui_ImplOpenGL3_DestroyFontsTexture();
+  ImGui::GetIO().Fonts->Clear();
+  ui::add_font(std::round(kFontSize * wanted));
+  if (drawn_scale_ > 0.0f) ImGui_ImplOpenGL3_CreateFontsTexture();
+  drawn_scale_ = wanted;
+  ImGuiStyle scaled;
+  scaled.WindowRounding = 0.0f;
+  scaled.FrameRounding = 3.0f;
+  scaled.ScaleAllSizes(wanted);
+  std::copy(std::begin(ImGui::GetStyle().Colors), std::end(ImGui::GetStyle().Colors), std::begin(scaled.Colors));
+  ImGui::GetStyle() = scaled;
 }
 
 ImGuiSession::~ImGuiSession() {

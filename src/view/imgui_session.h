@@ -12,9 +12,16 @@ class ImGuiSession {
   ImGuiSession(const ImGuiSession&) = delete;
   ImGuiSession& operator=(const ImGuiSession&) = delete;
 
+  /// Of everything written and clicked on, beside what the display itself asks for. Before begin(); draws the letters
+  /// anew where it changed.
+  void set_scale(float scale);
   /// Start of a picture's panels; their end draws them over what has been drawn.
   void begin();
   void end();
+
+ private:
+  GLFWwindow* window_;
+  float drawn_scale_ = 0.0f;  // of the letters as they are
 };
 
 }  // namespace myotact::view

@@ -39,6 +39,9 @@ Settings read_settings(const std::filesystem::path& file) {
   object.at("schema").integer_between(kSchema, kSchema);
   if (const auto language = object.find("language")) settings.language = language->one_of(ui::languages());
   if (const auto theme = object.find("theme")) settings.light = theme->one_of({"dark", "light"}) == "light";
+  if (const auto scale = object.find("scale")) settings.scale = scale->number_between(kSmallestScale, kLargestScale);
+  settings.free_orbit = object.boolean_or("free_orbit", settings.free_orbit);
+  settings.tour_done = object.boolean_or("tour_done", settings.tour_done);
   object.finish();
   return settings;
 }
@@ -61,7 +64,8 @@ void write_settings(const Settings& settings, const std::filesystem::path& file)
   }
   make_writable_folder(file.parent_path());
   const nlohmann::json json = {
-      {"schema", kSchema}, {"language", settings.language}, {"theme", settings.light ? "light" : "dark"}};
+      {"schema", kSchema},       {"language", settings.language},     {"theme", settings.light ? "light" : "dark"},
+      {"scale", settings.scale}, {"free_orbit", settings.free_orbit}, {"tour_done", settings.tour_done}};
   write_file(file, json.dump(2) + "\n");
 }
 

@@ -9,9 +9,14 @@ namespace myotact::view {
 struct Settings {
   std::string language = "en";  // a folder of assets/languages
   bool light = false;           // theme
+  double scale = 1.0;           // of everything written and clicked on, kSmallestScale .. kLargestScale
+  bool free_orbit = false;      // a drag turns the limb any way
+  bool tour_done = false;       // or skipped
 
   friend bool operator==(const Settings&, const Settings&) = default;
 };
+
+inline constexpr double kSmallestScale = 0.75, kLargestScale = 2.0;
 
 /// $XDG_CONFIG_HOME/myotact/settings.json, or ~/.config/... in its place; empty without a home.
 std::filesystem::path settings_file();
@@ -23,7 +28,7 @@ Settings settings_or_defaults(const std::filesystem::path& file, std::string& me
 /// Makes the folder. Throws Error InputOutput.
 void write_settings(const Settings& settings, const std::filesystem::path& file);
 
-/// To the window: its language, and the colours of the current ImGui context.
+/// To the window: its language, and the colours of the current ImGui context. The scale is ImGuiSession's.
 void apply(const Settings& settings);
 
 }  // namespace myotact::view

@@ -17,7 +17,6 @@
 #include "view/limb_bounds.h"
 #include "view/panels/help.h"
 #include "view/panels/see_panel.h"
-#include "view/panels/settings_panel.h"
 #include "view/panels/status_bar.h"
 #include "view/panels/toolbar.h"
 #include "view/part_actions.h"
@@ -241,7 +240,7 @@ void ShownScene::draw_tasks(PanelContext& context) {
   tab("tasks.demonstrate", [&] { demonstrate_.draw(context); });
   tab("tasks.learn", [&] { learn_.draw(context); });
   tab("tasks.plots", [&] { plots_.draw(context); });
-  tab("tasks.settings", [&] { draw_settings_panel(settings, message); });
+  tab("tasks.settings", [&] { settings_panel_.draw(settings, message); });
   ImGui::EndTabBar();
 }
 
@@ -280,6 +279,10 @@ void ShownScene::draw_areas(PanelContext& context) {
   in_area("timeline", layout_.timeline, [&] { timeline_.draw(context); });
   in_area("status", layout_.status, [&] { draw_status_bar(context, message); });
   if (help_) draw_help(help_);
+  if (!settings.tour_done && !layout_.tasks.empty() && tour_.draw()) {
+    settings.tour_done = true;
+    keep(settings, message);
+  }
 }
 
 PanelContext ShownScene::context_of(const messages::SceneFrame& frame, WindowAsks& asks) {
@@ -302,7 +305,12 @@ void ShownScene::draw_panels(const messages::SceneFrame& now, GlfwWindow& window
   plots_.add(present);
   feel_.add(now);
   learn_.observe(present);
+  pointer_.free_orbit = settings.free_orbit;
   draw_areas(present);
+  if (asks.free_orbit) {
+    settings.free_orbit = pointer_.free_orbit;
+    keep(settings, message);
+  }
   hold_buttons(window);
   handle_keys(asks, window);
   if (!timeline_.looks_back() || pointer_.mode() == PointerMode::Look) {  // the past cannot be touched

@@ -16,7 +16,9 @@
 #include "view/panels/learn_panel.h"
 #include "view/panels/part_menu.h"
 #include "view/panels/plots_panel.h"
+#include "view/panels/settings_panel.h"
 #include "view/panels/timeline_panel.h"
+#include "view/panels/tour.h"
 #include "view/pointer.h"
 #include "view/scene_overlay.h"
 #include "view/scene_renderer.h"
@@ -96,6 +98,8 @@ class ShownScene {
   PlotsPanel plots_;
   TimelinePanel timeline_;
   std::optional<KeyAction> picture_wish_;  // Screenshot or SceneScreenshot
+  SettingsPanel settings_panel_;
+  Tour tour_;
   bool help_ = false;
 };
 

@@ -43,6 +43,7 @@ struct Window::Impl {
 
   void draw(const messages::SceneFrame& frame) {
     glfwPollEvents();
+    imgui.set_scale(static_cast<float>((scene ? scene->settings : settings).scale));
     imgui.begin();
     ui::begin_controls();
     if (scene) {

@@ -106,6 +106,8 @@ GuiProgram::GuiProgram(const std::string& name, const std::string& arguments, co
   const std::string number = text_of(folder_ / "display");
   display_name_ = ":" + number.substr(0, number.find('\n'));
   const std::string home = (folder_ / "home").string();
+  std::filesystem::create_directories(folder_ / "home/config/myotact");
+  std::ofstream(folder_ / "home/config/myotact/settings.json") << R"({"schema": 1, "tour_done": true})";
   program_ = std::make_unique<Child>(
       "env DISPLAY=" + display_name_ + " HOME=" + home + " XDG_CONFIG_HOME=" + home + "/config XDG_DATA_HOME=" + home +
           "/data XDG_STATE_HOME=" + home + "/state " + environment + " " + MYOTACT_PROGRAM + " view " + arguments +

@@ -49,6 +49,7 @@ struct WindowAsks {
   bool frame_selection = false;         // to come near what is selected; all when nothing is
   bool undo = false, redo = false;
   bool help = false;              // to be shown or hidden
+  bool free_orbit = false;        // was switched on or off
   bool record = false;            // to begin, or to end
   std::optional<SceneWish> wish;  // a scene to be opened
   std::string message;            // a sentence for the person to read

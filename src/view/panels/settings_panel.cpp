@@ -28,7 +28,7 @@ bool choose_language(Settings& settings) {
 
 }  // namespace
 
-void draw_settings_panel(Settings& settings, std::string& message) {
+void SettingsPanel::draw(Settings& settings, std::string& message) {
   constexpr std::array kThemes = {"comfort.theme.dark", "comfort.theme.light"};
   int theme = settings.light ? 1 : 0;
   bool changed = choose_language(settings);
@@ -36,7 +36,23 @@ void draw_settings_panel(Settings& settings, std::string& message) {
     settings.light = theme == 1;
     changed = true;
   }
-  if (!changed) return;
+  double scale = dragged_scale_.value_or(settings.scale);
+  const ui::Range range{static_cast<float>(kSmallestScale), static_cast<float>(kLargestScale)};
+  if (ui::slider("comfort.scale", scale, range, "%.2f")) dragged_scale_ = scale;
+  if (dragged_scale_ && !ui::is_held()) {
+    settings.scale = std::clamp(*dragged_scale_, kSmallestScale, kLargestScale);
+    dragged_scale_.reset();
+    changed = true;
+  }
+  changed = ui::checkbox("comfort.free_orbit", settings.free_orbit) || changed;
+  if (ui::button("comfort.tour")) {
+    settings.tour_done = false;
+    changed = true;
+  }
+  if (changed) keep(settings, message);
+}
+
+void keep(const Settings& settings, std::string& message) {
   apply(settings);
   try {
     write_settings(settings, settings_file());

@@ -1,12 +1,23 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "view/settings.h"
 
 namespace myotact::view {
 
-/// Language and theme: they change at once, and are kept. `message`: why they could not be.
-void draw_settings_panel(Settings& settings, std::string& message);
+/// Language, colours, size: they change at once, and are kept.
+class SettingsPanel {
+ public:
+  /// `message`: why they could not be kept.
+  void draw(Settings& settings, std::string& message);
+
+ private:
+  std::optional<double> dragged_scale_;  // while the slider is held: the sizes change when it is let go
+};
+
+/// Applies settings that changed and writes them; `message` says what is wrong where that fails.
+void keep(const Settings& settings, std::string& message);
 
 }  // namespace myotact::view

@@ -62,7 +62,7 @@ void draw_views(PanelContext& context, Pointer& pointer) {
     if (ui::button(key)) context.asks.standard_view = view;
     ImGui::SameLine();
   }
-  ui::checkbox("toolbar.free_orbit", pointer.free_orbit);
+  context.asks.free_orbit = ui::checkbox("toolbar.free_orbit", pointer.free_orbit);
   ImGui::SameLine();
 }
 

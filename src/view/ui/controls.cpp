@@ -119,6 +119,10 @@ bool input_text(const char* key, std::string& value) {
   return changed;
 }
 
+bool is_held() {
+  return ImGui::IsAnyItemActive();
+}
+
 void text(const char* key) {
   ImGui::TextUnformatted(tr(key));
 }

@@ -25,6 +25,9 @@ bool choice(const char* key, int& value, std::span<const char* const> option_key
 /// A line of text to be typed; true at every change.
 bool input_text(const char* key, std::string& value);
 
+/// A control is being dragged or pressed.
+bool is_held();
+
 void text(const char* key);
 /// Any text, broken at the panel's edge.
 void paragraph(const std::string& text);
