@@ -5,17 +5,19 @@ namespace myotact::view {
 namespace {
 
 // In heights of the font.
-constexpr float kToolbar = 2.6f, kFind = 16.0f, kTasks = 25.0f, kTimeline = 3.2f, kStatus = 1.9f;
-constexpr float kNarrowestScene = 24.0f, kLowestScene = 16.0f;
+constexpr float kToolbar = 2.6f, kTwoRows = 4.4f, kFind = 16.0f, kTasks = 25.0f, kTimeline = 3.2f, kStatus = 1.9f;
+constexpr float kNarrowestScene = 20.0f, kLowestScene = 16.0f;
+constexpr float kWideToolbar = 76.0f;  // in which its controls stand in one row; else in two
 
 }  // namespace
 
 Layout layout_of(float width, float height, float em) {
   Layout layout;
   layout.scene = {0.0f, 0.0f, width, height};
-  const float rows = (kToolbar + kTimeline + kStatus) * em;
+  const float toolbar = width >= kWideToolbar * em ? kToolbar : kTwoRows;
+  const float rows = (toolbar + kTimeline + kStatus) * em;
   if (height >= rows + kLowestScene * em) {
-    layout.toolbar = {0.0f, 0.0f, width, kToolbar * em};
+    layout.toolbar = {0.0f, 0.0f, width, toolbar * em};
     layout.status = {0.0f, height - kStatus * em, width, kStatus * em};
     layout.scene.y = layout.toolbar.height;
     layout.scene.height = height - layout.toolbar.height - layout.status.height;

@@ -81,7 +81,8 @@ void draw_toolbar(PanelContext& context, Pointer& pointer, const UndoState& undo
   draw_modes(pointer);
   draw_gap();
   draw_play(context.controls);
-  draw_gap();
+  constexpr float kTwoRows = 3.5f;  // heights of the font, which is more than one row takes
+  ImGui::GetWindowHeight() > kTwoRows* ImGui::GetFontSize() ? ImGui::NewLine() : draw_gap();
   draw_views(context, pointer);
   draw_gap();
   ImGui::BeginDisabled(!undo.can_undo);
