@@ -89,6 +89,7 @@ Vec3 ForceGate::watch_device(const GateInput& input, double elapsed_s) noexcept 
 
 Vec3 ForceGate::admit(const GateInput& input) noexcept {
   faults_ = 0;
+  damping_N_ = Vec3::Zero();
   const double elapsed_s = advance_clock(input);
   heat_.book(last_sent_N_.norm(), std::min(elapsed_s, kLongestHeat_s));
   const Vec3 moved_m = watch_device(input, elapsed_s);
@@ -151,7 +152,8 @@ Vec3 ForceGate::keep_passive(const Vec3& force_N, const Vec3& moved_m, double da
   const double bears_Ns_m = kDampingShare / (1 + std::max(0, profile_.delay_ticks)) * profile_.inertia_kg / dt_s;
   const double damping_Ns_m =
       std::clamp(-energy_J_ / (dt_s * velocity_m_s.squaredNorm()), 0.0, std::max(0.0, bears_Ns_m - damped_Ns_m));
-  return force_N - damping_Ns_m * velocity_m_s;
+  damping_N_ = -damping_Ns_m * velocity_m_s;
+  return force_N + damping_N_;
 }
 
 }  // namespace myotact::haptics

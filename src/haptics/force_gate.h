@@ -58,6 +58,8 @@ class ForceGate {
   double limit_N() const noexcept { return heat_.limit_N(); }
 
   GateState state() const noexcept { return state_; }
+  /// Of the last admit, what the passivity of the sent force added [N].
+  const Vec3& damping_N() const noexcept { return damping_N_; }
   std::uint32_t faults() const noexcept { return faults_; }  // bits of Fault raised by the last admit
 
  private:
@@ -77,6 +79,7 @@ class ForceGate {
   double energy_J_ = 0.0;
   MotorHeat heat_;
   Vec3 last_sent_N_ = Vec3::Zero();
+  Vec3 damping_N_ = Vec3::Zero();
   Vec3 last_position_m_ = Vec3::Zero();
   bool knows_position_ = false;
   std::uint64_t last_ns_ = 0;

@@ -94,10 +94,11 @@ void HapticLoop::tick(std::uint64_t now_ns) noexcept {
   const bool is_new = take_model(now_ns);
   Vec3 contact_N = Vec3::Zero();
   PortForces felt;
+  forces_ = {};
   const bool device_is_sound = is_finite(state.stylus_position_world_m) && is_finite(state.stylus_velocity_world_m_s);
   if (device_is_sound) {
     const ProxyGoal goal{to_vec3(state.stylus_position_world_m), to_vec3(state.stylus_velocity_world_m_s)};
-    soften(goal.position_m, now_ns);
+    soften(goal.position_m);
     const std::uint32_t buttons = settings_.takes_bones_only ? of_clamp(state.buttons) : state.buttons;
     felt.bone_N = bone_force_N(goal, buttons, is_new);
     contact_N = contact_force_N(goal, now_ns, is_new);
@@ -106,11 +107,14 @@ void HapticLoop::tick(std::uint64_t now_ns) noexcept {
     const messages::LocalLine nothing_near;
     const messages::LocalLine& line = model_ == nullptr ? nothing_near : model_->line;
     const bool open = line_.gain() <= 0.0 && held_.body < 0;
-    felt.texture_N += settings_.force_scale * snap_.tick(line, goal.position_m, open, dt_s_);
+    forces_.strummed_N = settings_.force_scale * snap_.tick(line, goal.position_m, open, dt_s_);
+    felt.texture_N += forces_.strummed_N;
     const Vec3 line_N =
         line_.tick(line, {goal.position_m, goal.velocity_m_s, (buttons & messages::kGrabButton) != 0}, dt_s_);
     felt.line_N = settings_.force_scale * line_N;
+    forces_.wanted = felt;
     felt = make_passive(felt, goal);
+    forces_.ports_change_N = felt.sum_N() - forces_.wanted.sum_N();
   } else {
     faults_ |= bit(Fault::NonFiniteDevice);
   }
@@ -118,6 +122,8 @@ void HapticLoop::tick(std::uint64_t now_ns) noexcept {
   const Vec3 sent_N =
       gate_and_write(felt.sum_N(), device_is_sound ? to_vec3(state.stylus_position_world_m) : nowhere, now_ns);
   ports_.book(sent_N);
+  forces_.gate_damping_N = gate_.damping_N();
+  forces_.sent_N = sent_N;
   faults_ |= proxy_faults();
   tell(state, sent_N, contact_N);
 }
@@ -214,14 +220,19 @@ double HapticLoop::contact_share() const noexcept {
   return (1.0 - held_.gain) * age_share_ * buzz_.stiffness_share();
 }
 
-void HapticLoop::soften(const Vec3& device_m, std::uint64_t now_ns) noexcept {
+/// Of the state that the newest model shows. The simulation looked at the hand at the beginning of the step that ended
+/// with this model; steps may take longer than the time that they simulate.
+double HapticLoop::model_age_s() const noexcept {
+  if (model_ == nullptr) return 0.0;
+  const std::uint64_t since_ns = last_ns_ > model_->published_at_ns ? last_ns_ - model_->published_at_ns : 0;
+  const std::uint64_t step_ns = std::max(model_->dt_ns, model_interval_ns_);
+  return 1e-9 * (static_cast<double>(since_ns) + static_cast<double>(step_ns));
+}
+
+void HapticLoop::soften(const Vec3& device_m) noexcept {
   if (buzz_.tick(device_m, to_vec3(last_.tool.force_world_N).norm() > kFelt_N, dt_s_)) faults_ |= bit(Fault::Buzz);
   if (model_ == nullptr || !settings_.limit_stiffness) return;
-  const std::uint64_t since_ns = now_ns > model_->published_at_ns ? now_ns - model_->published_at_ns : 0;
-  // The simulation looked at the hand at the beginning of the step that ended with this model; steps may take longer
-  // than the time that they simulate.
-  const std::uint64_t step_ns = std::max(model_->dt_ns, model_interval_ns_);
-  const double age_s = std::max(1e-3, 1e-9 * (static_cast<double>(since_ns) + static_cast<double>(step_ns)));
+  const double age_s = std::max(1e-3, model_age_s());
   const double bears = std::min(1.0, stiffness_by_age_N_m(age_s) / settings_.contact.stiffness_N_m);
   age_share_ += std::min(1.0, dt_s_ / (bears < age_share_ ? kSoften_s : kStiffen_s)) * (bears - age_share_);
   if (bears < 1.0) faults_ |= bit(Fault::StiffnessLowered);
@@ -307,6 +318,14 @@ void HapticLoop::tell(const messages::DeviceState& state, const Vec3& sent_N, co
   last_.line_tension_N = line_.tension_N();
   last_.gate = gate_.state();
   ticks_.push(last_);
+  tell_felt();
+}
+
+void HapticLoop::tell_felt() noexcept {
+  const ProxyContact& contact = proxy_.contact();
+  if (!goes_by_reports() && contact.active) forces_.contact_normal = contact.normal;
+  felt_now_ = {last_.tool, force_parts(forces_), last_.line_tension_N, model_age_s()};
+  felt_.publish(felt_now_);
 }
 
 /// The spring pulls the touched point with the opposite of what the hand feels, as long as the tissue is where it is

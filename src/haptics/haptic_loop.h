@@ -12,12 +12,14 @@
 #include "haptics/contact_settings.h"
 #include "haptics/force_gate.h"
 #include "haptics/force_methods.h"
+#include "haptics/force_parts.h"
 #include "haptics/haptic_ports.h"
 #include "haptics/line_snap.h"
 #include "haptics/moving_surface.h"
 #include "haptics/muscle_line_drag.h"
 #include "haptics/proxy.h"
 #include "haptics/texture.h"
+#include "messages/felt_tool.h"
 #include "messages/local_model.h"
 #include "messages/tool_state.h"
 #include "realtime/bounded_fifo.h"
@@ -87,11 +89,13 @@ class HapticLoop {
 
   realtime::LatestValue<messages::LocalModel>& models() noexcept { return models_; }     // written by the simulation
   realtime::LatestValue<messages::ToolState>& tool_states() noexcept { return tools_; }  // read by the simulation
+  realtime::LatestValue<messages::FeltTool>& felt() noexcept { return felt_; }           // read for the drawing
   realtime::BoundedFifo<HapticTick>& ticks() noexcept { return ticks_; }                 // read by the recorder
 
   // ---- after tick(), in the thread that calls it
   const HapticTick& last_tick() const noexcept { return last_; }
   const messages::ToolState& tool_state() const noexcept { return last_.tool; }
+  const messages::FeltTool& felt_tool() const noexcept { return felt_now_; }
   GateState gate_state() const noexcept { return gate_.state(); }
   const HapticPorts& ports() const noexcept { return ports_; }
 
@@ -103,16 +107,18 @@ class HapticLoop {
   WayOut reported_way_out(const Vec3& tool_m) const noexcept;
   bool goes_by_reports() const noexcept;
   Vec3 bone_force_N(const ProxyGoal& goal, std::uint32_t buttons, bool is_new) noexcept;
-  void soften(const Vec3& device_m, std::uint64_t now_ns) noexcept;
+  void soften(const Vec3& device_m) noexcept;
   double contact_share() const noexcept;
   PortForces make_passive(const PortForces& felt, const ProxyGoal& goal) noexcept;
   Vec3 texture_force_N(const ProxyGoal& goal, const Vec3& contact_N) noexcept;
   Vec3 gate_and_write(const Vec3& wanted_N, const Vec3& position_m, std::uint64_t now_ns) noexcept;
   void tell(const messages::DeviceState& state, const Vec3& sent_N, const Vec3& contact_N) noexcept;
+  void tell_felt() noexcept;
   void tell_grabs(messages::ToolState& tool) const noexcept;
   void tell_contact(const Vec3& contact_N, messages::ToolState& tool) const noexcept;
   double reported_stiffness_N_m() const noexcept { return contact_share() * settings_.contact.stiffness_N_m; }
   std::uint32_t proxy_faults() noexcept;
+  double model_age_s() const noexcept;
 
   /// The bone in hand, whichever method holds it.
   struct HeldBone {
@@ -127,6 +133,7 @@ class HapticLoop {
   HapticSettings settings_;
   realtime::LatestValue<messages::LocalModel> models_;
   realtime::LatestValue<messages::ToolState> tools_;
+  realtime::LatestValue<messages::FeltTool> felt_;
   realtime::BoundedFifo<HapticTick> ticks_;
 
   MovingSurface surface_;
@@ -149,6 +156,8 @@ class HapticLoop {
   double age_share_ = 1.0;  // of the contact's stiffness, that the age of the model leaves
   std::string notice_;
   ForceGate gate_;
+  TickForces forces_;            // of the last tick
+  messages::FeltTool felt_now_;  // and what it told
   HapticTick last_;
   ProxyCounters counted_;
   const messages::LocalModel* model_ = nullptr;  // in use; null: none came yet, or the newest was unsound

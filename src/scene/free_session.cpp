@@ -107,16 +107,14 @@ void FreeSession::request(const Requests& requests) {
 }
 
 bool FreeSession::fetch_frame(messages::SceneFrame& frame) {
-  const std::scoped_lock lock(frame_mutex_);
-  if (frame_.sequence == drawn_sequence_) return false;
-  frame = frame_;
-  drawn_sequence_ = frame_.sequence;
+  if (!frames_.update()) return false;
+  frame = frames_.front();
   return true;
 }
 
 ShoveRecord FreeSession::fetch_shove() {
-  const std::scoped_lock lock(frame_mutex_);
-  return shove_;
+  shoves_.update();
+  return shoves_.front();
 }
 
 void FreeSession::obey(const Requests& requests) {
@@ -247,21 +245,23 @@ std::string FreeSession::fault_text() const {
 }
 
 void FreeSession::publish_frame() {
-  const std::scoped_lock lock(frame_mutex_);
-  simulation_->write_frame(frame_);
-  frame_.tools.clear();
+  messages::SceneFrame& frame = frames_.back();
+  simulation_->write_frame(frame);
+  frame.tools.clear();
   for (std::size_t t = 0; t < tools_.size(); ++t) {
-    frame_.tools.push_back(tool_frame(loops_[t]->tool_states().front(), *scene_, t, *simulation_));
+    loops_[t]->felt().update();
+    frame.tools.push_back(tool_frame(loops_[t]->felt().front(), *scene_, t, *simulation_));
   }
   const double wall_s = std::max(static_cast<double>(realtime::steady_now_ns() - started_ns_) * 1e-9, 1e-3);
-  frame_.rates.simulation_hz = static_cast<double>(step_count_) / wall_s;
-  frame_.rates.haptic_hz = static_cast<double>(haptic_thread_->tick_count()) / wall_s;
-  frame_.rates.missed_ticks = haptic_thread_->missed_count();
-  frame_.rates.time_factor = static_cast<double>(step_count_) * scene_->settings.dt_s / wall_s;
-  frame_.notice = recording_fault_.empty() ? fault_text() : recording_fault_;
-  if (frame_.notice.empty()) frame_.notice = conductor_.notice();
-  shove_ = conductor_.shove_test().record();
-  ++frame_.sequence;
+  frame.rates.simulation_hz = static_cast<double>(step_count_) / wall_s;
+  frame.rates.haptic_hz = static_cast<double>(haptic_thread_->tick_count()) / wall_s;
+  frame.rates.missed_ticks = haptic_thread_->missed_count();
+  frame.rates.time_factor = static_cast<double>(step_count_) * scene_->settings.dt_s / wall_s;
+  frame.notice = recording_fault_.empty() ? fault_text() : recording_fault_;
+  if (frame.notice.empty()) frame.notice = conductor_.notice();
+  ++frame.sequence;
+  frames_.publish();
+  shoves_.publish(conductor_.shove_test().record());
 }
 
 }  // namespace myotact::scene

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <exception>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -133,10 +132,9 @@ class FreeSession {
   realtime::LatestValue<Requests> requests_;
   Requests obeyed_;
   std::uint32_t stops_ = 0, arms_ = 0;  // obeyed; the drawing thread's
-  std::mutex frame_mutex_;              // between simulation and drawing only; neither has a deadline
-  messages::SceneFrame frame_;
-  ShoveRecord shove_;
-  std::uint64_t drawn_sequence_ = 0;
+  // From the simulation to the drawing: neither waits for the other.
+  realtime::LatestValue<messages::SceneFrame> frames_;
+  realtime::LatestValue<ShoveRecord> shoves_;
   realtime::PeriodHistogram steps_;
   std::uint64_t step_count_ = 0;
   std::uint64_t started_ns_ = 0;

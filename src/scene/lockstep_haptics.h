@@ -36,6 +36,7 @@ class LockstepHaptics {
   ModelRecord publish_model(std::size_t tool, const simulation::Simulation& simulation);
 
   std::size_t tool_count() const { return loops_.size(); }
+  const messages::FeltTool& felt_tool(std::size_t tool) const { return loops_[tool]->felt_tool(); }
   const haptics::HapticTick& last_tick(std::size_t tool) const { return loops_[tool]->last_tick(); }
   const std::string& notice() const { return notice_; }  // what the devices do not bear of the settings
 

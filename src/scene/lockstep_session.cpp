@@ -68,7 +68,7 @@ void LockstepSession::run_ticks() {
 std::vector<messages::ToolFrame> LockstepSession::tool_frames() const {
   std::vector<messages::ToolFrame> frames;
   for (std::size_t t = 0; t < devices_.size(); ++t) {
-    frames.push_back(tool_frame(tool(t), *scene_, t, *simulation_));
+    frames.push_back(tool_frame(haptics_.felt_tool(t), *scene_, t, *simulation_));
   }
   return frames;
 }

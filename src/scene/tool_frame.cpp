@@ -4,8 +4,9 @@
 
 namespace myotact::scene {
 
-messages::ToolFrame tool_frame(const messages::ToolState& tool, const Scene& scene, std::size_t index,
+messages::ToolFrame tool_frame(const messages::FeltTool& felt, const Scene& scene, std::size_t index,
                                const simulation::Simulation& simulation) {
+  const messages::ToolState& tool = felt.tool;
   const ToolSettings& settings = scene.tools[index];
   messages::ToolFrame frame;
   frame.tool_world_m = tool.tool_position_world_m;
@@ -24,6 +25,10 @@ messages::ToolFrame tool_frame(const messages::ToolState& tool, const Scene& sce
   if (tool.grabbed_body >= 0) {
     frame.grip_world_m = to_array(simulation.body_pose(tool.grabbed_body) * to_vec3(tool.body_point_rest_m));
   }
+  frame.parts = felt.parts;
+  frame.line_tension_N = felt.line_tension_N;
+  frame.force_scale = settings.force_scale;
+  frame.model_age_s = felt.model_age_s;
   return frame;
 }
 

@@ -48,6 +48,7 @@ struct Simulation::Impl {
   MuscleAtJoint at_joint(int muscle, int joint, const LineReading& line) const;
   JointReadout joint(int joint, const std::vector<LineReading>& lines_now) const;
   double tension_N(int muscle) const;
+  double fibre_stretch(int muscle, const LineReading& line) const;  // fibre length over optimal, mean
   // `index`: of the tool among those of the last step.
   void write_contact(const messages::ToolContact& contact, int index, messages::LocalModel& model) const;
   messages::LocalLine line_at(const messages::ToolState& tool, int index) const;

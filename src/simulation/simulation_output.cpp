@@ -113,12 +113,15 @@ void Simulation::write_frame(messages::SceneFrame& frame) const {
   frame.lines_world_m.resize(muscles);
   frame.activations.resize(muscles);
   frame.tensions_N.resize(muscles);
+  frame.stretches.resize(muscles);
   frame.volume_ratios.resize(muscles);
   frame.smallest_volume_ratios.resize(muscles);
+  const std::vector<LineReading> lines = in.read_lines();
   for (std::size_t m = 0; m < muscles; ++m) {
     const int muscle = static_cast<int>(m);
     frame.activations[m] = activation(muscle);
     frame.tensions_N[m] = muscle_force_N(muscle);
+    frame.stretches[m] = in.fibre_stretch(muscle, lines[m]);
     frame.volume_ratios[m] = volume_ratio(muscle);
     frame.smallest_volume_ratios[m] = smallest_volume_ratio(muscle);
     const std::span<const Vec3> skin = skin_world_m(muscle);
@@ -131,7 +134,6 @@ void Simulation::write_frame(messages::SceneFrame& frame) const {
     std::transform(line.begin(), line.end(), frame.lines_world_m[m].begin(), to_array);
   }
   frame.joints.resize(in.specimen.joints.size());
-  const std::vector<LineReading> lines = in.read_lines();
   for (std::size_t j = 0; j < frame.joints.size(); ++j) in.write_joint(static_cast<int>(j), lines, frame.joints[j]);
 }
 

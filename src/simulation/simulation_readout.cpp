@@ -1,3 +1,4 @@
+#include "simulation/fibre_field.h"
 #include "simulation/simulation_impl.h"
 
 // What can be asked of the simulation between steps.
@@ -39,6 +40,13 @@ std::vector<LineReading> Simulation::Impl::read_lines() const {
 double Simulation::Impl::tension_N(int muscle) const {
   const LimbMuscle& m = limb.muscles[at(muscle)];
   return m.rigid && !m.line ? line_force_of(muscle, line_geometry_of(muscle)).force_N : m.readout.tension_N;
+}
+
+/// Of one that is only a shape, what its line would have.
+double Simulation::Impl::fibre_stretch(int muscle, const LineReading& line) const {
+  const LimbMuscle& m = limb.muscles[at(muscle)];
+  if (m.line) return m.line->fibre_now_m / m.line->hill.optimal_fibre_m;
+  return m.rigid ? line.force.fibre_stretch : mean_fibre_length(m.tissue, m.state.now.stretch);
 }
 
 double Simulation::muscle_force_N(int muscle) const {

@@ -307,6 +307,109 @@ TEST(HapticLoop, AWatchdogsCutComesBackThroughTheRamp) {
   EXPECT_EQ(scene.loop.gate_state(), GateState::Armed);
 }
 
+/// The parts of the force on the hand as vectors.
+struct Parts {
+  explicit Parts(const HapticLoop& loop)
+      : Parts(loop.felt_tool().parts, to_vec3(loop.felt_tool().tool.force_world_N)) {}
+  Parts(const messages::ForceParts& parts, const Vec3& force_N)
+      : contact(to_vec3(parts.contact)),
+        friction(to_vec3(parts.friction)),
+        texture(to_vec3(parts.texture)),
+        line(to_vec3(parts.line)),
+        bone(to_vec3(parts.bone)),
+        damping(to_vec3(parts.damping)),
+        limits(to_vec3(parts.limits)),
+        error_N((contact + friction + texture + line + bone + damping + limits - force_N).norm()) {}
+
+  Vec3 contact, friction, texture, line, bone, damping, limits;
+  double error_N;
+};
+
+TEST(ForceParts, AddUpThroughTouchSlideLineBoneSaturationAndStop) {
+  HapticSettings settings = quick_to_ramp();
+  settings.texture.by_tissue[0].relief = {{2e-3, 0.3, 1e-5, 0.0}};
+  Scene scene(1e-3, settings);
+  double worst_N = 0.0;
+  Vec3 largest[7] = {};
+  for (int tick = 0; tick < 4000; ++tick) {
+    const int phase = tick / 500;  // 0 above, 1 touch, 2 slide, 3 line, 4 away, 5 bone, 6 far too deep, 7 stopped
+    const std::uint32_t buttons = phase == 3 ? messages::kGrabButton : phase == 5 ? messages::kGrabBoneButton : 0;
+    const double height_m = phase == 0 || phase == 4   ? 0.012
+                            : phase == 3 || phase == 5 ? 0.02
+                            : phase == 6               ? -0.05
+                                                       : -3e-3;
+    const double along_m = phase == 2 ? 0.012 * std::sin(0.02 * tick) : 0.0;
+    scene.device.set_hand_target({{along_m, 0, height_m}, {}, buttons});
+    if (tick == 3500) scene.loop.stop_forces(true);
+    scene.run(1);
+    const Parts now(scene.loop);
+    worst_N = std::max(worst_N, now.error_N);
+    const Vec3* parts[] = {&now.contact, &now.friction, &now.texture, &now.line, &now.bone, &now.damping, &now.limits};
+    for (int k = 0; k < 7; ++k)
+      if (parts[k]->norm() > largest[k].norm()) largest[k] = *parts[k];
+  }
+  EXPECT_LT(worst_N, 1e-9);
+  for (const Vec3& one_N : largest) EXPECT_GT(one_N.norm(), 1e-4);  // every part had its turn
+}
+
+TEST(ForceParts, ContactIsAcrossTheSurfaceAndFrictionAlongIt) {
+  Scene scene(0.0);
+  scene.run(200);
+  double share = 0.0;
+  for (int tick = 0; tick < 1000; ++tick) {
+    scene.device.set_hand_target({{1e-5 * tick, 0, -2e-3}, {}, 0});
+    scene.run(1);
+    const Parts now(scene.loop);
+    EXPECT_LT(now.contact.head<2>().norm(), 1e-12);  // the plane's normal is z
+    EXPECT_LT(std::abs(now.friction.z()), 1e-12);
+    EXPECT_EQ(now.line.norm() + now.bone.norm(), 0.0);
+    if (tick < 300) continue;
+    EXPECT_GT(now.contact.z(), 0.1);
+    EXPECT_LT(now.friction.x(), 0.0);  // against the slide
+    EXPECT_LT(now.limits.norm(), 1e-9);
+    share = now.friction.norm() / now.contact.z();
+  }
+  EXPECT_NEAR(share, ContactSettings().dynamic_friction, 0.05 * ContactSettings().dynamic_friction);
+}
+
+TEST(ForceParts, TheLineInHandPullsAsAStringDoes) {
+  Scene scene(0.0);
+  scene.run(200);
+  scene.device.set_hand_target({{0, 0, 0.02}, {}, messages::kGrabButton});
+  scene.run(400);
+  const double d_m = scene.loop.tool_state().tool_position_world_m[2] - 0.01;
+  const Parts now(scene.loop);
+  EXPECT_NEAR(now.line.z(), -2.0 * 5.0 * d_m / std::hypot(0.1, d_m), 1e-6);
+  EXPECT_EQ(now.contact.norm() + now.friction.norm() + now.texture.norm() + now.bone.norm(), 0.0);
+  EXPECT_EQ(scene.loop.felt_tool().line_tension_N, 5.0);
+}
+
+TEST(ForceParts, LimitsTakeWhatAStopAndTheLargestForceTake) {
+  HapticSettings weak = quick_to_ramp();
+  weak.gate.force_limit = 0.1;
+  weak.limit_stiffness = false;
+  Scene scene(0.0, weak);
+  scene.run(200);
+  scene.device.set_hand_target({{0, 0, -2e-3}, {}, 0});
+  scene.run(500);
+  const double most_N = 0.1 * device::DeviceProfile{}.peak_force_N;
+  EXPECT_LE(to_vec3(scene.loop.tool_state().force_world_N).norm(), most_N + 1e-12);
+  scene.loop.stop_forces(true);
+  scene.run(1);
+  const Parts stopped(scene.loop);
+  EXPECT_GT(stopped.contact.z(), 0.05);
+  EXPECT_LT((stopped.limits + stopped.contact + stopped.friction + stopped.damping).norm(), 1e-9);
+}
+
+TEST(ForceParts, TheAgeOfTheModelGrowsFromTickToTick) {
+  Scene scene(0.0);
+  scene.run(203);  // three ticks after a model; models show the end of a step of 10 ms
+  EXPECT_NEAR(scene.loop.felt_tool().model_age_s, 0.010 + 1e-3 * (203 % 10), 2e-3);
+  const double before_s = scene.loop.felt_tool().model_age_s;
+  scene.run(1);
+  EXPECT_NEAR(scene.loop.felt_tool().model_age_s - before_s, 1e-3, 1e-12);
+}
+
 TEST(HapticLoop, JumpingPlacesAndClocksNeverBreakTheLoop) {
   std::vector<messages::DeviceState> states;
   for (int i = 0; i < 400; ++i) {

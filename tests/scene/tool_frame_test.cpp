@@ -28,9 +28,9 @@ std::set<int> surfaces_at(const Vec3& place_m, const simulation::Simulation& sim
 }
 
 messages::ToolFrame frame_of(int surface, const Scene& scene, const simulation::Simulation& simulation) {
-  messages::ToolState tool;
-  tool.contact.surface = surface;
-  return tool_frame(tool, scene, 0, simulation);
+  messages::FeltTool felt;
+  felt.tool.contact.surface = surface;
+  return tool_frame(felt, scene, 0, simulation);
 }
 
 TEST(ToolFrame, NamesTheMuscleOrTheBodyThatIsTouched) {
