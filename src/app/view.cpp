@@ -16,6 +16,7 @@
 #include "app/stage.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "view/display_loss.h"
 #include "view/window.h"
 
 namespace myotact::app {
@@ -96,6 +97,7 @@ class Performance {
       : options_(options), building_(options), report_(options.report_state), next_(build(options)) {}
 
   ~Performance() {
+    view::on_display_loss({});
     if (next_.valid()) next_.wait();
   }
   Performance(const Performance&) = delete;
@@ -104,6 +106,9 @@ class Performance {
   /// Until the window is closed, the time is over or the program is interrupted. Throws Error when there is no display,
   /// or when the first scene cannot be opened.
   void run(double end_s) {
+    view::on_display_loss([this] {
+      if (stage_) stage_->session().stop();
+    });
     while (!window_.should_close() && interruption() == 0 && (!stage_ || stage_->session().running())) {
       if (next_.valid() && next_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) change_stage();
       if (!draw(end_s)) break;

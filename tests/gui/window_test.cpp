@@ -1,4 +1,5 @@
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -155,6 +156,17 @@ TEST_F(WindowTest, AnotherSceneOpensWhileThisOneGoesOn) {
   EXPECT_TRUE(gui.wait_until([](const json& s) { return s["scene_name"] == "stifle"; }, 90.0));
   EXPECT_TRUE(gui.wait_until([](const json& s) { return s["frame"]["time_s"] > 0.2; }, 30.0));
   expect_drawn(gui, "stifle");
+}
+
+TEST_F(WindowTest, ADisplayThatGoesAwayEndsTheProgramWithASentenceAndAWholeRecording) {
+  GuiProgram gui("display", "elbow --set tissue.default=line --record display.myorec");
+  ASSERT_TRUE(gui.wait_until([](const json& s) { return s["frame"]["time_s"] > 1.0; }, 30.0));
+  ::kill(gui.display().id(), SIGKILL);
+  EXPECT_EQ(gui.program().wait(20.0), 69);
+  EXPECT_NE(gui.log().find("the display went away"), std::string::npos) << gui.log();
+  testing::Child replay(std::string(MYOTACT_PROGRAM) + " replay display.myorec", gui.folder() / "replay.log");
+  EXPECT_EQ(replay.wait(120.0), 0) << "see replay.log";
+  std::filesystem::remove("display.myorec");
 }
 
 TEST_F(WindowTest, AWindowTooSmallForItsPanelsStillShowsTheLimb) {
