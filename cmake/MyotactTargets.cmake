@@ -20,11 +20,11 @@ function(myotact_library folder)
   endif()
 endfunction()
 
-# myotact_test(NAME [DRAWS] LABELS labels... SOURCES files... LINKS targets...): one GoogleTest program, each case a
+# myotact_test(NAME [DRAWS] [ALONE] LABELS labels... SOURCES files... LINKS targets...): one GoogleTest program, each case a
 # ctest entry. DRAWS: it starts Mesa, whose threads trip the leak check at the end now and then; our own leaks show in
-# the other tests.
+# the other tests. ALONE: no other test runs beside it.
 function(myotact_test name)
-  cmake_parse_arguments(ARG "DRAWS" "TIMEOUT" "LABELS;SOURCES;LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "DRAWS;ALONE" "TIMEOUT" "LABELS;SOURCES;LINKS" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 300)
   endif()
@@ -38,6 +38,10 @@ function(myotact_test name)
   if(ARG_DRAWS)
     set(environment ENVIRONMENT ASAN_OPTIONS=detect_leaks=0)
   endif()
+  set(alone)
+  if(ARG_ALONE)
+    set(alone RUN_SERIAL TRUE)
+  endif()
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST
-    PROPERTIES LABELS "${labels}" TIMEOUT ${ARG_TIMEOUT} ${environment})
+    PROPERTIES LABELS "${labels}" TIMEOUT ${ARG_TIMEOUT} ${environment} ${alone})
 endfunction()

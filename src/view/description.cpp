@@ -91,7 +91,7 @@ Json places_json(const PanelContext& context, const Area& scene) {
 
 }  // namespace
 
-std::string describe(const PanelContext& context, const Layout& layout, bool looking_back) {
+std::string describe(const PanelContext& context, const Layout& layout, const ShownMoment& moment) {
   Json controls = Json::array();
   for (const ui::ControlPlace& control : ui::controls_of_last_picture()) {
     controls.push_back({{"key", control.key},
@@ -102,7 +102,9 @@ std::string describe(const PanelContext& context, const Layout& layout, bool loo
   return Json{{"scene_name", context.facts.name},
               {"recording", context.news.recording},
               {"opening", context.news.opening},
-              {"looking_back", looking_back},
+              {"looking_back", moment.looking_back},
+              {"newest_s", moment.newest_s},
+              {"picture", ImGui::GetFrameCount()},
               {"view", view_json(context.specimen, context.view)},
               {"scene", scene_json(context.controls)},
               {"frame", frame_json(context)},

@@ -132,6 +132,20 @@ bool GuiProgram::wait_until(const std::function<bool(const nlohmann::json&)>& co
   return wait_for([&] { return condition(state()); }, seconds);
 }
 
+void GuiProgram::let_draw() const {
+  // The picture of the next report may have taken its input before; those after it have not. A pointer and its button
+  // are taken in one after the other, each with a picture.
+  constexpr int kPictures = 3;
+  const auto picture = [this] {
+    const nlohmann::json now = state();
+    return now.is_null() ? 0 : now["picture"].get<int>();
+  };
+  const int before = picture();
+  wait_for([&] { return picture() > before; }, 30.0);
+  const int next = picture();
+  wait_for([&] { return picture() >= next + kPictures; }, 30.0);
+}
+
 std::string GuiProgram::value_of(const std::string& control) const {
   const nlohmann::json now = state();
   for (const auto& shown : now["controls"]) {
@@ -149,7 +163,7 @@ bool GuiProgram::shows(const std::string& control) const {
 }
 
 std::array<double, 4> GuiProgram::box_of(const std::string& control) const {
-  if (!wait_for([&] { return shows(control); }, 5.0)) throw std::runtime_error("no control " + control);
+  if (!wait_for([&] { return shows(control); }, 30.0)) throw std::runtime_error("no control " + control);
   const nlohmann::json now = state();
   for (const auto& shown : now["controls"]) {
     if (shown["key"] == control) return shown["box"];
@@ -173,17 +187,17 @@ void GuiProgram::resize(int width, int height) {
 
 void GuiProgram::move_to(double x, double y) {
   xdotool("mousemove " + std::to_string(static_cast<int>(x)) + " " + std::to_string(static_cast<int>(y)));
-  pause_s(0.15);  // a few pictures
+  let_draw();
 }
 
 void GuiProgram::press(int button) {
   xdotool("mousedown " + std::to_string(button));
-  pause_s(0.15);
+  let_draw();
 }
 
 void GuiProgram::release(int button) {
   xdotool("mouseup " + std::to_string(button));
-  pause_s(0.15);
+  let_draw();
 }
 
 void GuiProgram::click_at(double x, double y, int button) {
@@ -201,7 +215,7 @@ void GuiProgram::double_click(const std::string& control) {
   const auto box = box_of(control);
   move_to(box[0] + 0.5 * box[2], box[1] + 0.5 * box[3]);
   xdotool("click --repeat 2 --delay 220 1");
-  pause_s(0.3);
+  let_draw();
 }
 
 void GuiProgram::drag_slider(const std::string& control, double from, double to) {
@@ -221,17 +235,17 @@ void GuiProgram::key(const std::string& keys) {
 
 void GuiProgram::key_down(const std::string& key) {
   xdotool("keydown " + key);
-  pause_s(0.15);
+  let_draw();
 }
 
 void GuiProgram::key_up(const std::string& key) {
   xdotool("keyup " + key);
-  pause_s(0.15);
+  let_draw();
 }
 
 void GuiProgram::type(const std::string& text) {
   xdotool("type --delay 120 '" + text + "'");
-  pause_s(0.2);
+  let_draw();
 }
 
 std::filesystem::path GuiProgram::screenshot(const std::string& name) const {

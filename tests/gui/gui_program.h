@@ -44,8 +44,10 @@ class GuiProgram {
 
   /// What it shows now: of the newest report.
   nlohmann::json state() const;
+  /// Waits until what was put in has been drawn, however slow the machine is.
+  void let_draw() const;
   /// Waits until what it shows meets the condition; false when it does not within the time.
-  bool wait_until(const std::function<bool(const nlohmann::json&)>& condition, double seconds = 20.0) const;
+  bool wait_until(const std::function<bool(const nlohmann::json&)>& condition, double seconds = 60.0) const;
   std::string value_of(const std::string& control) const;  // "" where it is not shown
   bool shows(const std::string& control) const;
 
@@ -53,7 +55,7 @@ class GuiProgram {
   void move_to(double x, double y);
   void press(int button = 1), release(int button = 1);
   void click_at(double x, double y, int button = 1);
-  /// The middle of a control; throws when it is not shown within five seconds.
+  /// The middle of a control; throws when it is not shown within half a minute.
   void click(const std::string& control, int button = 1);
   void double_click(const std::string& control);
   /// Along a slider, from its left end; shares 0 .. 1 of its track.

@@ -48,7 +48,7 @@ TEST_F(LearnGui, AQuizOfOnesOwnIsAnsweredAndItsResultsAreKept) {
   gui.screenshot("list");
   gui.click("learn.start.quiz");
   ASSERT_TRUE(gui.wait_until([](const json& state) { return state["view"]["hidden_muscles"].size() == 6; }));
-  EXPECT_TRUE(gui.wait_until([](const json& state) { return state["view"]["camera"]["azimuth_rad"] < 0.0; }, 5.0));
+  EXPECT_TRUE(gui.wait_until([](const json& state) { return state["view"]["camera"]["azimuth_rad"] < 0.0; }));
   gui.click("learn.next");
   gui.click("learn.option.radius");
   gui.click("learn.hint");
@@ -65,14 +65,14 @@ TEST_F(LearnGui, AQuizOfOnesOwnIsAnsweredAndItsResultsAreKept) {
   gui.type("Ada L");
   gui.click("learn.save");
   const auto file = data / "myotact" / "results" / "Ada_L_quiz.csv";
-  ASSERT_TRUE(gui.wait_until([&](const json&) { return std::filesystem::exists(file); }, 5.0));
+  ASSERT_TRUE(gui.wait_until([&](const json&) { return std::filesystem::exists(file); }));
   gui.screenshot("results");
   std::ifstream in(file);
   const std::string csv((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   EXPECT_THAT(csv, HasSubstr("quiz,2,name,ulna,1,2,1,"));
   EXPECT_THAT(csv, HasSubstr("quiz,3,name,M. brachialis,1,1,0,"));
   gui.click("learn.close");
-  EXPECT_TRUE(gui.wait_until([](const json& state) { return state["view"]["hidden_muscles"].empty(); }, 5.0));
+  EXPECT_TRUE(gui.wait_until([](const json& state) { return state["view"]["hidden_muscles"].empty(); }));
 }
 
 /// With the left button down at a muscle, moved by a few pixels a time.
@@ -100,7 +100,7 @@ TEST_F(LearnGui, TheMouseTouchesPressesAndPulls) {
   for (int step = 0; step < 2; ++step) {
     testing::pause_s(1.0);  // until the camera has come round
     hold_at(gui, "triceps_brachii_long", 0.0);
-    EXPECT_TRUE(gui.wait_until([&](const json&) { return gui.shows("learn.next"); }, 10.0)) << "step " << step;
+    EXPECT_TRUE(gui.wait_until([&](const json&) { return gui.shows("learn.next"); })) << "step " << step;
     gui.screenshot("touched");
     gui.release();
     gui.click("learn.next");
@@ -108,7 +108,7 @@ TEST_F(LearnGui, TheMouseTouchesPressesAndPulls) {
   gui.click("learn.flexion");
   testing::pause_s(1.0);
   hold_at(gui, "biceps_brachii", 4.0);  // cranially: to the right in the medial view
-  EXPECT_TRUE(gui.wait_until([&](const json&) { return gui.shows("learn.next"); }, 10.0));
+  EXPECT_TRUE(gui.wait_until([&](const json&) { return gui.shows("learn.next"); }));
   gui.screenshot("pulled");
   gui.release();
 }

@@ -20,15 +20,15 @@ TEST(SeePanel, LayersNamesAndASectionAreSetAndTakenBack) {
   EXPECT_EQ(gui.value_of("see.labels"), "off");
   gui.click("see.labels");
   const auto value_becomes = [&](const char* control, const char* value) {
-    return gui.wait_until([&](const json&) { return gui.value_of(control) == value; }, 10.0);
+    return gui.wait_until([&](const json&) { return gui.value_of(control) == value; });
   };
   EXPECT_TRUE(value_becomes("see.labels", "on"));
   EXPECT_FALSE(gui.shows("see.section_depth"));
   gui.click("see.section");
-  EXPECT_TRUE(gui.wait_until([&](const json&) { return gui.shows("see.section_depth"); }, 10.0));
+  EXPECT_TRUE(gui.wait_until([&](const json&) { return gui.shows("see.section_depth"); }));
   gui.screenshot("section");
   gui.click("toolbar.undo");
-  EXPECT_TRUE(gui.wait_until([&](const json&) { return !gui.shows("see.section_depth"); }, 10.0));
+  EXPECT_TRUE(gui.wait_until([&](const json&) { return !gui.shows("see.section_depth"); }));
   EXPECT_EQ(gui.value_of("see.labels"), "on");
   gui.click("toolbar.undo");
   EXPECT_TRUE(value_becomes("see.labels", "off"));

@@ -1,0 +1,149 @@
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+
+#include "messages/device.h"
+#include "view/part_actions.h"
+#include "view/shown_scene.h"
+
+// What each key does to the scene; which key that is, key_bindings tells.
+
+namespace myotact::view {
+
+namespace {
+
+const char* view_of(KeyAction action) {
+  constexpr std::array kViews = {std::pair{KeyAction::Lateral, "lateral"}, std::pair{KeyAction::Medial, "medial"},
+                                 std::pair{KeyAction::Cranial, "cranial"}, std::pair{KeyAction::Caudal, "caudal"},
+                                 std::pair{KeyAction::Dorsal, "dorsal"},   std::pair{KeyAction::Palmar, "palmar"}};
+  const auto* found =
+      std::find_if(kViews.begin(), kViews.end(), [&](const auto& view) { return view.first == action; });
+  return found == kViews.end() ? nullptr : found->second;
+}
+
+}  // namespace
+
+/// What the keys of the selected part do; false for other keys.
+bool ShownScene::act_on_part(KeyAction action) {
+  const Part part = selected_part(state_.view);
+  switch (action) {
+    case KeyAction::Hide:
+      if (part) look_of(state_.view, part).hidden = true;
+      return true;
+    case KeyAction::Isolate:
+      if (part) isolate(state_.view, part);
+      return true;
+    case KeyAction::ShowAll:
+      show_all(state_.view);
+      return true;
+    case KeyAction::Labels:
+      state_.view.labels = !state_.view.labels;
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// What the keys of time and forces do; false for other keys.
+bool ShownScene::act_on_play(KeyAction action) {
+  switch (action) {
+    case KeyAction::PauseOrPlay:
+      controls_.paused = !controls_.paused;
+      timeline_.back_to_now();
+      return true;
+    case KeyAction::Step:
+      if (timeline_.looks_back()) {
+        timeline_.step(1);
+      } else {
+        controls_.paused = true;
+        ++controls_.steps;
+      }
+      return true;
+    case KeyAction::StepBack:
+      timeline_.step(-1);
+      return true;
+    case KeyAction::Reset:
+      ++controls_.resets;
+      return true;
+    case KeyAction::StopForces:
+      ++controls_.stops;
+      return true;
+    case KeyAction::EnableForces:
+      ++controls_.arms;
+      return true;
+    default:
+      return false;
+  }
+}
+
+void ShownScene::act(KeyAction action, WindowAsks& asks, GlfwWindow& window) {
+  if (act_on_part(action) || act_on_play(action)) return;
+  switch (action) {
+    case KeyAction::Help:
+      asks.help = true;
+      return;
+    case KeyAction::Look:
+      return pointer_.set_mode(PointerMode::Look);
+    case KeyAction::Touch:
+      return pointer_.set_mode(PointerMode::Touch);
+    case KeyAction::Pull:
+      return pointer_.set_mode(PointerMode::Pull);
+    case KeyAction::FrameSelection:
+      asks.frame_selection = true;
+      return;
+    case KeyAction::FrameAll:
+      asks.standard_view = "lateral";
+      return;
+    case KeyAction::Search:
+      return find_.focus();
+    case KeyAction::Undo:
+      asks.undo = true;
+      return;
+    case KeyAction::Redo:
+      asks.redo = true;
+      return;
+    case KeyAction::Screenshot:
+    case KeyAction::SceneScreenshot:
+      picture_wish_ = action;
+      message.clear();  // not to be in the picture
+      return;
+    case KeyAction::Record:
+      asks.record = true;
+      return;
+    case KeyAction::FullScreen:
+      return window.toggle_full_screen();
+    case KeyAction::GrabLine:
+    case KeyAction::GrabBone:
+      return;  // held: read in hold_buttons()
+    default:
+      asks.standard_view = view_of(action);
+  }
+}
+
+/// Keys that are typed into a text, or that move the control with the keyboard's focus, mean that alone; a stop goes
+/// before anything else.
+void ShownScene::handle_keys(WindowAsks& asks, GlfwWindow& window) {
+  const ImGuiIO& io = ImGui::GetIO();
+  for (const GlfwWindow::KeyPress& press : window.take_presses()) {
+    const KeyBinding* binding = binding_of(press.key, press.mods);
+    if (binding == nullptr) continue;
+    const bool plain = binding->mods == 0 && binding->key < GLFW_KEY_F1;
+    const bool taken = io.WantTextInput || (plain && io.NavVisible);
+    if (!taken || binding->action == KeyAction::StopForces) act(binding->action, asks, window);
+  }
+}
+
+void ShownScene::hold_buttons(const GlfwWindow& window) {
+  controls_.hand_buttons = 0;
+  if (ImGui::GetIO().WantTextInput) return;
+  for (const KeyBinding& binding : key_bindings()) {
+    if (!is_held(binding.action) || !window.is_down(binding.key)) continue;
+    controls_.hand_buttons |= binding.action == KeyAction::GrabLine ? messages::kGrabButton : messages::kGrabBoneButton;
+  }
+}
+
+}  // namespace myotact::view
