@@ -1,6 +1,8 @@
 #include "view/shown_scene.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <exception>
 #include <utility>
 
 #include <imgui.h>
@@ -47,6 +49,15 @@ ShownScene::ShownScene(const anatomy::Specimen& specimen, const WindowSettings& 
       feel_(specimen) {
   controls_.hand_world_m = settings.hand_start_world_m;
   controls_.scene = settings.start;
+}
+
+ShownScene::~ShownScene() {
+  if (!notes_unsaved_) return;
+  try {
+    write_settings(settings, settings_file());
+  } catch (const std::exception& failure) {  // there is no window any more that could say it
+    std::fprintf(stderr, "myotact: your last note was not kept: %s\n", failure.what());
+  }
 }
 
 void ShownScene::take_over(const ShownScene& before) {
@@ -110,6 +121,16 @@ void ShownScene::draw_tasks(PanelContext& context) {
   ImGui::EndTabBar();
 }
 
+/// In memory at each letter, on the disk when the typing ends.
+void ShownScene::take_note(const PartNote& note) {
+  if (note.text.empty()) {
+    settings.notes.erase(note.part);
+  } else {
+    settings.notes[note.part] = note.text;
+  }
+  notes_unsaved_ = true;
+}
+
 void ShownScene::obey(const WindowAsks& asks, const messages::SceneFrame& frame) {
   if (asks.standard_view != nullptr) look(asks.standard_view, frame);
   if (asks.frame_selection) look_at_selection(frame);
@@ -119,6 +140,11 @@ void ShownScene::obey(const WindowAsks& asks, const messages::SceneFrame& frame)
   if (asks.pointer_mode) pointer_.set_mode(*asks.pointer_mode);
   if (asks.record) begin_or_end_recording();
   if (asks.wish) wish = asks.wish;
+  if (asks.note) take_note(*asks.note);
+  if (notes_unsaved_ && !ui::is_held()) {
+    notes_unsaved_ = false;
+    keep(settings, message);
+  }
   if (!asks.message.empty()) message = asks.message;
 }
 
@@ -152,7 +178,8 @@ void ShownScene::draw_areas(PanelContext& context) {
 }
 
 PanelContext ShownScene::context_of(const messages::SceneFrame& frame, WindowAsks& asks) {
-  return {*specimen_, frame, facts_, readings, news, part_facts_, hovered_, state_.view, controls_, asks};
+  return {*specimen_,     frame,    facts_,      readings,  news, part_facts_,
+          settings.notes, hovered_, state_.view, controls_, asks};
 }
 
 void ShownScene::draw_panels(const messages::SceneFrame& now, GlfwWindow& window) {

@@ -31,6 +31,10 @@ namespace myotact::view {
 class ShownScene {
  public:
   ShownScene(const anatomy::Specimen& specimen, const WindowSettings& settings);
+  /// Keeps a note that is still being typed.
+  ~ShownScene();
+  ShownScene(const ShownScene&) = delete;
+  ShownScene& operator=(const ShownScene&) = delete;
 
   /// The same scene from its start: what was set and shown stays.
   void take_over(const ShownScene& before);
@@ -69,6 +73,7 @@ class ShownScene {
   void begin_or_end_recording();
   void draw_tasks(PanelContext& context);
   Viewport viewport(int width, int height) const;
+  void take_note(const PartNote& note);
   void obey(const WindowAsks& asks, const messages::SceneFrame& frame);
 
   /// On the way from one view to another.
@@ -101,6 +106,7 @@ class ShownScene {
   SettingsPanel settings_panel_;
   Tour tour_;
   bool help_ = false;
+  bool notes_unsaved_ = false;
 };
 
 }  // namespace myotact::view

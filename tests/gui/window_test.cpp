@@ -106,6 +106,21 @@ TEST_F(WindowTest, AMuscleIsFoundThroughASlipIsolatedTouchedAndPulled) {
   EXPECT_TRUE(gui.wait_until([](const json& s) { return s["frame"]["tools"][0]["forces_stopped"] == true; }));
 }
 
+TEST_F(WindowTest, ANoteStaysWithItsMuscle) {
+  GuiProgram gui("note", "elbow");
+  gui.click("find.biceps_brachii");
+  gui.click("card.note");
+  testing::pause_s(1.0);  // until it has the keyboard, in a slow picture too
+  gui.type("one head");
+  ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.value_of("card.note") == "one head"; }, 5.0));
+  gui.click("find.brachialis");
+  EXPECT_TRUE(gui.wait_until([&](const json& s) {
+    return s["view"]["selected_muscle"] == "brachialis" && gui.value_of("card.note").empty();
+  }));
+  gui.click("find.biceps_brachii");
+  EXPECT_TRUE(gui.wait_until([&](const json&) { return gui.value_of("card.note") == "one head"; }, 5.0));
+}
+
 TEST_F(WindowTest, APostureIsHeldRecordedLookedBackOnAndExported) {
   GuiProgram gui("keep", "elbow");
   gui.click("tasks.demonstrate");

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_stdlib.h>
 
 #include "view/colour_map.h"
 #include "view/part_actions.h"
@@ -37,6 +38,34 @@ void fact(const char* key, const std::string& text) {
   if (text.empty()) return;
   ImGui::TextDisabled("%s", ui::tr(key));
   ui::paragraph(text);
+}
+
+/// How strong it is, and what it does now.
+void draw_mechanics(const PanelContext& context, const Part& part) {
+  const auto m = static_cast<std::size_t>(part.index);
+  const anatomy::Muscle& muscle = context.specimen.muscles[m];
+  const bool estimated = !muscle.estimated.empty();
+  ui::paragraph(ui::tr(estimated ? "card.mechanics_estimated" : "card.mechanics", muscle.peak_force_N,
+                       1e3 * muscle.optimal_fibre_m));
+  if (m >= context.frame.activations.size()) return;
+  const glm::vec3 c = cividis(context.frame.activations[m]);
+  ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImVec4(c.r, c.g, c.b, 1.0f));
+  const std::string now = ui::tr("card.now", 100.0 * context.frame.activations[m], context.frame.tensions_N[m]);
+  ImGui::ProgressBar(static_cast<float>(context.frame.activations[m]), ImVec2(-1.0f, 0.0f), now.c_str());
+  ImGui::PopStyleColor();
+}
+
+/// The person's own lines about a part.
+void draw_note(PanelContext& context, const std::string& part) {
+  constexpr float kLines = 2.0f;  // more scroll
+  const auto kept = context.notes.find(part);
+  std::string text = kept == context.notes.end() ? std::string() : kept->second;
+  ImGui::TextDisabled("%s", ui::tr("card.note"));
+  ImGui::PushID(part.c_str());  // what is being typed stays with its part
+  const ImVec2 size(-1.0f, kLines * ImGui::GetTextLineHeight() + 2.0f * ImGui::GetStyle().FramePadding.y);
+  if (ImGui::InputTextMultiline("##note", &text, size)) context.asks.note = PartNote{part, text};
+  ui::note_control("card.note", text);
+  ImGui::PopID();
 }
 
 }  // namespace
@@ -126,27 +155,18 @@ void FindPanel::draw(PanelContext& context) {
 
 void draw_part_card(PanelContext& context) {
   const Part part = selected_part(context.view);
-  const anatomy::PartFacts& facts = anatomy::facts_of(context.part_facts, key_of(context.specimen, part));
+  const std::string& key = key_of(context.specimen, part);
+  const anatomy::PartFacts& facts = anatomy::facts_of(context.part_facts, key);
   ViewState both = context.view;
   both.names = NameStyle::Both;
   ui::paragraph(name_of(context.specimen, part, both));
+  draw_note(context, key);  // first: below the facts it would be out of sight
   ImGui::Separator();
   fact("card.origin", facts.origin);
   fact("card.insertion", facts.insertion);
   fact("card.action", facts.action);
   fact("card.innervation", facts.innervation);
-  if (part.kind == PartKind::Bone) return;
-  const auto m = static_cast<std::size_t>(part.index);
-  const anatomy::Muscle& muscle = context.specimen.muscles[m];
-  const bool estimated = !muscle.estimated.empty();
-  ui::paragraph(ui::tr(estimated ? "card.mechanics_estimated" : "card.mechanics", muscle.peak_force_N,
-                       1e3 * muscle.optimal_fibre_m));
-  if (m >= context.frame.activations.size()) return;
-  const glm::vec3 c = cividis(context.frame.activations[m]);
-  ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImVec4(c.r, c.g, c.b, 1.0f));
-  const std::string now = ui::tr("card.now", 100.0 * context.frame.activations[m], context.frame.tensions_N[m]);
-  ImGui::ProgressBar(static_cast<float>(context.frame.activations[m]), ImVec2(-1.0f, 0.0f), now.c_str());
-  ImGui::PopStyleColor();
+  if (part.kind == PartKind::Muscle) draw_mechanics(context, part);
 }
 
 }  // namespace myotact::view

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,6 +43,11 @@ struct SceneWish {
 /// What the mouse is over the scene.
 enum class PointerMode { Look, Touch, Pull };
 
+/// What the person wrote about a part; an empty text is no note.
+struct PartNote {
+  std::string part, text;  // key of the muscle or bone
+};
+
 /// What a panel asks of the window itself, once.
 struct WindowAsks {
   std::optional<PointerMode> pointer_mode;
@@ -52,6 +58,7 @@ struct WindowAsks {
   bool free_orbit = false;        // was switched on or off
   bool record = false;            // to begin, or to end
   std::optional<SceneWish> wish;  // a scene to be opened
+  std::optional<PartNote> note;   // to be kept
   std::string message;            // a sentence for the person to read
   Part menu_of;                   // the menu of this part is to open under the pointer
 };
@@ -65,9 +72,10 @@ struct PanelContext {
   const JointReadings& readings;
   const SessionNews& news;
   const anatomy::FactsByKey& part_facts;
-  Part hovered;            // under the pointer, in the scene or in a list
-  ViewState& view;         // how it is looked at
-  ViewControls& controls;  // what is asked of the scene
+  const std::map<std::string, std::string>& notes;  // of the person, by the parts' keys
+  Part hovered;                                     // under the pointer, in the scene or in a list
+  ViewState& view;                                  // how it is looked at
+  ViewControls& controls;                           // what is asked of the scene
   WindowAsks& asks;
 };
 
