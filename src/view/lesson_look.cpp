@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 namespace myotact::view {
 
 namespace {
@@ -89,19 +87,8 @@ void end_lesson_look(ViewState& view) {
   view.selected_muscle = view.selected_bone = -1;
 }
 
-std::string name_of(const anatomy::Specimen& specimen, const learn::Part& part, NameStyle names) {
-  std::string english, latin;
-  if (part.muscle >= 0) {
-    const anatomy::Muscle& muscle = specimen.muscles[static_cast<std::size_t>(part.muscle)];
-    english = muscle.name_en;
-    latin = muscle.name_la;
-  } else if (part.bone >= 0) {
-    const anatomy::Bone& bone = specimen.bones[static_cast<std::size_t>(part.bone)];
-    english = bone.name_en;
-    latin = bone.name_la;
-  }
-  if (names == NameStyle::English || english == latin) return english;
-  return names == NameStyle::Latin ? latin : fmt::format("{} ({})", english, latin);
+Part part_of(const learn::Part& part) {
+  return part.muscle >= 0 ? Part{PartKind::Muscle, part.muscle} : Part{PartKind::Bone, part.bone};
 }
 
 }  // namespace myotact::view

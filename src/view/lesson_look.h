@@ -1,10 +1,8 @@
 #pragma once
 
-#include <string>
-
-#include "anatomy/specimen.h"
 #include "learn/lesson.h"
 #include "view/panels/panel.h"
+#include "view/part.h"
 #include "view/scene_state.h"
 #include "view/view_state.h"
 
@@ -20,7 +18,7 @@ PointerMode pointer_mode_for(const learn::Task& task);
 /// Everything drawn and named again, as after a lesson.
 void end_lesson_look(ViewState& view);
 
-/// What a part is called in the names that the person chose.
-std::string name_of(const anatomy::Specimen& specimen, const learn::Part& part, NameStyle names);
+/// The same part as the view knows it.
+Part part_of(const learn::Part& part);
 
 }  // namespace myotact::view

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+
+#include "anatomy/specimen.h"
 #include "view/view_state.h"
 
 namespace myotact::view {
@@ -27,5 +30,12 @@ inline const PartLook& look_of(const ViewState& view, const Part& part) {
   const auto i = static_cast<std::size_t>(part.index);
   return i < looks.size() ? looks[i] : kPlain;
 }
+
+const std::string& key_of(const anatomy::Specimen& specimen, const Part& part);
+/// What a part is called: "English", "Latin", or "English (Latin)"; the one that there is where the other is missing.
+/// No part: an empty text.
+std::string name_of(const anatomy::Specimen& specimen, const Part& part, NameStyle style);
+/// As the view wants it; "?" while names are hidden.
+std::string name_of(const anatomy::Specimen& specimen, const Part& part, const ViewState& view);
 
 }  // namespace myotact::view

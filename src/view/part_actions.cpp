@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 namespace myotact::view {
 
 namespace {
@@ -14,19 +12,6 @@ std::vector<PartLook>& own_looks(ViewState& view, const Part& part) {
 }
 std::vector<PartLook>& other_looks(ViewState& view, const Part& part) {
   return part.kind == PartKind::Bone ? view.muscles : view.bones;
-}
-
-template <typename PartType>
-std::string styled_name(const PartType& part, NameStyle style) {
-  switch (style) {
-    case NameStyle::English:
-      return part.name_en;
-    case NameStyle::Latin:
-      return part.name_la;
-    case NameStyle::Both:
-      break;
-  }
-  return part.name_en == part.name_la ? part.name_en : fmt::format("{} ({})", part.name_en, part.name_la);
 }
 
 }  // namespace
@@ -73,18 +58,6 @@ void toggle_plot(ViewState& view, int muscle) {
   } else {
     view.plotted_muscles.push_back(muscle);
   }
-}
-
-const std::string& key_of(const anatomy::Specimen& specimen, const Part& part) {
-  const auto index = static_cast<std::size_t>(part.index);
-  return part.kind == PartKind::Bone ? specimen.bones.at(index).key : specimen.muscles.at(index).key;
-}
-
-std::string name_of(const anatomy::Specimen& specimen, const Part& part, const ViewState& view) {
-  if (view.names_hidden) return "?";
-  const auto index = static_cast<std::size_t>(part.index);
-  return part.kind == PartKind::Bone ? styled_name(specimen.bones.at(index), view.names)
-                                     : styled_name(specimen.muscles.at(index), view.names);
 }
 
 }  // namespace myotact::view

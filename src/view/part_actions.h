@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-
-#include "anatomy/specimen.h"
 #include "view/part.h"
 
 namespace myotact::view {
@@ -19,9 +16,5 @@ PartLook& look_of(ViewState& view, const Part& part);  // of a part that is ther
 /// Into the plots, or out of them.
 void toggle_plot(ViewState& view, int muscle);
 bool is_plotted(const ViewState& view, int muscle);
-
-const std::string& key_of(const anatomy::Specimen& specimen, const Part& part);
-/// As the view wants it: English, Latin, both; "?" while names are hidden.
-std::string name_of(const anatomy::Specimen& specimen, const Part& part, const ViewState& view);
 
 }  // namespace myotact::view

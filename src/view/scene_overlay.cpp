@@ -164,6 +164,15 @@ void steady(std::vector<LabelWish>& wishes, const std::vector<LabelWish>& before
   }
 }
 
+/// Both names stand one below the other.
+std::string label_text(const OverlaidScene& scene, const Part& part) {
+  const std::string name = name_of(scene.specimen, part, scene.view);
+  if (scene.view.names != NameStyle::Both) return name;
+  const std::string english = name_of(scene.specimen, part, NameStyle::English);
+  const std::string latin = name_of(scene.specimen, part, NameStyle::Latin);
+  return english == latin ? name : english + "\n" + latin;
+}
+
 /// What would be named, with `texts`.
 std::vector<LabelWish> wishes_of(const Sheet& sheet, const SeenLimb& limb, std::vector<std::string>& texts) {
   const glm::vec2 pad(2.0f * kPad * sheet.em(), kPad * sheet.em());
@@ -171,7 +180,7 @@ std::vector<LabelWish> wishes_of(const Sheet& sheet, const SeenLimb& limb, std::
   for (const SeenPart& seen : limb.parts) {
     const bool chosen = seen.part == selected_part(sheet.scene.view) || seen.part == sheet.scene.hovered;
     if (!sheet.scene.view.labels && !chosen) continue;
-    texts.push_back(name_of(sheet.scene.specimen, seen.part, sheet.scene.view.names));
+    texts.push_back(label_text(sheet.scene, seen.part));
     wishes.push_back({id_of(seen.part), sheet.on_screen(seen.place), sheet.size_of(texts.back()) + pad,
                       sheet.area.x + sheet.area.width * seen.middle, chosen ? 2.0f : seen.share});
   }
@@ -211,17 +220,6 @@ void draw_labels(const Sheet& sheet, float below, std::vector<PlacedLabel>& plac
 }
 
 }  // namespace
-
-std::string name_of(const anatomy::Specimen& specimen, const Part& part, NameStyle style) {
-  const auto choose = [style](const std::string& english, const std::string& latin) {
-    if (style == NameStyle::English || latin.empty()) return english;
-    if (style == NameStyle::Latin || english.empty() || english == latin) return latin;
-    return english + "\n" + latin;
-  };
-  const auto i = static_cast<std::size_t>(part.index);
-  if (part.kind == PartKind::Bone) return choose(specimen.bones[i].name_en, specimen.bones[i].name_la);
-  return choose(specimen.muscles[i].name_en, specimen.muscles[i].name_la);
-}
 
 double round_length_m(double longest_m) {
   const double decade = std::pow(10.0, std::floor(std::log10(longest_m)));

@@ -14,9 +14,6 @@ struct ImDrawList;
 
 namespace myotact::view {
 
-/// What a part is called in this view: English, Latin or both.
-std::string name_of(const anatomy::Specimen& specimen, const Part& part, NameStyle style);
-
 /// A length for a scale bar: 1, 2 or 5 times a power of ten, the largest that is not longer [metres].
 double round_length_m(double longest_m);
 

@@ -83,11 +83,10 @@ TEST(LessonLook, WhatIsToBeNamedIsMarkedAndAllIsThereAgainAfterwards) {
   EXPECT_EQ(looked.view.bones, std::vector<PartLook>(2));
 }
 
-TEST(LessonLook, PartsAreCalledAsThePersonWants) {
-  const anatomy::Specimen specimen = testing::antagonist_hinge();
-  EXPECT_EQ(name_of(specimen, {0, -1}, NameStyle::English), "flexor muscle");
-  EXPECT_EQ(name_of(specimen, {-1, 1}, NameStyle::Latin), "os lower");
-  EXPECT_EQ(name_of(specimen, {0, -1}, NameStyle::Both), "flexor muscle (musculus flexor)");
+TEST(LessonLook, APartOfALessonIsThatOfTheView) {
+  EXPECT_EQ(part_of({0, -1}), (Part{PartKind::Muscle, 0}));
+  EXPECT_EQ(part_of({-1, 1}), (Part{PartKind::Bone, 1}));
+  EXPECT_FALSE(part_of({-1, -1}));
 }
 
 }  // namespace

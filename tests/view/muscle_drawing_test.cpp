@@ -109,15 +109,7 @@ TEST_F(MuscleDrawing, EveryColourHasALegendWithTextsInBothLanguages) {
   ui::set_language("en");
 }
 
-TEST(SceneOverlay, NamesAreAsAskedForAndLengthsRound) {
-  anatomy::Specimen specimen = myotact::testing::antagonist_hinge();
-  specimen.bones[0].name_en = "Shoulder blade";
-  specimen.bones[0].name_la = "Scapula";
-  specimen.bones[1].name_en = specimen.bones[1].name_la = "Humerus";
-  EXPECT_EQ(name_of(specimen, {PartKind::Bone, 0}, NameStyle::English), "Shoulder blade");
-  EXPECT_EQ(name_of(specimen, {PartKind::Bone, 0}, NameStyle::Latin), "Scapula");
-  EXPECT_EQ(name_of(specimen, {PartKind::Bone, 0}, NameStyle::Both), "Shoulder blade\nScapula");
-  EXPECT_EQ(name_of(specimen, {PartKind::Bone, 1}, NameStyle::Both), "Humerus");
+TEST(SceneOverlay, LengthsOfTheScaleBarAreRound) {
   EXPECT_DOUBLE_EQ(round_length_m(0.073), 0.05);
   EXPECT_DOUBLE_EQ(round_length_m(0.021), 0.02);
   EXPECT_DOUBLE_EQ(round_length_m(0.0199), 0.01);

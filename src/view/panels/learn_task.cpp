@@ -21,7 +21,9 @@ struct Scribe {
   learn::LessonRun& run;
   std::string& typed;
 
-  std::string name(const learn::Part& part) const { return name_of(context.specimen, part, context.view.names); }
+  std::string name(const learn::Part& part) const {
+    return name_of(context.specimen, part_of(part), context.view.names);
+  }
   const learn::TaskState& state() const { return run.state(); }
 };
 
