@@ -137,6 +137,7 @@ class Performance {
     frame_ = {};
     driven_ = false;
     stage_->session().start();
+    heard_ = std::chrono::steady_clock::now();
   }
 
   void end_session() {
@@ -148,12 +149,13 @@ class Performance {
 
   /// One picture; false when it was the last.
   bool draw(double end_s) {
-    if (stage_) stage_->session().fetch_frame(frame_);
+    const auto since = std::chrono::steady_clock::now();
+    if (stage_ && stage_->session().fetch_frame(frame_)) heard_ = since;
     const bool last = frame_.time_s >= end_s;
     if (last) window_.save_next_picture(options_.out / "window.png");
-    const auto since = std::chrono::steady_clock::now();
     if (stage_) {
-      window_.set_news({stage_->session().recording(), next_.valid()});
+      const double silence_s = std::chrono::duration<double>(since - heard_).count();
+      window_.set_news({stage_->session().recording(), next_.valid(), silence_s});
       window_.set_readings(stage_->readings(frame_, common_));
     }
     const view::ViewControls& controls = window_.draw(frame_);
@@ -183,6 +185,7 @@ class Performance {
   std::future<std::unique_ptr<Stage>> next_;  // being built
   view::Window window_;                       // after the stages: it shows their specimens
   messages::SceneFrame frame_;
+  std::chrono::steady_clock::time_point heard_;  // when the newest frame came
   double common_ = 0.0;
   bool driven_ = false;
 };

@@ -12,6 +12,7 @@ HapticThread::HapticThread(HapticLoop& loop, realtime::Watchdog* watchdog)
 
 void HapticThread::start() {
   thread_ = std::thread([this] {
+    realtime::name_this_thread("haptics");
     permission_ = realtime::make_this_thread_real_time();
     running_.store(true, std::memory_order_release);
     running_.notify_one();

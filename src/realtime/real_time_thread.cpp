@@ -37,4 +37,8 @@ RealTimePermission make_this_thread_real_time() {
   return permission;
 }
 
+void name_this_thread(const char* name) noexcept {
+  pthread_setname_np(pthread_self(), name);
+}
+
 }  // namespace myotact::realtime

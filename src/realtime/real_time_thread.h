@@ -13,4 +13,7 @@ struct RealTimePermission {
 /// runs on without either when they are refused. Not real-time safe.
 RealTimePermission make_this_thread_real_time();
 
+/// What debuggers and lists of threads call this one; at most 15 letters.
+void name_this_thread(const char* name) noexcept;
+
 }  // namespace myotact::realtime

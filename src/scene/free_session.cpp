@@ -11,6 +11,7 @@
 #include "haptics/haptic_group.h"
 #include "layer/simulation_engine.h"
 #include "realtime/periodic_loop.h"
+#include "realtime/real_time_thread.h"
 #include "scene/lockstep_haptics.h"
 #include "scene/model_writer.h"
 #include "scene/tool_frame.h"
@@ -67,6 +68,7 @@ void FreeSession::start() {
   running_ = true;
   haptic_thread_->start();
   thread_ = std::thread([this] {
+    realtime::name_this_thread("simulation");
     try {
       simulate();
     } catch (...) {

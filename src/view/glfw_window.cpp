@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <string_view>
 #include <utility>
 
 #include <epoxy/gl.h>
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <stb/stb_image.h>
 
+#include "core/data_folder.h"
 #include "core/error.h"
 
 namespace myotact::view {
@@ -31,6 +34,21 @@ bool draws_in_software() {
   constexpr std::array kSoftware = {"llvmpipe", "softpipe", "swrast", "SwiftShader"};
   return std::any_of(kSoftware.begin(), kSoftware.end(),
                      [&](const char* word) { return renderer.find(word) != std::string_view::npos; });
+}
+
+/// The icon of the menu's entry; where it is not found the desktop's own stays.
+void set_icon(GLFWwindow* window) {
+  const std::filesystem::path data = data_folder();
+  for (const auto& file : {data / "assets/desktop/myotact-48.png",  // in the sources, and installed
+                           data.parent_path() / "icons/hicolor/48x48/apps/myotact.png"}) {
+    constexpr int kRgba = 4;
+    GLFWimage icon{};
+    icon.pixels = stbi_load(file.c_str(), &icon.width, &icon.height, nullptr, kRgba);
+    if (icon.pixels == nullptr) continue;
+    glfwSetWindowIcon(window, 1, &icon);
+    stbi_image_free(icon.pixels);
+    return;
+  }
 }
 
 }  // namespace
@@ -56,6 +74,7 @@ GlfwWindow::GlfwWindow(const char* title, int width, int height) {
     glfwTerminate();
     throw unavailable;
   }
+  set_icon(window_);
   glfwSwapInterval(1);
   glfwSetWindowUserPointer(window_, this);
   // Before the panels' library, which calls on what it finds.

@@ -14,10 +14,11 @@ namespace myotact::view {
 
 namespace {
 
-// Okabe and Ito's palette without black, on a dark ground in either theme: what a curve is stays what it was.
-constexpr std::array<ImU32, 6> kCurves = {IM_COL32(86, 180, 233, 255),  IM_COL32(230, 159, 0, 255),
-                                          IM_COL32(0, 190, 140, 255),   IM_COL32(240, 228, 66, 255),
-                                          IM_COL32(204, 121, 167, 255), IM_COL32(235, 120, 60, 255)};
+// Okabe and Ito's palette without black, and a grey, on a dark ground in either theme: what a curve is stays what it
+// was.
+constexpr std::array<ImU32, 7> kCurves = {
+    IM_COL32(86, 180, 233, 255),  IM_COL32(230, 159, 0, 255),  IM_COL32(0, 190, 140, 255),  IM_COL32(240, 228, 66, 255),
+    IM_COL32(204, 121, 167, 255), IM_COL32(235, 120, 60, 255), IM_COL32(190, 190, 190, 255)};
 constexpr ImU32 kGround = IM_COL32(24, 26, 30, 255);
 constexpr ImU32 kFrame = IM_COL32(90, 95, 105, 255);
 constexpr ImU32 kZero = IM_COL32(120, 125, 135, 120);

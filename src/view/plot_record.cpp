@@ -1,6 +1,7 @@
 #include "view/plot_record.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -17,6 +18,10 @@ namespace {
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
+double size_of(const std::array<double, 3>& force_N) {
+  return std::hypot(force_N[0], force_N[1], force_N[2]);
+}
+
 std::vector<double> row_of(const anatomy::Specimen& specimen, const messages::SceneFrame& frame, std::size_t joint) {
   std::vector<double> row(PlotRecord::FirstTension_N + specimen.muscles.size(), kNone);
   if (joint < frame.joints.size()) {
@@ -24,11 +29,16 @@ std::vector<double> row_of(const anatomy::Specimen& specimen, const messages::Sc
     row[PlotRecord::Stiffness_Nm_rad] = frame.joints[joint].stiffness_Nm_rad;
     row[PlotRecord::Torque_Nm] = frame.joints[joint].torque_Nm;
   }
-  double force_N = 0.0;
+  std::fill_n(row.begin() + PlotRecord::Force_N, 1 + PlotRecord::kForceParts, 0.0);
   for (const messages::ToolFrame& tool : frame.tools) {
-    force_N += std::hypot(tool.force_world_N[0], tool.force_world_N[1], tool.force_world_N[2]);
+    row[PlotRecord::Force_N] += size_of(tool.force_world_N);
+    const messages::ForceParts& parts = tool.parts;
+    const std::array sizes_N = {size_of(parts.contact), size_of(parts.friction), size_of(parts.texture),
+                                size_of(parts.line),    size_of(parts.bone),     size_of(parts.damping),
+                                size_of(parts.limits)};
+    static_assert(sizes_N.size() == PlotRecord::kForceParts);
+    for (std::size_t p = 0; p < sizes_N.size(); ++p) row[PlotRecord::FirstPart_N + p] += sizes_N[p];
   }
-  row[PlotRecord::Force_N] = force_N;
   const std::size_t muscles = std::min(specimen.muscles.size(), frame.tensions_N.size());
   for (std::size_t m = 0; m < muscles; ++m) row[PlotRecord::FirstTension_N + m] = frame.tensions_N[m];
   return row;

@@ -14,11 +14,20 @@ namespace myotact::view {
 class PlotRecord {
  public:
   static constexpr double kKept_s = 60.0;
+  /// Of messages::ForceParts, in their order.
+  static constexpr std::size_t kForceParts = 7;
   /// Columns before the muscles' tensions.
-  enum Column : std::size_t { Angle_deg, Stiffness_Nm_rad, Torque_Nm, Force_N, FirstTension_N };
+  enum Column : std::size_t {
+    Angle_deg,
+    Stiffness_Nm_rad,
+    Torque_Nm,
+    Force_N,
+    FirstPart_N,
+    FirstTension_N = FirstPart_N + kForceParts
+  };
 
   /// A row of the frame; none when its time is that of the last row. An earlier time begins anew. `joint`: the one that
-  /// is watched. The force is that of all tools, each one's size added up.
+  /// is watched. Forces, and their parts, are those of all tools, each one's size added up.
   void add(const anatomy::Specimen& specimen, const messages::SceneFrame& frame, std::size_t joint);
 
   std::size_t size() const { return times_s_.size(); }

@@ -185,6 +185,18 @@ void GuiProgram::resize(int width, int height) {
   pause_s(0.5);
 }
 
+void GuiProgram::hide() {
+  xdotool("search --name Myotact windowunmap");
+}
+
+void GuiProgram::show() {
+  xdotool("search --name Myotact windowmap");
+}
+
+void GuiProgram::drag_window(int x, int y) {
+  xdotool("search --name Myotact windowmove " + std::to_string(x) + " " + std::to_string(y));
+}
+
 void GuiProgram::move_to(double x, double y) {
   xdotool("mousemove " + std::to_string(static_cast<int>(x)) + " " + std::to_string(static_cast<int>(y)));
   let_draw();

@@ -52,6 +52,8 @@ class GuiProgram {
   bool shows(const std::string& control) const;
 
   void resize(int width, int height);  // the window
+  void hide(), show();
+  void drag_window(int x, int y);  // its corner on the screen [pixels]
   void move_to(double x, double y);
   void press(int button = 1), release(int button = 1);
   void click_at(double x, double y, int button = 1);

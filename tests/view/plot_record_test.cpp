@@ -32,6 +32,10 @@ messages::SceneFrame frame_at(double time_s) {
   frame.tools.resize(2);
   frame.tools[0].force_world_N = {3.0, 0.0, 4.0};
   frame.tools[1].force_world_N = {0.0, -2.0, 0.0};
+  frame.tools[0].parts.contact = {0.0, 3.0, 4.0};
+  frame.tools[1].parts.contact = {0.0, 0.0, 1.0};
+  frame.tools[0].parts.line = {0.5, 0.0, 0.0};
+  frame.tools[1].parts.limits = {0.0, -0.25, 0.0};
   frame.tensions_N = {time_s, 1.0 / 3.0, 2.0 * time_s};
   return frame;
 }
@@ -55,7 +59,11 @@ TEST(PlotRecord, ARowSaysWhatTheFrameSaid) {
   EXPECT_NEAR(record.column(PlotRecord::Angle_deg)[0], 90.0 * std::sin(0.5), 1e-12);
   EXPECT_EQ(record.column(PlotRecord::Stiffness_Nm_rad)[0], 4.5);
   EXPECT_EQ(record.column(PlotRecord::Torque_Nm)[0], -0.05);
-  EXPECT_EQ(record.column(PlotRecord::Force_N)[0], 7.0);  // 5 N and 2 N
+  EXPECT_EQ(record.column(PlotRecord::Force_N)[0], 7.0);          // 5 N and 2 N
+  EXPECT_EQ(record.column(PlotRecord::FirstPart_N)[0], 6.0);      // contact: 5 N and 1 N
+  EXPECT_EQ(record.column(PlotRecord::FirstPart_N + 1)[0], 0.0);  // friction
+  EXPECT_EQ(record.column(PlotRecord::FirstPart_N + 3)[0], 0.5);  // line
+  EXPECT_EQ(record.column(PlotRecord::FirstPart_N + 6)[0], 0.25);
   EXPECT_EQ(record.column(PlotRecord::tension_column(2))[0], 1.0);
 }
 

@@ -30,7 +30,8 @@ struct SceneFacts {
 /// What the session is about.
 struct SessionNews {
   bool recording = false;
-  bool opening = false;  // another scene is being built
+  bool opening = false;    // another scene is being built
+  double silence_s = 0.0;  // since the simulation told anything: a step that does not end
 };
 
 /// A scene to be opened.

@@ -1,5 +1,8 @@
 #include "view/panels/plots_panel.h"
 
+#include <array>
+
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include "core/error.h"
@@ -14,6 +17,19 @@ namespace myotact::view {
 
 namespace {
 
+/// Of the force on the hand, as the feel panel calls them.
+struct NamedPart {
+  const char* text;
+  const char* column;
+};
+constexpr std::array<NamedPart, PlotRecord::kForceParts> kParts = {{{"feel.part.contact", "contact"},
+                                                                    {"feel.part.friction", "friction"},
+                                                                    {"feel.part.texture", "texture"},
+                                                                    {"feel.part.line", "line"},
+                                                                    {"feel.part.bone", "bone"},
+                                                                    {"feel.part.damping", "damping"},
+                                                                    {"feel.part.limits", "limits"}}};
+
 /// What there is to be shown now, in the order of the panel. Ranges: small enough to see rest, large enough that noise
 /// does not fill a plot.
 std::vector<PlotSheet> sheets_of(const PanelContext& context) {
@@ -26,6 +42,12 @@ std::vector<PlotSheet> sheets_of(const PanelContext& context) {
     sheets.push_back({"plots.torque", 0.5, {{"", key + "_torque_Nm", PlotRecord::Torque_Nm}}});
   }
   sheets.push_back({"plots.force", 1.0, {{"", "tool_force_N", PlotRecord::Force_N}}});
+  PlotSheet parts{"plots.parts", 0.5, {}};
+  for (std::size_t p = 0; p < kParts.size(); ++p) {
+    parts.curves.push_back(
+        {ui::tr(kParts[p].text), fmt::format("tool_{}_N", kParts[p].column), PlotRecord::FirstPart_N + p});
+  }
+  sheets.push_back(parts);
   PlotSheet tensions{"plots.tension", 10.0, {}};
   for (const int muscle : context.view.plotted_muscles) {
     const Part part{PartKind::Muscle, muscle};

@@ -25,8 +25,12 @@ void draw_status_bar(PanelContext& context, std::string& message) {
     ui::note_control("status.message", message);
     return;
   }
-  constexpr double kTooSlow = 0.85;  // of real time
-  if (context.news.opening) {
+  constexpr double kTooSlow = 0.85;   // of real time
+  constexpr double kSilence_s = 2.0;  // forces have faded by then, and a person wonders
+  if (context.news.silence_s > kSilence_s) {
+    warn(ui::tr("status.silence", context.news.silence_s));
+    ui::note_control("status.silence", ui::tr("status.silence", context.news.silence_s));
+  } else if (context.news.opening) {
     warn(ui::tr("status.opening"));
   } else if (!context.frame.notice.empty()) {
     warn(context.frame.notice);
