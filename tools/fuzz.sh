@@ -13,7 +13,7 @@ case "${1:-30}" in
   *) amount="-max_total_time=${1:-30}" ;;
 esac
 targets=("${@:2}")
-if [ ${#targets[@]} -eq 0 ]; then targets=(stl obj ply off vtk_surface vtk_tets tetgen medit json specimen lesson); fi
+if [ ${#targets[@]} -eq 0 ]; then targets=(stl obj ply off vtk_surface vtk_tets tetgen medit json specimen lesson work marks); fi
 
 install_missing "$project/tools/packages.txt" "$project/tools/packages-test.txt"
 build fuzz -- fuzz_targets

@@ -105,6 +105,8 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
     command->callback([&action, function] { action = function; });
   };
   CLI::App* view = add_scene_command(program, options, "view", "the window (default)");
+  view->add_option("--session", options.session, "begin with this saved work: its scene, view, settings, notes")
+      ->excludes(view->get_option("scene"));
   view->add_option("--report-state", options.report_state,
                    "keep this JSON file up to date with what the window shows and where its controls are, for programs "
                    "that assist a person");

@@ -21,6 +21,7 @@ struct Options {
   std::uint64_t seed = 1;
   std::filesystem::path out = "out";
   std::optional<std::filesystem::path> record;
+  std::optional<std::filesystem::path> session;       // view: a saved work to begin with
   std::optional<std::filesystem::path> report_state;  // view: what the window shows, as JSON, kept up to date
   bool json = false;
   std::string log_level = "info";

@@ -84,17 +84,16 @@ Options options_of(const Options& given, const view::SceneWish& wish) {
   Options options = given;
   options.scene = wish.scene;
   options.record = wish.recording;
-  if (wish.tissue.empty()) return options;
+  if (wish.tissue.empty() && !wish.work) return options;
   std::erase_if(options.set, [](const std::string& pair) { return pair.starts_with("tissue.default="); });
-  options.set.push_back("tissue.default=" + wish.tissue);
+  if (!wish.tissue.empty()) options.set.push_back("tissue.default=" + wish.tissue);
   return options;
 }
 
 /// The window and what it shows: one stage that runs and, after a wish for another, the next one being built.
 class Performance {
  public:
-  explicit Performance(const Options& options)
-      : options_(options), building_(options), report_(options.report_state), next_(build(options)) {}
+  explicit Performance(const Options& options) : options_(options), report_(options.report_state), next_(begin()) {}
 
   ~Performance() {
     view::on_display_loss({});
@@ -118,7 +117,14 @@ class Performance {
 
  private:
   std::future<std::unique_ptr<Stage>> build(const Options& options) {
+    building_ = options;
     return std::async(std::launch::async, [this, options] { return std::make_unique<Stage>(options, guarded_); });
+  }
+
+  std::future<std::unique_ptr<Stage>> begin() {
+    if (!options_.session) return build(options_);
+    work_ = view::read_work(*options_.session, scene::built_in_scenes());
+    return build(options_of(options_, {work_->scene, work_->tissue, {}, work_}));
   }
 
   void change_stage() {
@@ -132,7 +138,9 @@ class Performance {
       return;
     }
     end_session();
-    window_.open(built->scene().specimen, built->window_settings(building_));
+    view::WindowSettings settings = built->window_settings(building_);
+    settings.work = std::exchange(work_, std::nullopt);
+    window_.open(built->scene().specimen, settings);
     stage_ = std::move(built);
     frame_ = {};
     driven_ = false;
@@ -163,8 +171,8 @@ class Performance {
     leave_time_to_the_simulation(std::chrono::steady_clock::now() - since);
     if (stage_) lead(controls);
     if (const auto wish = window_.take_wish(); wish && !next_.valid()) {
-      building_ = options_of(options_, *wish);
-      next_ = build(building_);
+      work_ = wish->work;
+      next_ = build(options_of(options_, *wish));
     }
     return !last;
   }
@@ -177,9 +185,10 @@ class Performance {
     stage_->move_hand(controls);
   }
 
-  GuardedMotors guarded_;  // first: the watchdog is forked off before there are threads
-  Options options_;        // of the command line
-  Options building_;       // of the newest stage
+  GuardedMotors guarded_;                // first: the watchdog is forked off before there are threads
+  Options options_;                      // of the command line
+  Options building_;                     // of the newest stage
+  std::optional<view::SavedWork> work_;  // that it is to begin with
   WindowReport report_;
   std::unique_ptr<Stage> stage_;              // none before the first is built
   std::future<std::unique_ptr<Stage>> next_;  // being built

@@ -37,7 +37,9 @@ enum class KeyAction {
   Screenshot,
   Record,
   SceneScreenshot,
-  FullScreen
+  FullScreen,
+  SaveWork,
+  OpenWork
 };
 
 struct KeyBinding {

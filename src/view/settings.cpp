@@ -42,9 +42,6 @@ Settings read_settings(const std::filesystem::path& file) {
   if (const auto scale = object.find("scale")) settings.scale = scale->number_between(kSmallestScale, kLargestScale);
   settings.free_orbit = object.boolean_or("free_orbit", settings.free_orbit);
   settings.tour_done = object.boolean_or("tour_done", settings.tour_done);
-  if (const auto notes = object.find("notes")) {
-    for (const auto& [part, text] : JsonObject(*notes).entries()) settings.notes[part] = text.string();
-  }
   object.finish();
   return settings;
 }
@@ -68,8 +65,7 @@ void write_settings(const Settings& settings, const std::filesystem::path& file)
   make_writable_folder(file.parent_path());
   const nlohmann::json json = {
       {"schema", kSchema},       {"language", settings.language},     {"theme", settings.light ? "light" : "dark"},
-      {"scale", settings.scale}, {"free_orbit", settings.free_orbit}, {"tour_done", settings.tour_done},
-      {"notes", settings.notes}};
+      {"scale", settings.scale}, {"free_orbit", settings.free_orbit}, {"tour_done", settings.tour_done}};
   write_file(file, json.dump(2) + "\n");
 }
 

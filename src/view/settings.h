@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <string>
 
 namespace myotact::view {
@@ -13,7 +12,6 @@ struct Settings {
   double scale = 1.0;           // of everything written and clicked on, kSmallestScale .. kLargestScale
   bool free_orbit = false;      // a drag turns the limb any way
   bool tour_done = false;       // or skipped
-  std::map<std::string, std::string> notes = {};  // what the person wrote about muscles and bones, by their keys
 
   friend bool operator==(const Settings&, const Settings&) = default;
 };

@@ -1,8 +1,6 @@
 #include "view/shown_scene.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <exception>
 #include <utility>
 
 #include <imgui.h>
@@ -46,18 +44,11 @@ ShownScene::ShownScene(const anatomy::Specimen& specimen, const WindowSettings& 
       renderer_(specimen),
       state_{start_view(specimen, 1.0f), settings.start},
       history_(state_),
-      feel_(specimen) {
+      feel_(specimen),
+      work_(settings.work) {
   controls_.hand_world_m = settings.hand_start_world_m;
   controls_.scene = settings.start;
-}
-
-ShownScene::~ShownScene() {
-  if (!notes_unsaved_) return;
-  try {
-    write_settings(settings, settings_file());
-  } catch (const std::exception& failure) {  // there is no window any more that could say it
-    std::fprintf(stderr, "myotact: your last note was not kept: %s\n", failure.what());
-  }
+  marks_ = marks_or_none(marks_file(specimen.name), message);
 }
 
 void ShownScene::take_over(const ShownScene& before) {
@@ -113,22 +104,15 @@ void ShownScene::draw_tasks(PanelContext& context) {
     ImGui::EndTabItem();
   };
   tab("tasks.feel", [&] { feel_.draw(context); });
-  tab("tasks.see", [&] { draw_see_panel(context); });
+  tab("tasks.see", [&] {
+    draw_see_panel(context);
+    bookmarks_.draw(context);
+  });
   tab("tasks.demonstrate", [&] { demonstrate_.draw(context); });
   tab("tasks.learn", [&] { learn_.draw(context); });
   tab("tasks.plots", [&] { plots_.draw(context); });
   tab("tasks.settings", [&] { settings_panel_.draw(settings, message); });
   ImGui::EndTabBar();
-}
-
-/// In memory at each letter, on the disk when the typing ends.
-void ShownScene::take_note(const PartNote& note) {
-  if (note.text.empty()) {
-    settings.notes.erase(note.part);
-  } else {
-    settings.notes[note.part] = note.text;
-  }
-  notes_unsaved_ = true;
 }
 
 void ShownScene::obey(const WindowAsks& asks, const messages::SceneFrame& frame) {
@@ -140,11 +124,12 @@ void ShownScene::obey(const WindowAsks& asks, const messages::SceneFrame& frame)
   if (asks.pointer_mode) pointer_.set_mode(*asks.pointer_mode);
   if (asks.record) begin_or_end_recording();
   if (asks.wish) wish = asks.wish;
-  if (asks.note) take_note(*asks.note);
-  if (notes_unsaved_ && !ui::is_held()) {
-    notes_unsaved_ = false;
-    keep(settings, message);
-  }
+  if (asks.write_note) find_.focus_note();
+  take_marks(asks);
+  if (asks.turn_to) look(*asks.turn_to);
+  if (asks.works) works_.toggle();
+  if (asks.save_work) save(*asks.save_work);
+  if (asks.open_work) open(*asks.open_work);
   if (!asks.message.empty()) message = asks.message;
 }
 
@@ -171,6 +156,7 @@ void ShownScene::draw_areas(PanelContext& context) {
   in_area("timeline", layout_.timeline, [&] { timeline_.draw(context); });
   in_area("status", layout_.status, [&] { draw_status_bar(context, message); });
   if (help_) draw_help(help_);
+  works_.draw(context);
   if (!settings.tour_done && !layout_.tasks.empty() && tour_.draw()) {
     settings.tour_done = true;
     keep(settings, message);
@@ -178,8 +164,7 @@ void ShownScene::draw_areas(PanelContext& context) {
 }
 
 PanelContext ShownScene::context_of(const messages::SceneFrame& frame, WindowAsks& asks) {
-  return {*specimen_,     frame,    facts_,      readings,  news, part_facts_,
-          settings.notes, hovered_, state_.view, controls_, asks};
+  return {*specimen_, frame, facts_, readings, news, part_facts_, marks_, hovered_, state_.view, controls_, asks};
 }
 
 void ShownScene::draw_panels(const messages::SceneFrame& now, GlfwWindow& window) {
@@ -190,6 +175,7 @@ void ShownScene::draw_panels(const messages::SceneFrame& now, GlfwWindow& window
     state_.view.camera = framed(state_.view.camera, bounds_of(*specimen_, now), scene_aspect());
     history_ = History(state_);
   }
+  if (work_) begin_with(*std::exchange(work_, std::nullopt));
   const messages::SceneFrame& shown = timeline_.choose(now);
   shown_ = &shown;
   WindowAsks asks;

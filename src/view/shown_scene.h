@@ -10,6 +10,7 @@
 #include "view/history.h"
 #include "view/key_bindings.h"
 #include "view/layout.h"
+#include "view/panels/bookmark_list.h"
 #include "view/panels/demonstrate_panel.h"
 #include "view/panels/feel_panel.h"
 #include "view/panels/find_panel.h"
@@ -19,6 +20,7 @@
 #include "view/panels/settings_panel.h"
 #include "view/panels/timeline_panel.h"
 #include "view/panels/tour.h"
+#include "view/panels/works_panel.h"
 #include "view/pointer.h"
 #include "view/scene_overlay.h"
 #include "view/scene_renderer.h"
@@ -32,10 +34,12 @@ class ShownScene {
  public:
   ShownScene(const anatomy::Specimen& specimen, const WindowSettings& settings);
   /// Keeps a note that is still being typed.
-  ~ShownScene();
+  ~ShownScene() { keep_marks(); }
   ShownScene(const ShownScene&) = delete;
   ShownScene& operator=(const ShownScene&) = delete;
 
+  /// Writes what is unsaved of the person's marks; without a window any more, a failure goes to the standard error too.
+  void keep_marks();
   /// The same scene from its start: what was set and shown stays.
   void take_over(const ShownScene& before);
 
@@ -73,7 +77,11 @@ class ShownScene {
   void begin_or_end_recording();
   void draw_tasks(PanelContext& context);
   Viewport viewport(int width, int height) const;
-  void take_note(const PartNote& note);
+  void take_marks(const WindowAsks& asks);
+  void tell_missing(const std::vector<std::string>& parts);
+  void save(const std::string& name);
+  void open(const std::filesystem::path& file);
+  void begin_with(const SavedWork& work);
   void obey(const WindowAsks& asks, const messages::SceneFrame& frame);
 
   /// On the way from one view to another.
@@ -106,7 +114,11 @@ class ShownScene {
   SettingsPanel settings_panel_;
   Tour tour_;
   bool help_ = false;
-  bool notes_unsaved_ = false;
+  WorksPanel works_;
+  BookmarkList bookmarks_;
+  Marks marks_;
+  bool marks_unsaved_ = false;
+  std::optional<SavedWork> work_;  // to begin with at the next picture
 };
 
 }  // namespace myotact::view

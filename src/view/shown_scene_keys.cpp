@@ -114,6 +114,12 @@ void ShownScene::act(KeyAction action, WindowAsks& asks, GlfwWindow& window) {
     case KeyAction::Record:
       asks.record = true;
       return;
+    case KeyAction::SaveWork:
+      asks.save_work = "";
+      return;
+    case KeyAction::OpenWork:
+      asks.works = true;
+      return;
     case KeyAction::FullScreen:
       return window.toggle_full_screen();
     case KeyAction::GrabLine:

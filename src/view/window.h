@@ -23,6 +23,7 @@ struct WindowSettings {
   SceneFacts facts;
   SceneState start;                            // what the controls show at first
   std::array<double, 3> hand_start_world_m{};  // where the mouse takes the hand up
+  std::optional<SavedWork> work = {};          // that it begins with
 };
 
 /// The window: scene, panels, mouse and keys. Everything on the thread that made it.

@@ -51,7 +51,7 @@ struct SettingsFile : testing::Test {
 
 TEST_F(SettingsFile, IsReadAsItWasWritten) {
   EXPECT_EQ(read_settings(file), Settings{});
-  const Settings liked{"de", true, 1.25, true, true, {{"biceps_brachii", "two \"heads\"\nin people: Zweiköpfiger"}}};
+  const Settings liked{"de", true, 1.25, true, true};
   write_settings(liked, file);
   EXPECT_EQ(settings_or_defaults(file, message), liked);
   EXPECT_EQ(message, "");
@@ -59,9 +59,8 @@ TEST_F(SettingsFile, IsReadAsItWasWritten) {
 
 TEST_F(SettingsFile, ThatCannotBeUsedIsSetAside) {
   make_writable_folder(folder);
-  for (const char* text :
-       {"", "{\"schema\": 1, \"langu", "{\"schema\": 2}", "{\"schema\": 1, \"langauge\": \"de\"}",
-        "{\"schema\": 1, \"theme\": \"pink\"}", "{\"schema\": 1, \"notes\": {\"radius\": 3}}", "[]"}) {
+  for (const char* text : {"", "{\"schema\": 1, \"langu", "{\"schema\": 2}", "{\"schema\": 1, \"langauge\": \"de\"}",
+                           "{\"schema\": 1, \"theme\": \"pink\"}", "[]"}) {
     message.clear();
     write_file(file, text);
     EXPECT_EQ(settings_or_defaults(file, message), Settings{}) << text;

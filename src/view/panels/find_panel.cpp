@@ -1,6 +1,8 @@
 #include "view/panels/find_panel.h"
 
 #include <algorithm>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -55,17 +57,48 @@ void draw_mechanics(const PanelContext& context, const Part& part) {
   ImGui::PopStyleColor();
 }
 
-/// The person's own lines about a part.
-void draw_note(PanelContext& context, const std::string& part) {
+/// Takes away what is beyond the longest note, as it is typed or pasted.
+int cut_note(ImGuiInputTextCallbackData* data) {
+  const std::string_view text(data->Buf, static_cast<std::size_t>(data->BufTextLen));
+  const auto most = static_cast<int>(bytes_of_characters(text, kLongestNote));
+  if (most < data->BufTextLen) data->DeleteChars(most, data->BufTextLen - most);
+  return 0;
+}
+
+/// The person's own lines about a part. `write`: the keyboard goes there.
+void draw_note(PanelContext& context, const std::string& part, bool write) {
   constexpr float kLines = 2.0f;  // more scroll
-  const auto kept = context.notes.find(part);
-  std::string text = kept == context.notes.end() ? std::string() : kept->second;
+  const auto& notes = context.marks.notes;
+  const auto kept = notes.find(part);
+  std::string text = kept == notes.end() ? std::string() : kept->second;
   ImGui::TextDisabled("%s", ui::tr("card.note"));
   ImGui::PushID(part.c_str());  // what is being typed stays with its part
+  if (write) ImGui::SetKeyboardFocusHere();
   const ImVec2 size(-1.0f, kLines * ImGui::GetTextLineHeight() + 2.0f * ImGui::GetStyle().FramePadding.y);
-  if (ImGui::InputTextMultiline("##note", &text, size)) context.asks.note = PartNote{part, text};
+  if (ImGui::InputTextMultiline("##note", &text, size, ImGuiInputTextFlags_CallbackEdit, cut_note)) {
+    context.asks.note = PartNote{part, text};
+  }
   ui::note_control("card.note", text);
   ImGui::PopID();
+}
+
+/// A turned-down corner on the row just drawn, and the note while the pointer rests on it.
+void mark_note(const PanelContext& context, const std::string& part) {
+  const auto note = context.marks.notes.find(part);
+  if (note == context.marks.notes.end()) return;
+  const float em = ImGui::GetFontSize();
+  const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x, top = ImGui::GetItemRectMin().y;
+  ImGui::GetWindowDrawList()->AddTriangleFilled(ImVec2(right - 0.5f * em, top), ImVec2(right, top),
+                                                ImVec2(right, top + 0.5f * em),
+                                                ImGui::GetColorU32(ImGuiCol_PlotHistogram));
+  ui::note_control(fmt::format("find.noted.{}", part).c_str(), note->second);
+  if (!ImGui::IsItemHovered()) return;
+  constexpr float kWidth_em = 22.0f;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(kWidth_em * em);
+  ImGui::TextUnformatted(note->second.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
 }
 
 }  // namespace
@@ -89,6 +122,7 @@ void FindPanel::draw_row(PanelContext& context, const Part& part) {
   ui::note_control(fmt::format("find.{}", key).c_str(), selected ? "selected" : "");
   if (ImGui::IsItemHovered()) hovered_ = part;
   if (ImGui::IsItemClicked(ImGuiMouseButton_Right)) context.asks.menu_of = part;
+  mark_note(context, key);
   ImGui::PopStyleColor();
   ImGui::PopID();
 }
@@ -149,18 +183,18 @@ void FindPanel::draw(PanelContext& context) {
   ImGui::EndChild();
   if (!card) return;
   ImGui::BeginChild("card", ImVec2(0.0f, 0.0f), true);
-  draw_part_card(context);
+  draw_part_card(context, std::exchange(focus_note_, false));
   ImGui::EndChild();
 }
 
-void draw_part_card(PanelContext& context) {
+void draw_part_card(PanelContext& context, bool write) {
   const Part part = selected_part(context.view);
   const std::string& key = key_of(context.specimen, part);
   const anatomy::PartFacts& facts = anatomy::facts_of(context.part_facts, key);
   ViewState both = context.view;
   both.names = NameStyle::Both;
   ui::paragraph(name_of(context.specimen, part, both));
-  draw_note(context, key);  // first: below the facts it would be out of sight
+  draw_note(context, key, write);  // first: below the facts it would be out of sight
   ImGui::Separator();
   fact("card.origin", facts.origin);
   fact("card.insertion", facts.insertion);

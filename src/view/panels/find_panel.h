@@ -15,6 +15,8 @@ class FindPanel {
   void draw(PanelContext& context);
   /// The pointer of the keyboard goes to the search.
   void focus() { focus_ = true; }
+  /// The pointer of the keyboard goes to the note of the selected part.
+  void focus_note() { focus_note_ = true; }
   /// Over which row the pointer rests.
   const Part& hovered() const { return hovered_; }
 
@@ -25,11 +27,11 @@ class FindPanel {
   void draw_region(PanelContext& context, const std::string& region);
 
   std::string text_;
-  bool focus_ = false;
+  bool focus_ = false, focus_note_ = false;
   Part hovered_;
 };
 
-/// What is known of the selected part.
-void draw_part_card(PanelContext& context);
+/// What is known of the selected part. `write`: the keyboard goes to its note.
+void draw_part_card(PanelContext& context, bool write);
 
 }  // namespace myotact::view

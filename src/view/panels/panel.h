@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "messages/scene_frame.h"
 #include "view/joint_readings.h"
 #include "view/part.h"
+#include "view/session/saved_work.h"
 #include "view/view_controls.h"
 #include "view/view_state.h"
 
@@ -39,12 +39,13 @@ struct SceneWish {
   std::string scene;                               // name or path
   std::string tissue;                              // "fem", "line" ...; empty: as the scene says
   std::optional<std::filesystem::path> recording;  // file to record it to
+  std::optional<SavedWork> work = {};              // that it is to begin with
 };
 
 /// What the mouse is over the scene.
 enum class PointerMode { Look, Touch, Pull };
 
-/// What the person wrote about a part; an empty text is no note.
+/// What the person wrote about a part, kLongestNote characters at most; an empty text is no note.
 struct PartNote {
   std::string part, text;  // key of the muscle or bone
 };
@@ -55,13 +56,19 @@ struct WindowAsks {
   const char* standard_view = nullptr;  // to look from; null: none
   bool frame_selection = false;         // to come near what is selected; all when nothing is
   bool undo = false, redo = false;
-  bool help = false;              // to be shown or hidden
-  bool free_orbit = false;        // was switched on or off
-  bool record = false;            // to begin, or to end
-  std::optional<SceneWish> wish;  // a scene to be opened
-  std::optional<PartNote> note;   // to be kept
-  std::string message;            // a sentence for the person to read
-  Part menu_of;                   // the menu of this part is to open under the pointer
+  bool help = false;                               // to be shown or hidden
+  bool free_orbit = false;                         // was switched on or off
+  bool record = false;                             // to begin, or to end
+  std::optional<SceneWish> wish;                   // a scene to be opened
+  std::optional<PartNote> note;                    // to be kept
+  bool write_note = false;                         // about the selected part
+  std::optional<std::vector<Bookmark>> bookmarks;  // from now on
+  std::optional<Camera> turn_to;                   // the view to turn to
+  std::optional<std::string> save_work;            // under this name; empty: the scene's
+  std::optional<std::filesystem::path> open_work;  // a saved work
+  bool works = false;                              // their list to be shown or hidden
+  std::string message;                             // a sentence for the person to read
+  Part menu_of;                                    // the menu of this part is to open under the pointer
 };
 
 /// What every panel gets to read and to change, each picture anew. Panels draw with ImGui between its NewFrame and
@@ -73,10 +80,10 @@ struct PanelContext {
   const JointReadings& readings;
   const SessionNews& news;
   const anatomy::FactsByKey& part_facts;
-  const std::map<std::string, std::string>& notes;  // of the person, by the parts' keys
-  Part hovered;                                     // under the pointer, in the scene or in a list
-  ViewState& view;                                  // how it is looked at
-  ViewControls& controls;                           // what is asked of the scene
+  const Marks& marks;      // of the person, about this specimen
+  Part hovered;            // under the pointer, in the scene or in a list
+  ViewState& view;         // how it is looked at
+  ViewControls& controls;  // what is asked of the scene
   WindowAsks& asks;
 };
 

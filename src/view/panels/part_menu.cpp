@@ -24,6 +24,7 @@ void PartMenu::draw(PanelContext& context) {
   if (ui::menu_item("menu.isolate", is_isolated(view, part_))) isolate(view, part_);
   if (ui::menu_item("menu.show_all")) show_all(view);
   if (ui::menu_item("menu.frame")) context.asks.frame_selection = true;
+  if (!view.names_hidden && ui::menu_item("session.note")) context.asks.write_note = true;
   if (part_.kind == PartKind::Muscle) {
     ImGui::Separator();
     if (ui::menu_item("menu.plot", is_plotted(view, part_.index))) toggle_plot(view, part_.index);

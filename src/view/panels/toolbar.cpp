@@ -85,6 +85,11 @@ void draw_toolbar(PanelContext& context, Pointer& pointer, const UndoState& undo
   ImGui::GetWindowHeight() > kTwoRows* ImGui::GetFontSize() ? ImGui::NewLine() : draw_gap();
   draw_views(context, pointer);
   draw_gap();
+  if (ui::button("session.save_now")) context.asks.save_work = "";
+  ImGui::SameLine();
+  context.asks.works = ui::button("session.works") || context.asks.works;
+  ImGui::SameLine();
+  draw_gap();
   ImGui::BeginDisabled(!undo.can_undo);
   context.asks.undo = ui::button("toolbar.undo") || context.asks.undo;
   ImGui::EndDisabled();

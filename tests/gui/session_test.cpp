@@ -1,0 +1,124 @@
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "gui/gui_program.h"
+
+// What a person saves and opens again: a work, a bookmark, a note.
+
+namespace myotact {
+namespace {
+
+using nlohmann::json;
+using testing::GuiProgram;
+
+class SessionTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (const std::string missing = testing::missing_tools(); !missing.empty()) {
+      GTEST_SKIP() << "not installed:" << missing << " (packages xvfb, xdotool, imagemagick)";
+    }
+  }
+};
+
+/// Whether the camera's way has an end: the view is that of `wanted`, to a thousandth.
+bool looks_as(const json& view, const json& wanted) {
+  for (const char* key : {"hidden_muscles", "faded_muscles", "hidden_bones", "faded_bones", "selected_muscle"}) {
+    if (view[key] != wanted[key]) return false;
+  }
+  for (const auto& [key, value] : wanted["camera"].items()) {
+    if (std::abs(view["camera"][key].get<double>() - value.get<double>()) > 1e-3) return false;
+  }
+  return true;
+}
+
+std::string saved_file(const GuiProgram& gui) {
+  const std::filesystem::path works = gui.folder() / "home/data/myotact/works";
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(works, none)) {
+    if (entry.path().extension() == ".json") return entry.path().string();
+  }
+  return "";
+}
+
+TEST_F(SessionTest, ASavedWorkABookmarkAndANoteComeBack) {
+  GuiProgram gui("session", "elbow --set tissue.default=line");
+  gui.click("find.biceps_brachii", 3);
+  gui.click("session.note");
+  testing::pause_s(1.0);  // until the note has the keyboard, in a slow picture too
+  gui.type("two joints");
+  ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.value_of("find.noted.biceps_brachii") == "two joints"; }));
+  gui.click("find.shown.brachialis");
+  gui.click("toolbar.cranial");
+  gui.click("tasks.demonstrate");
+  gui.click("demonstrate.preset.firm");
+  ASSERT_TRUE(gui.wait_until([](const json& s) { return s["scene"]["common"] == 1.0; }));
+  testing::pause_s(1.0);  // until the camera is there
+  gui.let_draw();
+  const json view = gui.state()["view"], scene = gui.state()["scene"];
+  EXPECT_EQ(view["hidden_muscles"], json({"brachialis"}));
+  gui.click("tasks.see");
+  gui.click("session.bookmark_name");
+  testing::pause_s(1.0);
+  gui.type("front");
+  gui.click("session.bookmark_add");
+  EXPECT_TRUE(gui.wait_until([&](const json&) { return gui.value_of("session.bookmark.0") == "front"; }));
+  gui.click("session.save_now");
+  ASSERT_TRUE(gui.wait_until([&](const json&) { return !saved_file(gui).empty(); }));
+
+  const auto change = [&] {
+    gui.click("toolbar.lateral");
+    gui.click("find.shown.humerus");
+    gui.click("find.shown.brachialis");
+    ASSERT_TRUE(gui.wait_until([&](const json& s) {
+      return s["view"]["hidden_bones"] == json({"humerus"}) && s["view"]["hidden_muscles"].empty();
+    }));
+    testing::pause_s(1.0);
+    gui.let_draw();
+  };
+  change();
+  const json changed = gui.state()["view"];
+  gui.click("session.bookmark.0");
+  EXPECT_TRUE(gui.wait_until([&](const json& s) { return looks_as(s["view"], view); }));
+  gui.click("toolbar.undo");
+  EXPECT_TRUE(gui.wait_until([&](const json& s) { return looks_as(s["view"], changed); }));
+  gui.click("tasks.demonstrate");
+  gui.click("demonstrate.preset.rest");
+  ASSERT_TRUE(gui.wait_until([](const json& s) { return s["scene"]["common"] == 0.0; }));
+  gui.key("ctrl+o");
+  gui.click("session.work.0");
+  EXPECT_TRUE(gui.wait_until([&](const json& s) { return looks_as(s["view"], view) && s["scene"] == scene; }));
+  gui.screenshot("opened");
+  gui.click("toolbar.undo");
+  EXPECT_TRUE(
+      gui.wait_until([&](const json& s) { return looks_as(s["view"], changed) && s["scene"]["common"] == 0.0; }));
+
+  std::ofstream(saved_file(gui), std::ios::trunc) << R"({"schema": 1, "scene": "elb)";
+  gui.key("ctrl+o");
+  gui.click("session.work.0");
+  EXPECT_TRUE(gui.wait_until(
+      [&](const json&) { return gui.value_of("status.message").find(saved_file(gui)) != std::string::npos; }));
+  EXPECT_TRUE(looks_as(gui.state()["view"], changed));
+}
+
+TEST_F(SessionTest, AWorkOfAnotherSceneOpensThatSceneWithItsMarks) {
+  const std::string file = (std::filesystem::path(MYOTACT_GUI_PICTURES) / "stifle_work.json").string();
+  std::filesystem::create_directories(MYOTACT_GUI_PICTURES);
+  std::ofstream(file) << R"({"schema": 1, "scene": "stifle", "tissue": "line",
+    "view": {"camera": {"target_m": [0, 0, 0.2], "azimuth_rad": 1.0, "elevation_rad": 0.25, "distance_m": 1.5},
+             "hidden": ["patella", "os_penis"]},
+    "settings": {"drive": "balance", "common": 0.25}, "notes": {"patella": "rides in the groove"}})";
+  GuiProgram gui("session_scene", "--session " + file);
+  EXPECT_TRUE(
+      gui.wait_until([](const json& s) { return s["scene_name"] == "stifle" && s["scene"]["common"] == 0.25; }));
+  EXPECT_TRUE(gui.wait_until([](const json& s) { return s["view"]["camera"]["azimuth_rad"] == 1.0; }));
+  EXPECT_EQ(gui.state()["view"]["hidden_bones"], json({"patella"}));
+  EXPECT_NE(gui.value_of("status.message").find("os_penis"), std::string::npos) << gui.value_of("status.message");
+  EXPECT_TRUE(gui.wait_until([&](const json&) { return gui.value_of("find.noted.patella") == "rides in the groove"; }));
+}
+
+}  // namespace
+}  // namespace myotact
