@@ -42,6 +42,44 @@ CLI::App* add_scene_command(CLI::App& program, Options& options, const char* nam
   return command;
 }
 
+void add_levels(CLI::App& command, Options& options) {
+  command.add_option("--levels", options.levels, "co-contraction levels 0 .. 1 of the stiffness table: 0,1 or 0:0.1:1")
+      ->capture_default_str();
+}
+
+CLI::App* add_run(CLI::App& program, Options& options) {
+  CLI::App* run =
+      add_scene_command(program, options, "run", "no window: a scripted hand acts, tables and a picture come out");
+  run->add_flag("--realtime", options.realtime,
+                "run free on the wall clock, as the window does, and report the timing");
+  run->add_option("--png", options.png, "write a picture of the scene at the end to this file");
+  run->add_option("--view", options.view,
+                  "from where pictures look: lateral, medial, cranial, caudal, dorsal, palmar, or azimuth,elevation "
+                  "[degrees]")
+      ->capture_default_str();
+  run->add_option("--show", options.show,
+                  "what pictures show: muscles=KEYS bones=KEYS faded=KEYS select=KEY layers=deep,bones colour=tension "
+                  "names=latin section=cranial:0.5 labels=on lines=off fibres=on attachments=on");
+  run->add_option("--size", options.size, "of pictures [pixels]")->capture_default_str();
+  run->add_option("--every", options.every, "keep every n-th tick in samples.csv")->check(CLI::Range(1, 1000000));
+  add_levels(*run, options);
+  return run;
+}
+
+CLI::App* add_stiffness(CLI::App& program, Options& options) {
+  CLI::App* stiffness = add_scene_command(program, options, "stiffness", "joint stiffness against co-contraction");
+  stiffness
+      ->add_option("--angles", options.angles,
+                   "joint angles q [degrees]: 0,10 or first:step:last; default: the scene's own")
+      ->capture_default_str();
+  stiffness->add_option("--joint", options.joint,
+                        "joint of the specimen; without: the one that the scene co-contracts");
+  stiffness->add_option("--shard", options.shard, "measure one part of the table: 2/8 is the second of eight");
+  stiffness->add_option("--merge", options.merge, "join the parts of a table instead of measuring: their files");
+  add_levels(*stiffness, options);
+  return stiffness;
+}
+
 CLI::App* add_probe(CLI::App& program, Options& options) {
   CLI::App* probe = program.add_subcommand(
       "probe", "drive the proxy along a path over any surface mesh; out/probe.csv: proxy and force, one row a tick");
@@ -111,36 +149,8 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
                    "keep this JSON file up to date with what the window shows and where its controls are, for programs "
                    "that assist a person");
   bind(view, myotact::app::view);
-  CLI::App* run =
-      add_scene_command(program, options, "run", "no window: a scripted hand acts, tables and a picture come out");
-  run->add_flag("--realtime", options.realtime,
-                "run free on the wall clock, as the window does, and report the timing");
-  run->add_option("--png", options.png, "write a picture of the scene at the end to this file");
-  run->add_option("--view", options.view,
-                  "from where pictures look: lateral, medial, cranial, caudal, dorsal, palmar, or azimuth,elevation "
-                  "[degrees]")
-      ->capture_default_str();
-  run->add_option("--show", options.show,
-                  "what pictures show: muscles=KEYS bones=KEYS faded=KEYS select=KEY layers=deep,bones colour=tension "
-                  "names=latin section=cranial:0.5 labels=on lines=off fibres=on attachments=on");
-  run->add_option("--size", options.size, "of pictures [pixels]")->capture_default_str();
-  run->add_option("--every", options.every, "keep every n-th tick in samples.csv")->check(CLI::Range(1, 1000000));
-  bind(run, myotact::app::run);
-  CLI::App* stiffness = add_scene_command(program, options, "stiffness", "joint stiffness against co-contraction");
-  stiffness
-      ->add_option("--angles", options.angles,
-                   "joint angles q [degrees]: 0,10 or first:step:last; default: the scene's own")
-      ->capture_default_str();
-  stiffness->add_option("--joint", options.joint,
-                        "joint of the specimen; without: the one that the scene co-contracts");
-  stiffness->add_option("--shard", options.shard, "measure one part of the table: 2/8 is the second of eight");
-  stiffness->add_option("--merge", options.merge, "join the parts of a table instead of measuring: their files");
-  for (CLI::App* command : {run, stiffness}) {
-    command
-        ->add_option("--levels", options.levels, "co-contraction levels 0 .. 1 of the stiffness table: 0,1 or 0:0.1:1")
-        ->capture_default_str();
-  }
-  bind(stiffness, myotact::app::stiffness);
+  bind(add_run(program, options), myotact::app::run);
+  bind(add_stiffness(program, options), myotact::app::stiffness);
   CLI::App* replay = program.add_subcommand("replay", "run a recording again and compare the states");
   replay->add_option("file", options.file, "recording")->required();
   add_common(*replay, options);

@@ -66,10 +66,11 @@ struct JointFrame {
   std::vector<MuscleJointFrame> muscles;  // as in the specimen
 };
 
+/// Of about the last second.
 struct RateFrame {
   double simulation_hz = 0.0;
   double haptic_hz = 0.0;
-  std::uint64_t missed_ticks = 0;
+  std::uint64_t missed_ticks = 0;  // since the start
   double time_factor = 1.0;  // simulated seconds a second
 };
 

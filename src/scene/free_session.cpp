@@ -40,6 +40,7 @@ FreeSession::FreeSession(const Scene& scene, simulation::Simulation& simulation,
       recorder_(recorder),
       recording_(recorder != nullptr),
       conductor_(scene, simulation),
+      rates_(scene.settings.dt_s),
       extremes_(devices.size()) {
   for (std::size_t t = 0; t < devices.size(); ++t) {
     tools_.push_back(std::make_unique<Tool>(scene.tools[t], devices[t]));
@@ -254,11 +255,8 @@ void FreeSession::publish_frame() {
     loops_[t]->felt().update();
     frame.tools.push_back(tool_frame(loops_[t]->felt().front(), *scene_, t, *simulation_));
   }
-  const double wall_s = std::max(static_cast<double>(realtime::steady_now_ns() - started_ns_) * 1e-9, 1e-3);
-  frame.rates.simulation_hz = static_cast<double>(step_count_) / wall_s;
-  frame.rates.haptic_hz = static_cast<double>(haptic_thread_->tick_count()) / wall_s;
-  frame.rates.missed_ticks = haptic_thread_->missed_count();
-  frame.rates.time_factor = static_cast<double>(step_count_) * scene_->settings.dt_s / wall_s;
+  frame.rates = rates_.add(
+      {realtime::steady_now_ns(), step_count_, haptic_thread_->tick_count(), haptic_thread_->missed_count()});
   frame.notice = recording_fault_.empty() ? fault_text() : recording_fault_;
   if (frame.notice.empty()) frame.notice = conductor_.notice();
   ++frame.sequence;

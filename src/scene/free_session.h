@@ -21,6 +21,7 @@
 #include "scene/conductor.h"
 #include "scene/extremes.h"
 #include "scene/fault_notice.h"
+#include "scene/rate_meter.h"
 #include "scene/recording.h"
 #include "scene/scene_file.h"
 #include "simulation/simulation.h"
@@ -136,6 +137,7 @@ class FreeSession {
   realtime::LatestValue<messages::SceneFrame> frames_;
   realtime::LatestValue<ShoveRecord> shoves_;
   realtime::PeriodHistogram steps_;
+  RateMeter rates_;
   std::uint64_t step_count_ = 0;
   std::uint64_t started_ns_ = 0;
   Extremes extremes_;

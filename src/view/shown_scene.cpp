@@ -154,7 +154,8 @@ void ShownScene::draw_areas(PanelContext& context) {
   in_area("find", layout_.find, [&] { find_.draw(context); });
   in_area("tasks", layout_.tasks, [&] { draw_tasks(context); });
   in_area("timeline", layout_.timeline, [&] { timeline_.draw(context); });
-  in_area("status", layout_.status, [&] { draw_status_bar(context, message); });
+  in_area("status", layout_.status, [&] { draw_status_bar(context); });
+  news_strip_.draw(context, layout_.scene, message);
   if (help_) draw_help(help_);
   works_.draw(context);
   if (!settings.tour_done && !layout_.tasks.empty() && tour_.draw()) {

@@ -15,6 +15,7 @@
 #include "view/panels/feel_panel.h"
 #include "view/panels/find_panel.h"
 #include "view/panels/learn_panel.h"
+#include "view/panels/news_strip.h"
 #include "view/panels/part_menu.h"
 #include "view/panels/plots_panel.h"
 #include "view/panels/settings_panel.h"
@@ -111,6 +112,7 @@ class ShownScene {
   PlotsPanel plots_;
   TimelinePanel timeline_;
   std::optional<KeyAction> picture_wish_;  // Screenshot or SceneScreenshot
+  NewsStrip news_strip_;
   SettingsPanel settings_panel_;
   Tour tour_;
   bool help_ = false;

@@ -72,18 +72,18 @@ TEST_F(LivenessTest, PicturesGoOnWhateverTheSimulationDoes) {
   const int hung = draw_during(gui, "simulation hangs in a step", [] { testing::pause_s(5.0); });
   EXPECT_GE(hung, kPictures);
   EXPECT_EQ(simulated_s(gui), stopped_s);  // it did hang
-  EXPECT_TRUE(gui.wait_until([&](const json&) { return gui.shows("status.silence"); }));
+  EXPECT_TRUE(gui.wait_until([&](const json&) { return gui.shows("news.silence"); }));
   gui.screenshot("hung");
   gui.click("tasks.see");  // the window still obeys
   EXPECT_TRUE(gui.wait_until([&](const json&) { return gui.shows("see.labels"); }));
   held.reset();
   EXPECT_TRUE(gui.wait_until([&](const json& state) { return state["newest_s"] > stopped_s + 0.2; }));
-  EXPECT_TRUE(gui.wait_until([&](const json&) { return !gui.shows("status.silence"); }));
+  EXPECT_TRUE(gui.wait_until([&](const json&) { return !gui.shows("news.silence"); }));
 
   gui.key("space");
   ASSERT_TRUE(gui.wait_until([](const json& state) { return state["scene"]["paused"] == true; }));
   EXPECT_GE(draw_during(gui, "simulation paused", [] { testing::pause_s(3.0); }), kPictures);
-  EXPECT_FALSE(gui.shows("status.silence"));  // a pause is no hang
+  EXPECT_FALSE(gui.shows("news.silence"));  // a pause is no hang
 }
 
 TEST_F(LivenessTest, TheHandGoesOnWhateverTheWindowDoes) {

@@ -132,7 +132,7 @@ TEST_F(WindowTest, APostureIsHeldRecordedLookedBackOnAndExported) {
   EXPECT_TRUE(gui.wait_until([](const json& s) { return s["frame"]["time_s"] > 4.0; }, 60.0));
   EXPECT_LT(std::abs(gui.state()["frame"]["joints"]["elbow"]["angle_rad"].get<double>()), 0.02);  // a degree
   EXPECT_GT(gui.state()["frame"]["joints"]["elbow"]["K_Nm_rad"], 4.0);
-  gui.click("status.read");
+  gui.click("news.read");
   gui.click("keep.stop_recording");
   EXPECT_TRUE(gui.wait_until([](const json& s) { return s["recording"] == false; }));
   const auto recordings = std::filesystem::directory_iterator(gui.folder() / "home/data/myotact/recordings");

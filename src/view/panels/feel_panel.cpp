@@ -28,7 +28,7 @@ void draw_force(const messages::ToolFrame& tool, double peak_N, bool alone) {
   const char* key = alone ? "feel.force" : tool.left ? "feel.force_left" : "feel.force_right";
   const glm::vec3 colour = tool_colour(tool);
   ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImVec4(colour.r, colour.g, colour.b, 1.0f));
-  ImGui::ProgressBar(static_cast<float>(force_N / peak_N), ImVec2(-1, 0), ui::tr(key, force_N, peak_N).c_str());
+  ui::bar(force_N / peak_N, ui::tr(key, force_N, peak_N));
   ImGui::PopStyleColor();
   ui::note_control(key, fmt::format("{:.3f}", force_N));
 }
@@ -70,7 +70,7 @@ void draw_why(const messages::ToolFrame& tool) {
   for (const PartOfForce& part : parts) {
     if (part.force_N < kFelt_N) continue;
     const std::string text = fmt::format("{:.2f} N  {}", part.force_N, ui::tr(part.key));
-    ImGui::ProgressBar(static_cast<float>(part.force_N / parts.front().force_N), ImVec2(-1, 0), text.c_str());
+    ui::bar(part.force_N / parts.front().force_N, text);
     ui::note_control(part.key, fmt::format("{:.3f}", part.force_N));
     ui::paragraph(ui::tr(fmt::format("{}.why", part.key)));
   }
@@ -90,8 +90,8 @@ void FeelPanel::draw_gauge(const messages::ToolFrame& tool) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x, height = 1.4f * ImGui::GetFontSize();
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const auto x_of = [&](double kPa) {
-    return corner.x + width * static_cast<float>(std::clamp(kPa / full_kPa, 0.0, 1.0));
+  const auto x_of = [&](double pressure_kPa) {
+    return corner.x + width * static_cast<float>(std::clamp(pressure_kPa / full_kPa, 0.0, 1.0));
   };
   const ImU32 in_band = IM_COL32(0, 158, 115, 255), outside = IM_COL32(213, 94, 0, 255);  // Okabe-Ito green, vermilion
   list.AddRectFilled(corner, ImVec2(corner.x + width, corner.y + height), ImGui::GetColorU32(ImGuiCol_FrameBg));

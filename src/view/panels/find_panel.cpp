@@ -53,7 +53,7 @@ void draw_mechanics(const PanelContext& context, const Part& part) {
   const glm::vec3 c = cividis(context.frame.activations[m]);
   ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImVec4(c.r, c.g, c.b, 1.0f));
   const std::string now = ui::tr("card.now", 100.0 * context.frame.activations[m], context.frame.tensions_N[m]);
-  ImGui::ProgressBar(static_cast<float>(context.frame.activations[m]), ImVec2(-1.0f, 0.0f), now.c_str());
+  ui::bar(context.frame.activations[m], now);
   ImGui::PopStyleColor();
 }
 

@@ -187,10 +187,8 @@ void draw_feedback(const Scribe& s) {
 }  // namespace
 
 void draw_share(const char* key, double share, const std::string& text) {
-  const auto filled = static_cast<float>(std::clamp(share, 0.0, 1.0));
-  ImGui::ProgressBar(filled, ImVec2(-1.0f, 0.4f * ImGui::GetFontSize()), "");
+  ui::bar(share, text);
   ui::note_control(key, fmt::format("{:.3f}", share));
-  ui::paragraph(text);
 }
 
 void draw_task(PanelContext& context, learn::LessonRun& run, std::string& typed) {

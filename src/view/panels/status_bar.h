@@ -1,13 +1,10 @@
 #pragma once
 
-#include <string>
-
 #include "view/panels/panel.h"
 
 namespace myotact::view {
 
-/// Along the bottom: what a person should know now, and whether the computer keeps up. `message`: a sentence that stays
-/// until it is dismissed; empty: none.
-void draw_status_bar(PanelContext& context, std::string& message);
+/// Along the bottom: by how much force and motion are scaled, and whether the computer keeps up.
+void draw_status_bar(const PanelContext& context);
 
 }  // namespace myotact::view

@@ -1,5 +1,7 @@
 #include "view/ui/controls.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
@@ -137,6 +139,13 @@ void heading(const char* key) {
   ImGui::Spacing();
   ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_PlotHistogram), "%s", tr(key));
   ImGui::Separator();
+}
+
+void bar(double share, const std::string& text) {
+  paragraph(text);
+  constexpr float kHeight_em = 0.45f;
+  ImGui::ProgressBar(static_cast<float>(std::clamp(share, 0.0, 1.0)),
+                     ImVec2(-1.0f, kHeight_em * ImGui::GetFontSize()), "");
 }
 
 }  // namespace myotact::view::ui

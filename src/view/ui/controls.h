@@ -32,6 +32,9 @@ void text(const char* key);
 /// Any text, broken at the panel's edge.
 void paragraph(const std::string& text);
 void heading(const char* key);
+/// A thin bar of the panel's width, filled to `share` (0 .. 1), under what it tells: text on the bar itself would not
+/// stand out from every colour. Its colour is ImGuiCol_PlotHistogram.
+void bar(double share, const std::string& text);
 
 /// Enters the control just drawn into the list below, for controls that are made by hand.
 void note_control(const char* key, const std::string& value = "");
