@@ -46,7 +46,7 @@ std::size_t FrameHistory::bytes_of(const Kept& kept) {
     bytes += numbers->size() * sizeof(double);
   }
   for (const auto& line : rest.lines_world_m)
-    bytes += sizeof(line) + line.size() * sizeof(std::array<double, 3>);
+    bytes += sizeof(std::vector<std::array<double, 3>>) + line.size() * sizeof(std::array<double, 3>);
   for (const messages::JointFrame& joint : rest.joints) {
     bytes += sizeof(joint) + joint.muscles.size() * sizeof(messages::MuscleJointFrame);
   }
