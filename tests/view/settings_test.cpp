@@ -3,8 +3,10 @@
 #include <cmath>
 #include <filesystem>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <imgui.h>
+#include <unistd.h>
 
 #include "core/file.h"
 #include "view/ui/theme.h"
@@ -42,9 +44,14 @@ TEST_P(Themes, EveryTextStandsOut) {
 
 INSTANTIATE_TEST_SUITE_P(Both, Themes, testing::Values(ui::Theme::Dark, ui::Theme::Light));
 
+/// A folder of its own: tests run beside each other.
+std::filesystem::path folder_of_test() {
+  return std::filesystem::path(testing::TempDir()) / fmt::format("myotact_settings_{}", ::getpid());
+}
+
 struct SettingsFile : testing::Test {
-  void SetUp() override { std::filesystem::remove_all(folder); }
-  std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "myotact_settings";
+  ~SettingsFile() override { std::filesystem::remove_all(folder); }
+  std::filesystem::path folder = folder_of_test();
   std::filesystem::path file = folder / "settings.json";
   std::string message;
 };
