@@ -7,7 +7,7 @@ namespace {
 // In heights of the font.
 constexpr float kToolbar = 2.6f, kTwoRows = 4.4f, kFind = 16.0f, kTasks = 25.0f, kTimeline = 3.2f, kStatus = 1.9f;
 constexpr float kNarrowestScene = 20.0f, kLowestScene = 16.0f;
-constexpr float kWideToolbar = 76.0f;  // in which its controls stand in one row; else in two
+constexpr float kWideToolbar = 83.0f;  // in which its controls stand in one row in any language; else in two
 
 }  // namespace
 

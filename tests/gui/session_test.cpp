@@ -100,7 +100,7 @@ TEST_F(SessionTest, ASavedWorkABookmarkAndANoteComeBack) {
   gui.key("ctrl+o");
   gui.click("session.work.0");
   EXPECT_TRUE(gui.wait_until(
-      [&](const json&) { return gui.value_of("status.message").find(saved_file(gui)) != std::string::npos; }));
+      [&](const json&) { return gui.value_of("news.message").find(saved_file(gui)) != std::string::npos; }));
   EXPECT_TRUE(looks_as(gui.state()["view"], changed));
 }
 
@@ -116,7 +116,7 @@ TEST_F(SessionTest, AWorkOfAnotherSceneOpensThatSceneWithItsMarks) {
       gui.wait_until([](const json& s) { return s["scene_name"] == "stifle" && s["scene"]["common"] == 0.25; }));
   EXPECT_TRUE(gui.wait_until([](const json& s) { return s["view"]["camera"]["azimuth_rad"] == 1.0; }));
   EXPECT_EQ(gui.state()["view"]["hidden_bones"], json({"patella"}));
-  EXPECT_NE(gui.value_of("status.message").find("os_penis"), std::string::npos) << gui.value_of("status.message");
+  EXPECT_NE(gui.value_of("news.message").find("os_penis"), std::string::npos) << gui.value_of("news.message");
   EXPECT_TRUE(gui.wait_until([&](const json&) { return gui.value_of("find.noted.patella") == "rides in the groove"; }));
 }
 

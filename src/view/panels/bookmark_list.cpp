@@ -18,6 +18,16 @@ std::string shortened(const std::string& name) {
   return name.substr(0, bytes_of_characters(name, kLongestName));
 }
 
+/// What the buttons of a row and the gaps before them take, in this language [pixels].
+float buttons_width() {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  float width = 0.0f;
+  for (const char* key : {"session.rename", "session.delete"}) {
+    width += style.ItemSpacing.x + ImGui::CalcTextSize(ui::tr(key)).x + 2.0f * style.FramePadding.x;
+  }
+  return width;
+}
+
 void add(PanelContext& context, Bookmark bookmark) {
   std::vector<Bookmark> bookmarks = context.marks.bookmarks;
   if (add_bookmark(bookmarks, std::move(bookmark))) {
@@ -55,10 +65,13 @@ void BookmarkList::draw_renaming(PanelContext& context, std::size_t row) {
 
 void BookmarkList::draw_row(PanelContext& context, std::size_t row) {
   const Bookmark& bookmark = context.marks.bookmarks[row];
-  constexpr float kButtons_em = 9.0f;
-  const float names = std::max(ImGui::GetContentRegionAvail().x - kButtons_em * ImGui::GetFontSize(), 1.0f);
+  const float names = std::max(ImGui::GetContentRegionAvail().x - buttons_width(), 1.0f);
   const std::string label = fmt::format("{}###bookmark", bookmark.name);
-  if (ImGui::Selectable(label.c_str(), false, 0, ImVec2(names, 0.0f))) turn_to(context, bookmark.view);
+  ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, ImVec2(0.0f, 0.5f));
+  if (ImGui::Selectable(label.c_str(), false, 0, ImVec2(names, ImGui::GetFrameHeight()))) {
+    turn_to(context, bookmark.view);
+  }
+  ImGui::PopStyleVar();
   ui::note_control(fmt::format("session.bookmark.{}", row).c_str(), bookmark.name);
   ImGui::SameLine();
   if (ui::button("session.rename")) renaming_ = Renaming{row, bookmark.name};
@@ -82,8 +95,9 @@ void BookmarkList::draw(PanelContext& context) {
   constexpr float kName_em = 14.0f;
   ImGui::SetNextItemWidth(kName_em * ImGui::GetFontSize());
   ui::input_text("session.bookmark_name", new_name_);
+  const bool entered = ui::is_entered();
   ImGui::SameLine();
-  if (ui::button("session.bookmark_add")) {
+  if (ui::button("session.bookmark_add") || entered) {
     const std::string name = new_name_.empty() ? ui::tr("session.bookmark_unnamed", bookmarks.size() + 1) : new_name_;
     add(context, {shortened(name), saved_view(context.view, context.specimen)});
     new_name_.clear();

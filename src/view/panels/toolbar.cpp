@@ -52,6 +52,13 @@ void draw_play(ViewControls& controls) {
   ImGui::SameLine();
 }
 
+void draw_saving(WindowAsks& asks) {
+  if (ui::button("session.save_now")) asks.save_work = "";
+  ImGui::SameLine();
+  if (ui::button("session.works")) asks.works = true;
+  ImGui::SameLine();
+}
+
 void draw_views(PanelContext& context, Pointer& pointer) {
   const bool hind = anatomy::find_joint(context.specimen, "stifle") >= 0;
   const std::array views = {
@@ -81,14 +88,11 @@ void draw_toolbar(PanelContext& context, Pointer& pointer, const UndoState& undo
   draw_modes(pointer);
   draw_gap();
   draw_play(context.controls);
+  draw_gap();
+  draw_saving(context.asks);
   constexpr float kTwoRows = 3.5f;  // heights of the font, which is more than one row takes
   ImGui::GetWindowHeight() > kTwoRows* ImGui::GetFontSize() ? ImGui::NewLine() : draw_gap();
   draw_views(context, pointer);
-  draw_gap();
-  if (ui::button("session.save_now")) context.asks.save_work = "";
-  ImGui::SameLine();
-  context.asks.works = ui::button("session.works") || context.asks.works;
-  ImGui::SameLine();
   draw_gap();
   ImGui::BeginDisabled(!undo.can_undo);
   context.asks.undo = ui::button("toolbar.undo") || context.asks.undo;

@@ -9,7 +9,7 @@ struct UndoState {
   bool can_undo = false, can_redo = false;
 };
 
-/// Along the top: what the mouse is, play, the standard views, save and open, undo, help, and in red: forces off.
+/// Along the top: what the mouse is, play, save and open, the standard views, undo, help, and in red: forces off.
 void draw_toolbar(PanelContext& context, Pointer& pointer, const UndoState& undo);
 
 }  // namespace myotact::view

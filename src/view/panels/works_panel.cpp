@@ -48,8 +48,9 @@ void WorksPanel::draw(PanelContext& context) {
     constexpr float kName = 0.7f;  // of the width
     ImGui::SetNextItemWidth(kName * ImGui::GetContentRegionAvail().x);
     ui::input_text("session.name", name_);
+    const bool entered = ui::is_entered();
     ImGui::SameLine();
-    if (ui::button("session.save")) {
+    if (ui::button("session.save") || entered) {
       context.asks.save_work = name_;
       name_.clear();
     }

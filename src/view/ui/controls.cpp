@@ -121,6 +121,10 @@ bool input_text(const char* key, std::string& value) {
   return changed;
 }
 
+bool is_entered() {
+  return ImGui::IsItemDeactivated() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+}
+
 bool is_held() {
   return ImGui::IsAnyItemActive();
 }
@@ -144,8 +148,8 @@ void heading(const char* key) {
 void bar(double share, const std::string& text) {
   paragraph(text);
   constexpr float kHeight_em = 0.45f;
-  ImGui::ProgressBar(static_cast<float>(std::clamp(share, 0.0, 1.0)),
-                     ImVec2(-1.0f, kHeight_em * ImGui::GetFontSize()), "");
+  ImGui::ProgressBar(static_cast<float>(std::clamp(share, 0.0, 1.0)), ImVec2(-1.0f, kHeight_em * ImGui::GetFontSize()),
+                     "");
 }
 
 }  // namespace myotact::view::ui

@@ -25,6 +25,9 @@ bool choice(const char* key, int& value, std::span<const char* const> option_key
 /// A line of text to be typed; true at every change.
 bool input_text(const char* key, std::string& value);
 
+/// The line of text just drawn was ended with Enter.
+bool is_entered();
+
 /// A control is being dragged or pressed.
 bool is_held();
 
