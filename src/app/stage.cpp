@@ -120,6 +120,11 @@ view::WindowSettings Stage::window_settings(const Options& options) const {
     settings.facts.device_peaks_N.push_back(tool.device->profile().peak_force_N);
   }
   settings.facts.joint = watched_joint(scene_);
+  if (scene_.co_contraction) {
+    for (const auto& preset : scene_.co_contraction->presets) {
+      settings.facts.presets.push_back({preset.name, preset.common, preset.difference});
+    }
+  }
   settings.facts.scenes = scene::built_in_scenes();
   settings.hand_start_world_m = to_array(start_of_led_hand(scene_, hands_.led));
   settings.start = start_of(scene_);

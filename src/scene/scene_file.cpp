@@ -186,6 +186,17 @@ void check_sides(const CoContraction& set, const JsonValue& value, const anatomy
   }
 }
 
+std::vector<CoContractionPreset> read_presets(const JsonValue& value) {
+  std::vector<CoContractionPreset> presets;
+  for (const JsonValue& item : value.elements()) {
+    JsonObject fields(item);
+    presets.push_back({fields.at("name").string(), fields.at("common").number_between(0.0, 1.0),
+                       fields.at("difference").number_between(-1.0, 1.0)});
+    fields.finish();
+  }
+  return presets;
+}
+
 CoContraction read_co_contraction(const JsonValue& value, const Scene& scene) {
   JsonObject fields(value);
   CoContraction set;
@@ -202,6 +213,7 @@ CoContraction read_co_contraction(const JsonValue& value, const Scene& scene) {
   if (const auto common = fields.find("common")) set.common = common->number_between(0.0, 1.0);
   if (const auto difference = fields.find("difference")) set.difference = difference->number_between(-1.0, 1.0);
   set.hold_posture = fields.boolean_or("hold_posture", false);
+  if (const auto presets = fields.find("presets")) set.presets = read_presets(*presets);
   fields.finish();
   check_sides(set, value, scene.specimen);
   return set;

@@ -18,6 +18,12 @@
 
 namespace myotact::scene {
 
+/// A level of co-contraction that shows something at this joint, ready to be chosen.
+struct CoContractionPreset {
+  std::string name;
+  double common = 0.0, difference = 0.0;
+};
+
 /// Co-contraction of the muscles across a joint: `common` is the level of the weaker side, the other side balances it;
 /// `difference` shifts the balance, positive towards flexion.
 struct CoContraction {
@@ -26,6 +32,7 @@ struct CoContraction {
   double common = 0.0;                  // 0 .. 1
   double difference = 0.0;              // -1 .. 1
   bool hold_posture = false;            // trims the balance slowly until the joint is back at its starting angle
+  std::vector<CoContractionPreset> presets;
 };
 
 inline constexpr std::size_t kMostTools = 2;  // a person has two hands

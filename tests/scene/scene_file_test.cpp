@@ -193,6 +193,8 @@ TEST_F(SceneFile, OverridesReplaceKeys) {
 }
 
 TEST_F(SceneFile, RefusesMusclesThatCannotCoContract) {
+  EXPECT_THAT(complaint(R"(, "co_contraction": {"joint": "elbow", "presets": [{"name": "a", "common": 2}]})"),
+              HasSubstr("/co_contraction/presets/0/common"));
   EXPECT_THAT(complaint(R"(, "co_contraction": {"joint": "elbow", "extensors": ["flexor"]})"),
               HasSubstr("\"flexor\" is on both sides"));
   anatomy::Specimen specimen = myotact::testing::antagonist_hinge();

@@ -117,22 +117,19 @@ void draw_stored(SceneState& scene, std::array<std::optional<SceneState>, 2>& st
   }
 }
 
-/// Ready states that show something, by the joint.
-void draw_presets(SceneState& scene) {
-  struct Preset {
-    const char* key;
-    double common, difference;
-  };
-  constexpr std::array kPresets = {
-      Preset{"demonstrate.preset.rest", 0.0, 0.0}, Preset{"demonstrate.preset.light", 0.25, 0.0},
-      Preset{"demonstrate.preset.firm", 1.0, 0.0}, Preset{"demonstrate.preset.flex", 0.25, 0.1}};
-  bool first = true;
-  for (const Preset& preset : kPresets) {
-    if (!first) ImGui::SameLine();
-    first = false;
+/// Ready states that show something, by the joint; they break into rows.
+void draw_presets(SceneState& scene, const std::vector<Preset>& presets) {
+  const float right = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
+  const ImGuiStyle& style = ImGui::GetStyle();
+  for (std::size_t i = 0; i < presets.size(); ++i) {
+    const Preset& preset = presets[i];
+    const std::string text_key = fmt::format("demonstrate.preset.{}", preset.name);
+    const std::string& key = ui::has_text(text_key) ? text_key : preset.name;
+    const float width = ImGui::CalcTextSize(ui::tr(key)).x + 2.0f * style.FramePadding.x;
+    if (i > 0 && ImGui::GetItemRectMax().x + style.ItemSpacing.x + width < right) ImGui::SameLine();
     const bool on =
         scene.drive == Drive::Balance && scene.common == preset.common && scene.difference == preset.difference;
-    if (!ui::toggle_button(preset.key, on)) continue;
+    if (!ui::toggle_button(key.c_str(), on)) continue;
     scene.drive = Drive::Balance;
     scene.common = preset.common;
     scene.difference = preset.difference;
@@ -145,7 +142,7 @@ void draw_presets(SceneState& scene) {
 void DemonstratePanel::draw(PanelContext& context) {
   if (context.specimen.muscles.size() > 1) {
     ui::heading("demonstrate.presets");
-    draw_presets(context.controls.scene);
+    draw_presets(context.controls.scene, context.facts.presets);
     draw_stored(context.controls.scene, stored_);
     ui::heading("demonstrate.bench");
   }

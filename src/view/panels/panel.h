@@ -16,6 +16,12 @@
 
 namespace myotact::view {
 
+/// A ready state of co-contraction.
+struct Preset {
+  std::string name;  // of its text demonstrate.preset.NAME; shown itself where there is none
+  double common = 0.0, difference = 0.0;
+};
+
 /// What does not change while a scene is open.
 struct SceneFacts {
   std::string name, title;
@@ -24,7 +30,8 @@ struct SceneFacts {
   std::string note;                         // what a person should know about its settings
   std::vector<double> device_peaks_N{3.3};  // of the tools' devices
   int joint = 0;                            // that is watched: co-contracted, or the first
-  std::vector<std::string> scenes;          // that can be opened by name
+  std::vector<Preset> presets;
+  std::vector<std::string> scenes;  // that can be opened by name
 };
 
 /// What the session is about.

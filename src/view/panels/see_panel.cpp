@@ -1,6 +1,5 @@
 #include "view/panels/see_panel.h"
 
-#include <algorithm>
 #include <array>
 
 #include "view/ui/controls.h"
@@ -9,9 +8,9 @@ namespace myotact::view {
 
 namespace {
 
-/// As in MuscleColour; without the pressure, of which no map is measured.
-constexpr std::array kColours = {"see.kind",    "see.activation",   "see.tension",
-                                 "see.stretch", "see.volume_error", "see.stiffness_share"};
+/// As in MuscleColour.
+constexpr std::array kColours = {"see.kind",         "see.activation",      "see.tension", "see.stretch",
+                                 "see.volume_error", "see.stiffness_share", "see.pressure"};
 constexpr std::array kNames = {"see.english", "see.latin", "see.both"};  // as in NameStyle
 /// From which side a section cuts: in pairs, one an axis x, y, z of the world; the first of each lies towards its end.
 constexpr std::array kSides = {"see.cranial", "see.caudal", "see.lateral", "see.medial", "see.dorsal", "see.ventral"};
@@ -42,7 +41,7 @@ void draw_section(SectionPlane& section, bool left_limb) {
 void draw_see_panel(PanelContext& context) {
   ViewState& view = context.view;
   ui::heading("see.colours");
-  int colour = std::min(static_cast<int>(view.colour), static_cast<int>(kColours.size()) - 1);
+  int colour = static_cast<int>(view.colour);
   if (ui::choice("see.colour", colour, kColours)) view.colour = static_cast<MuscleColour>(colour);
   ui::heading("see.layers");
   draw_opacity("see.superficial", view.layers.superficial);
