@@ -96,6 +96,7 @@ std::string describe(const PanelContext& context, const Layout& layout, const Sh
   for (const ui::ControlPlace& control : ui::controls_of_last_picture()) {
     controls.push_back({{"key", control.key},
                         {"value", control.value},
+                        {"focused", control.focused},
                         {"box", {control.x, control.y, control.width, control.height}}});
   }
   const Area& scene = layout.scene;

@@ -39,7 +39,7 @@ void ImGuiSession::set_scale(float scale) {
   if (wanted == drawn_scale_) return;
   if (drawn_scale_ > 0.0f) ImGui_ImplOpenGL3_DestroyFontsTexture();
   ImGui::GetIO().Fonts->Clear();
-  ui::add_font(std::round(kFontSize * wanted));
+  has_font_ = ui::add_font(std::round(kFontSize * wanted));
   if (drawn_scale_ > 0.0f) ImGui_ImplOpenGL3_CreateFontsTexture();
   drawn_scale_ = wanted;
   ImGuiStyle scaled;

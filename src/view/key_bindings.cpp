@@ -12,16 +12,23 @@ namespace myotact::view {
 
 namespace {
 
-std::string key_name(int key) {
-  constexpr std::array kNames = {std::pair{GLFW_KEY_SPACE, "Space"}, std::pair{GLFW_KEY_RIGHT, "Right"},
-                                 std::pair{GLFW_KEY_LEFT, "Left"},   std::pair{GLFW_KEY_BACKSPACE, "Backspace"},
-                                 std::pair{GLFW_KEY_HOME, "Home"},   std::pair{GLFW_KEY_ESCAPE, "Esc"},
-                                 std::pair{GLFW_KEY_ENTER, "Enter"}};
+std::string bare_name(int key) {
+  constexpr std::array kNames = {std::pair{GLFW_KEY_SPACE, "Space"},      std::pair{GLFW_KEY_RIGHT, "Right"},
+                                 std::pair{GLFW_KEY_LEFT, "Left"},        std::pair{GLFW_KEY_UP, "Up"},
+                                 std::pair{GLFW_KEY_DOWN, "Down"},        std::pair{GLFW_KEY_BACKSPACE, "Backspace"},
+                                 std::pair{GLFW_KEY_HOME, "Home"},        std::pair{GLFW_KEY_END, "End"},
+                                 std::pair{GLFW_KEY_PAGE_UP, "Page Up"},  std::pair{GLFW_KEY_PAGE_DOWN, "Page Down"},
+                                 std::pair{GLFW_KEY_INSERT, "Insert"},    std::pair{GLFW_KEY_DELETE, "Delete"},
+                                 std::pair{GLFW_KEY_ESCAPE, "Esc"},       std::pair{GLFW_KEY_ENTER, "Enter"},
+                                 std::pair{GLFW_KEY_KP_ADD, "Num +"},     std::pair{GLFW_KEY_KP_SUBTRACT, "Num -"},
+                                 std::pair{GLFW_KEY_KP_MULTIPLY, "Num *"}};
   for (const auto& [code, name] : kNames) {
     if (code == key) return name;
   }
   if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F25) return fmt::format("F{}", key - GLFW_KEY_F1 + 1);
-  return {static_cast<char>(key)};  // letters and digits are their own codes
+  if (key >= GLFW_KEY_KP_0 && key <= GLFW_KEY_KP_9) return fmt::format("Num {}", key - GLFW_KEY_KP_0);
+  if (key < GLFW_KEY_APOSTROPHE || key > GLFW_KEY_GRAVE_ACCENT) return "";
+  return {static_cast<char>(key)};  // letters, digits and signs are their own codes
 }
 
 }  // namespace
@@ -30,14 +37,18 @@ bool is_held(KeyAction action) {
   return action == KeyAction::GrabLine || action == KeyAction::GrabBone;
 }
 
-std::string name_of(const KeyBinding& binding) {
+std::string key_name(int key, int mods) {
+  const std::string bare = bare_name(key);
+  if (bare.empty()) return "";
   std::string name;
-  if ((binding.mods & GLFW_MOD_CONTROL) != 0) name += "Ctrl+";
-  if ((binding.mods & GLFW_MOD_SHIFT) != 0) name += "Shift+";
-  if ((binding.mods & GLFW_MOD_ALT) != 0) name += "Alt+";
-  name += key_name(binding.key);
-  if (is_held(binding.action)) name += " (hold)";
-  return name;
+  if ((mods & GLFW_MOD_CONTROL) != 0) name += "Ctrl+";
+  if ((mods & GLFW_MOD_SHIFT) != 0) name += "Shift+";
+  if ((mods & GLFW_MOD_ALT) != 0) name += "Alt+";
+  return name + bare;
+}
+
+std::string name_of(const KeyBinding& binding) {
+  return fmt::format("{}{}", key_name(binding.key, binding.mods), is_held(binding.action) ? " (hold)" : "");
 }
 
 const std::vector<KeyBinding>& key_bindings() {
@@ -75,17 +86,27 @@ const std::vector<KeyBinding>& key_bindings() {
       {GLFW_KEY_P, kCtrl | kShift, KeyAction::SceneScreenshot, "keys.scene_screenshot"},
       {GLFW_KEY_S, kCtrl, KeyAction::SaveWork, "keys.save_work"},
       {GLFW_KEY_O, kCtrl, KeyAction::OpenWork, "keys.open_work"},
+      {GLFW_KEY_MINUS, 0, KeyAction::LessCoContraction, "keys.less_co_contraction"},
+      {GLFW_KEY_EQUAL, 0, KeyAction::MoreCoContraction, "keys.more_co_contraction"},
+      {GLFW_KEY_1, kCtrl, KeyAction::TaskFeel, "keys.task_feel"},
+      {GLFW_KEY_2, kCtrl, KeyAction::TaskSee, "keys.task_see"},
+      {GLFW_KEY_3, kCtrl, KeyAction::TaskDemonstrate, "keys.task_demonstrate"},
+      {GLFW_KEY_4, kCtrl, KeyAction::TaskLearn, "keys.task_learn"},
+      {GLFW_KEY_5, kCtrl, KeyAction::TaskPlots, "keys.task_plots"},
+      {GLFW_KEY_6, kCtrl, KeyAction::TaskSettings, "keys.task_settings"},
+      {GLFW_KEY_F6, 0, KeyAction::NextArea, "keys.next_area"},
+      {GLFW_KEY_F6, kShift, KeyAction::PreviousArea, "keys.previous_area"},
+      {GLFW_KEY_F9, 0, KeyAction::BigType, "keys.big_type"},
       {GLFW_KEY_F11, 0, KeyAction::FullScreen, "keys.full_screen"},
   };
   return kBindings;
 }
 
-const KeyBinding* binding_of(int key, int mods) {
-  const auto& all = key_bindings();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const KeyBinding& known) {
+const KeyBinding* binding_of(const std::vector<KeyBinding>& bindings, int key, int mods) {
+  const auto found = std::find_if(bindings.begin(), bindings.end(), [&](const KeyBinding& known) {
     return known.key == key && (known.mods == mods || known.action == KeyAction::StopForces);
   });
-  return found == all.end() ? nullptr : &*found;
+  return found == bindings.end() ? nullptr : &*found;
 }
 
 }  // namespace myotact::view

@@ -39,7 +39,18 @@ enum class KeyAction {
   SceneScreenshot,
   FullScreen,
   SaveWork,
-  OpenWork
+  OpenWork,
+  NextArea,
+  PreviousArea,
+  TaskFeel,
+  TaskSee,
+  TaskDemonstrate,
+  TaskLearn,
+  TaskPlots,
+  TaskSettings,
+  LessCoContraction,
+  MoreCoContraction,
+  BigType
 };
 
 struct KeyBinding {
@@ -49,14 +60,17 @@ struct KeyBinding {
   const char* what;  // key of its text
 };
 
-/// All bindings, in the order of the help.
+/// All bindings as they are at first, in the order of the help.
 const std::vector<KeyBinding>& key_bindings();
 
-/// What a key does with these GLFW_MOD_* held; null: nothing. The stop of the forces is the same with any of them held:
-/// with Ctrl the mouse moves the hand, and that is when it is needed.
-const KeyBinding* binding_of(int key, int mods);
+/// What a key does with these GLFW_MOD_* held, of `bindings`; null: nothing. The stop of the forces is the same with
+/// any of them held: with Ctrl the mouse moves the hand, and that is when it is needed.
+const KeyBinding* binding_of(const std::vector<KeyBinding>& bindings, int key, int mods);
 
-/// As a person calls it: "Ctrl+Z", "Backspace", "G (hold)".
+/// "Ctrl+Z", "Backspace", "Num 7"; empty: no key that can be bound.
+std::string key_name(int key, int mods);
+
+/// As a person calls it: its key_name(), with " (hold)" where that is how it works.
 std::string name_of(const KeyBinding& binding);
 
 /// Held down for as long as it is to last.

@@ -11,7 +11,7 @@ constexpr float kWideToolbar = 83.0f;  // in which its controls stand in one row
 
 }  // namespace
 
-Layout layout_of(float width, float height, float em) {
+Layout layout_of(float width, float height, float em, bool sides) {
   Layout layout;
   layout.scene = {0.0f, 0.0f, width, height};
   const float toolbar = width >= kWideToolbar * em ? kToolbar : kTwoRows;
@@ -22,11 +22,11 @@ Layout layout_of(float width, float height, float em) {
     layout.scene.y = layout.toolbar.height;
     layout.scene.height = height - layout.toolbar.height - layout.status.height;
   }
-  if (width >= (kTasks + kNarrowestScene) * em) {
+  if (sides && width >= (kTasks + kNarrowestScene) * em) {
     layout.tasks = {width - kTasks * em, layout.scene.y, kTasks * em, layout.scene.height};
     layout.scene.width -= layout.tasks.width;
   }
-  if (width >= (kFind + kTasks + kNarrowestScene) * em) {
+  if (sides && width >= (kFind + kTasks + kNarrowestScene) * em) {
     layout.find = {0.0f, layout.scene.y, kFind * em, layout.scene.height};
     layout.scene.x = layout.find.width;
     layout.scene.width -= layout.find.width;

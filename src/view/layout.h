@@ -23,7 +23,7 @@ struct Layout {
   Area toolbar, find, scene, timeline, tasks, status;
 };
 
-/// `em`: height of the font [pixels].
-Layout layout_of(float width, float height, float em);
+/// `em`: height of the font [pixels]. `sides`: with the panels at the left and the right.
+Layout layout_of(float width, float height, float em, bool sides = true);
 
 }  // namespace myotact::view

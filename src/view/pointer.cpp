@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <imgui.h>
 
 #include "messages/device.h"
@@ -16,6 +18,7 @@ namespace {
 
 constexpr float kTurn_rad = 0.008f;       // of the camera, a pixel
 constexpr float kCloser = 0.9f;           // of the camera's distance, a click of the wheel
+constexpr float kWheel_px = 0.1f;         // clicks of the wheel, a pixel of a drag that comes nearer
 constexpr float kClick_px = 5.0f;         // a press that moves less is a click
 constexpr double kFreeDepth_m = 0.005;    // of the free hand, a click of the wheel
 constexpr double kHover_m = 0.008;        // of the tool's surface above the limb's: it does not touch by accident
@@ -90,19 +93,43 @@ std::optional<PickHit> Pointer::look_through(const PanelContext& context, const 
   return pick(context.specimen, context.frame, uncovered, superficial, ray);
 }
 
-void Pointer::turn(PanelContext& context) {
+void Pointer::begin_camera_drag() {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (camera_press_ || (mode_ != PointerMode::Look && arrived_)) return;
+  const int mods =
+      (io.KeyShift ? GLFW_MOD_SHIFT : 0) | (io.KeyCtrl ? GLFW_MOD_CONTROL : 0) | (io.KeyAlt ? GLFW_MOD_ALT : 0);
+  for (const int button : {ImGuiMouseButton_Left, ImGuiMouseButton_Right, ImGuiMouseButton_Middle}) {
+    if (!ImGui::IsMouseClicked(button)) continue;
+    if (const auto drag = camera_drag(preset, button, mods, mode_ == PointerMode::Look))
+      camera_press_ = {button, *drag};
+  }
+}
+
+void Pointer::drag_camera(PanelContext& context, const Area& scene) const {
+  const ImGuiIO& io = ImGui::GetIO();
+  const auto& [button, drag] = *camera_press_;
+  if (drag == CameraDrag::Turn) return turn(context, button);
+  if (!ImGui::IsMouseDragging(button, kClick_px)) return;
+  if (drag == CameraDrag::Shift) {
+    context.view.camera.pan(io.MouseDelta.x / scene.height, -io.MouseDelta.y / scene.height);
+  } else {
+    context.view.camera.zoom(std::pow(kCloser, -kWheel_px * io.MouseDelta.y));
+  }
+}
+
+void Pointer::turn(PanelContext& context, int button) const {
   const ImGuiIO& io = ImGui::GetIO();
   Camera& camera = context.view.camera;
   if (free_orbit) {
-    if (ImGui::IsMouseDragging(ImGuiMouseButton_Left, kClick_px)) {
+    if (ImGui::IsMouseDragging(button, kClick_px)) {
       camera.orbit(-kTurn_rad * io.MouseDelta.x, kTurn_rad * io.MouseDelta.y);
     }
     return;
   }
   constexpr float kDrag_px = 40.0f;  // shorter ones may be slips
-  const ImVec2 start = io.MouseClickedPos[ImGuiMouseButton_Left];
+  const ImVec2 start = io.MouseClickedPos[button];
   const ImVec2 drag(io.MousePos.x - start.x, io.MousePos.y - start.y);
-  if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && std::hypot(drag.x, drag.y) > kDrag_px) {
+  if (ImGui::IsMouseReleased(button) && std::hypot(drag.x, drag.y) > kDrag_px) {
     context.asks.standard_view = next_view(camera, context.specimen.side != "right", drag);
   }
 }
@@ -111,7 +138,6 @@ void Pointer::look(PanelContext& context, const Area& scene) {
   const ImGuiIO& io = ImGui::GetIO();
   if (is_click(ImGuiMouseButton_Left)) select(context.view, hovered_);
   if (hovered_ && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) isolate(context.view, hovered_);
-  turn(context);
   if (io.MouseWheel != 0.0f) zoom_to_pointer(scene, context.view.camera);
 }
 
@@ -169,8 +195,14 @@ void Pointer::update(PanelContext& context, const Area& scene, const std::vector
   const ImGuiIO& io = ImGui::GetIO();
   hovered_ = {};
   context.controls.hand_moves = io.KeyCtrl || mode_ != PointerMode::Look;
+  if (camera_press_) {  // to its release, wherever that is
+    drag_camera(context, scene);
+    if (!io.MouseDown[camera_press_->button]) camera_press_.reset();
+  }
   if (io.WantCaptureMouse || scene.empty()) return;
+  begin_camera_drag();
   if (io.KeyCtrl) {
+    if (camera_press_) return;
     move_freely(scene, context.view.camera, true, context.controls);
     return;
   }
@@ -180,9 +212,7 @@ void Pointer::update(PanelContext& context, const Area& scene, const std::vector
     ImGui::SetTooltip("%s", name_of(context.specimen, hovered_, context.view).c_str());
   }
   if (hovered_ && is_click(ImGuiMouseButton_Right)) context.asks.menu_of = hovered_;
-  if (ImGui::IsMouseDragging(ImGuiMouseButton_Right, kClick_px)) {
-    context.view.camera.pan(io.MouseDelta.x / scene.height, -io.MouseDelta.y / scene.height);
-  }
+  if (camera_press_ && mode_ != PointerMode::Look) return;  // the hand rests meanwhile
   switch (mode_) {
     case PointerMode::Look:
       return look(context, scene);

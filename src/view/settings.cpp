@@ -1,6 +1,8 @@
 #include "view/settings.h"
 
+#include <algorithm>
 #include <cstdlib>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -15,6 +17,7 @@ namespace myotact::view {
 namespace {
 
 constexpr int kSchema = 1;
+const std::vector<std::string> kMice = {"three_button", "trackpad", "blender"};  // as in MousePreset
 
 std::filesystem::path folder_of(const char* variable) {
   const char* value = std::getenv(variable);
@@ -42,6 +45,11 @@ Settings read_settings(const std::filesystem::path& file) {
   if (const auto scale = object.find("scale")) settings.scale = scale->number_between(kSmallestScale, kLargestScale);
   settings.free_orbit = object.boolean_or("free_orbit", settings.free_orbit);
   settings.tour_done = object.boolean_or("tour_done", settings.tour_done);
+  if (const auto mouse = object.find("mouse")) {
+    const auto place = std::find(kMice.begin(), kMice.end(), mouse->one_of(kMice)) - kMice.begin();
+    settings.mouse = static_cast<MousePreset>(place);
+  }
+  if (const auto keys = object.find("keys")) settings.keys = chosen_keys(*keys);
   object.finish();
   return settings;
 }
@@ -63,9 +71,14 @@ void write_settings(const Settings& settings, const std::filesystem::path& file)
     throw Error(ExitStatus::InputOutput, "there is no folder for your settings: set HOME or XDG_CONFIG_HOME to one");
   }
   make_writable_folder(file.parent_path());
-  const nlohmann::json json = {
-      {"schema", kSchema},       {"language", settings.language},     {"theme", settings.light ? "light" : "dark"},
-      {"scale", settings.scale}, {"free_orbit", settings.free_orbit}, {"tour_done", settings.tour_done}};
+  const nlohmann::json json = {{"schema", kSchema},
+                               {"language", settings.language},
+                               {"theme", settings.light ? "light" : "dark"},
+                               {"scale", settings.scale},
+                               {"free_orbit", settings.free_orbit},
+                               {"tour_done", settings.tour_done},
+                               {"mouse", kMice[static_cast<std::size_t>(settings.mouse)]},
+                               {"keys", settings.keys}};
   write_file(file, json.dump(2) + "\n");
 }
 

@@ -3,6 +3,9 @@
 #include <filesystem>
 #include <string>
 
+#include "view/key_choice.h"
+#include "view/mouse_preset.h"
+
 namespace myotact::view {
 
 /// What a person likes, kept from one start to the next.
@@ -12,6 +15,8 @@ struct Settings {
   double scale = 1.0;           // of everything written and clicked on, kSmallestScale .. kLargestScale
   bool free_orbit = false;      // a drag turns the limb any way
   bool tour_done = false;       // or skipped
+  MousePreset mouse = MousePreset::ThreeButton;
+  ChosenKeys keys = {};  // in place of the first ones
 
   friend bool operator==(const Settings&, const Settings&) = default;
 };

@@ -8,14 +8,17 @@
 #include "core/data_folder.h"
 #include "core/error.h"
 #include "core/user_folder.h"
+#include "view/area_focus.h"
 #include "view/description.h"
 #include "view/limb_bounds.h"
+#include "view/panels/class_panel.h"
 #include "view/panels/help.h"
 #include "view/panels/see_panel.h"
 #include "view/panels/status_bar.h"
 #include "view/panels/toolbar.h"
 #include "view/ui/controls.h"
 #include "view/ui/text.h"
+#include "view/ui/theme.h"
 #include "view/window_pictures.h"
 
 namespace myotact::view {
@@ -61,6 +64,7 @@ void ShownScene::take_over(const ShownScene& before) {
   pointer_ = before.pointer_;
   message = before.message;
   layout_ = before.layout_;
+  big_type_ = before.big_type_;
 }
 
 /// Turns there within a quarter of a second.
@@ -94,11 +98,13 @@ void ShownScene::restore(const WorkState& earlier) {
 
 void ShownScene::draw_tasks(PanelContext& context) {
   if (!ImGui::BeginTabBar("tasks")) return;
-  const auto tab = [](const char* key, const auto& draw) {
-    const bool open = ImGui::BeginTabItem(fmt::format("{}###{}", ui::tr(key), key).c_str());
+  const char* wanted = std::exchange(open_task_, nullptr);
+  const auto tab = [&](const char* key, const auto& draw) {
+    const ImGuiTabItemFlags flags = key == wanted ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;
+    const bool open = ImGui::BeginTabItem(fmt::format("{}###{}", ui::tr(key), key).c_str(), nullptr, flags);
     ui::note_control(key, open ? "on" : "off");
     if (!open) return;
-    ImGui::BeginChild(key);
+    ImGui::BeginChild(key, ImVec2(0.0f, 0.0f), false, ImGuiWindowFlags_NavFlattened);
     draw();
     ImGui::EndChild();
     ImGui::EndTabItem();
@@ -119,6 +125,8 @@ void ShownScene::obey(const WindowAsks& asks, const messages::SceneFrame& frame)
   if (asks.standard_view != nullptr) look(asks.standard_view, frame);
   if (asks.frame_selection) look_at_selection(frame);
   if (asks.help) help_ = !help_;
+  if (asks.big_type) set_big_type(!big_type_);
+  if (asks.co_contraction_step != 0.0) add_co_contraction(asks.co_contraction_step);
   if (asks.undo) restore(history_.undo());
   if (asks.redo) restore(history_.redo());
   if (asks.pointer_mode) pointer_.set_mode(*asks.pointer_mode);
@@ -154,9 +162,10 @@ void ShownScene::draw_areas(PanelContext& context) {
   in_area("find", layout_.find, [&] { find_.draw(context); });
   in_area("tasks", layout_.tasks, [&] { draw_tasks(context); });
   in_area("timeline", layout_.timeline, [&] { timeline_.draw(context); });
+  if (big_type_) draw_class_panel(context, layout_.scene);
   in_area("status", layout_.status, [&] { draw_status_bar(context); });
   news_strip_.draw(context, layout_.scene, message);
-  if (help_) draw_help(help_);
+  if (help_) draw_help(help_, keys_, settings.mouse);
   works_.draw(context);
   if (!settings.tour_done && !layout_.tasks.empty() && tour_.draw()) {
     settings.tour_done = true;
@@ -171,7 +180,9 @@ PanelContext ShownScene::context_of(const messages::SceneFrame& frame, WindowAsk
 void ShownScene::draw_panels(const messages::SceneFrame& now, GlfwWindow& window) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const bool first = layout_.scene.empty();
-  layout_ = layout_of(display.x, display.y, ImGui::GetFontSize());
+  layout_ = layout_of(display.x, display.y, ImGui::GetFontSize(), !big_type_);
+  keys_ = bindings_with(settings.keys);
+  if (big_type_) ui::apply_theme(ui::Theme::Contrast);  // settings that changed have set theirs
   if (first) {
     state_.view.camera = framed(state_.view.camera, bounds_of(*specimen_, now), scene_aspect());
     history_ = History(state_);
@@ -186,6 +197,8 @@ void ShownScene::draw_panels(const messages::SceneFrame& now, GlfwWindow& window
   feel_.add(now);
   learn_.observe(present);
   pointer_.free_orbit = settings.free_orbit;
+  pointer_.preset = settings.mouse;
+  if (area_step_ != 0) focus_next_area(layout_, std::exchange(area_step_, 0));
   draw_areas(present);
   if (asks.free_orbit) {
     settings.free_orbit = pointer_.free_orbit;
@@ -202,7 +215,9 @@ void ShownScene::draw_panels(const messages::SceneFrame& now, GlfwWindow& window
   go_on_turning();
   state_.scene = controls_.scene;
   history_.note(state_, ImGui::IsAnyItemActive() || ImGui::IsAnyMouseDown() || turn_.share < 1.0f);
-  overlay_.draw({*specimen_, shown, state_.view, renderer_.superficial(), {}, SceneExtras{}.background}, layout_.scene,
+  ViewState named = state_.view;
+  named.labels = named.labels || big_type_;
+  overlay_.draw({*specimen_, shown, named, renderer_.superficial(), {}, SceneExtras{}.background}, layout_.scene,
                 *ImGui::GetBackgroundDrawList());
   timeline_.draw_banner(layout_.scene);
 }

@@ -49,6 +49,8 @@ class ShownScene {
   /// The limb, into a framebuffer of that size.
   void draw_limb(int width, int height);
 
+  /// Of everything written and clicked on.
+  double scale() const;
   const SceneFacts& facts() const { return facts_; }
   const ViewControls& controls() const { return controls_; }
   std::string description(const messages::SceneFrame& now);
@@ -73,6 +75,9 @@ class ShownScene {
   bool act_on_play(KeyAction action);
   void act(KeyAction action, WindowAsks& asks, GlfwWindow& window);
   void handle_keys(WindowAsks& asks, GlfwWindow& window);
+  bool act_on_comfort(KeyAction action, WindowAsks& asks);
+  void add_co_contraction(double step);
+  void set_big_type(bool on);
   void hold_buttons(const GlfwWindow& window);
   void draw_areas(PanelContext& context);
   void begin_or_end_recording();
@@ -115,6 +120,10 @@ class ShownScene {
   NewsStrip news_strip_;
   SettingsPanel settings_panel_;
   Tour tour_;
+  std::vector<KeyBinding> keys_;     // as the person chose them
+  const char* open_task_ = nullptr;  // tab to be opened; null: none
+  int area_step_ = 0;                // to the area that the keyboard goes to; 0: it stays
+  bool big_type_ = false;            // for a class in front of a projector
   bool help_ = false;
   WorksPanel works_;
   BookmarkList bookmarks_;

@@ -25,6 +25,13 @@ const char* view_of(KeyAction action) {
   return found == kViews.end() ? nullptr : found->second;
 }
 
+/// Keys that move the keyboard's pointer, or the control under it.
+bool moves_focus(const GlfwWindow::KeyPress& press) {
+  if (press.mods != 0) return false;
+  return press.key == GLFW_KEY_SPACE || press.key == GLFW_KEY_ENTER || press.key == GLFW_KEY_TAB ||
+         (press.key >= GLFW_KEY_RIGHT && press.key <= GLFW_KEY_END);
+}
+
 }  // namespace
 
 /// What the keys of the selected part do; false for other keys.
@@ -81,7 +88,7 @@ bool ShownScene::act_on_play(KeyAction action) {
 }
 
 void ShownScene::act(KeyAction action, WindowAsks& asks, GlfwWindow& window) {
-  if (act_on_part(action) || act_on_play(action)) return;
+  if (act_on_part(action) || act_on_play(action) || act_on_comfort(action, asks)) return;
   switch (action) {
     case KeyAction::Help:
       asks.help = true;
@@ -135,18 +142,20 @@ void ShownScene::act(KeyAction action, WindowAsks& asks, GlfwWindow& window) {
 void ShownScene::handle_keys(WindowAsks& asks, GlfwWindow& window) {
   const ImGuiIO& io = ImGui::GetIO();
   for (const GlfwWindow::KeyPress& press : window.take_presses()) {
-    const KeyBinding* binding = binding_of(press.key, press.mods);
-    if (binding == nullptr) continue;
-    const bool plain = binding->mods == 0 && binding->key < GLFW_KEY_F1;
-    const bool taken = io.WantTextInput || (plain && io.NavVisible);
-    if (!taken || binding->action == KeyAction::StopForces) act(binding->action, asks, window);
+    const KeyBinding* binding = binding_of(keys_, press.key, press.mods);
+    const bool stop = binding != nullptr && binding->action == KeyAction::StopForces;
+    if (settings_panel_.take_key({press.key, press.mods}, settings, message) && !stop) continue;
+    const bool taken = io.WantTextInput || (io.NavVisible && moves_focus(press));
+    const char* view = settings.mouse == MousePreset::Blender ? number_pad_view(press.key, press.mods) : nullptr;
+    if (binding == nullptr && view != nullptr && !taken) asks.standard_view = view;
+    if (binding != nullptr && (!taken || stop)) act(binding->action, asks, window);
   }
 }
 
 void ShownScene::hold_buttons(const GlfwWindow& window) {
   controls_.hand_buttons = 0;
   if (ImGui::GetIO().WantTextInput) return;
-  for (const KeyBinding& binding : key_bindings()) {
+  for (const KeyBinding& binding : keys_) {
     if (!is_held(binding.action) || !window.is_down(binding.key)) continue;
     controls_.hand_buttons |= binding.action == KeyAction::GrabLine ? messages::kGrabButton : messages::kGrabBoneButton;
   }

@@ -39,11 +39,12 @@ struct Window::Impl {
         imgui(window.get()),
         settings(settings_or_defaults(settings_file(), settings_message)) {
     apply(settings);
+    if (!imgui.has_font() && settings_message.empty()) settings_message = ui::tr("comfort.no_font");
   }
 
   void draw(const messages::SceneFrame& frame) {
     glfwPollEvents();
-    imgui.set_scale(static_cast<float>((scene ? scene->settings : settings).scale));
+    imgui.set_scale(static_cast<float>(scene ? scene->scale() : settings.scale));
     imgui.begin();
     ui::begin_controls();
     if (scene) {

@@ -114,15 +114,15 @@ TEST(KeyBindings, NoKeyDoesTwoThingsAndEachHasAText) {
 
 TEST(KeyBindings, EachIsFoundWithItsModifiersAloneTheStopWithAny) {
   for (const KeyBinding& binding : key_bindings()) {
-    EXPECT_EQ(binding_of(binding.key, binding.mods), &binding) << name_of(binding);
+    EXPECT_EQ(binding_of(key_bindings(), binding.key, binding.mods), &binding) << name_of(binding);
   }
   for (int mods = 0; mods <= (GLFW_MOD_SHIFT | GLFW_MOD_CONTROL | GLFW_MOD_ALT); ++mods) {
-    const KeyBinding* stop = binding_of(GLFW_KEY_ESCAPE, mods);
+    const KeyBinding* stop = binding_of(key_bindings(), GLFW_KEY_ESCAPE, mods);
     ASSERT_NE(stop, nullptr) << mods;
     EXPECT_EQ(stop->action, KeyAction::StopForces) << mods;
   }
-  EXPECT_EQ(binding_of(GLFW_KEY_ENTER, GLFW_MOD_CONTROL), nullptr);  // forces come back by Enter alone
-  EXPECT_EQ(binding_of(GLFW_KEY_UNKNOWN, 0), nullptr);
+  EXPECT_EQ(binding_of(key_bindings(), GLFW_KEY_ENTER, GLFW_MOD_CONTROL), nullptr);  // forces come back by Enter alone
+  EXPECT_EQ(binding_of(key_bindings(), GLFW_KEY_UNKNOWN, 0), nullptr);
 }
 
 TEST(KeyBindings, StandInTheReadme) {

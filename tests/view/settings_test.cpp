@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "core/file.h"
+#include "view/ui/font.h"
 #include "view/ui/theme.h"
 
 namespace myotact::view {
@@ -42,7 +43,21 @@ TEST_P(Themes, EveryTextStandsOut) {
   ImGui::DestroyContext();
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, Themes, testing::Values(ui::Theme::Dark, ui::Theme::Light));
+INSTANTIATE_TEST_SUITE_P(Both, Themes, testing::Values(ui::Theme::Dark, ui::Theme::Light, ui::Theme::Contrast));
+
+TEST(Font, WithoutItsFileIsTheBuiltInOneInTheSameHeight) {
+  for (const char* file : {"/no/such/font.ttf", "/tmp"}) {
+    ImGui::CreateContext();
+    EXPECT_FALSE(ui::add_font(24.0f, file));
+    ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
+    ASSERT_TRUE(fonts.Build());
+    ASSERT_EQ(fonts.Fonts.Size, 1);
+    EXPECT_EQ(fonts.Fonts[0]->FontSize, 24.0f);
+    for (const ImWchar letter : std::initializer_list<ImWchar>{0x41, 0xe4, 0xdf})
+      EXPECT_NE(fonts.Fonts[0]->FindGlyphNoFallback(letter), nullptr);
+    ImGui::DestroyContext();
+  }
+}
 
 /// A folder of its own: tests run beside each other.
 std::filesystem::path folder_of_test() {
@@ -58,7 +73,7 @@ struct SettingsFile : testing::Test {
 
 TEST_F(SettingsFile, IsReadAsItWasWritten) {
   EXPECT_EQ(read_settings(file), Settings{});
-  const Settings liked{"de", true, 1.25, true, true};
+  const Settings liked{"de", true, 1.25, true, true, MousePreset::Blender, {{"search", "Ctrl+K"}}};
   write_settings(liked, file);
   EXPECT_EQ(settings_or_defaults(file, message), liked);
   EXPECT_EQ(message, "");
@@ -67,7 +82,9 @@ TEST_F(SettingsFile, IsReadAsItWasWritten) {
 TEST_F(SettingsFile, ThatCannotBeUsedIsSetAside) {
   make_writable_folder(folder);
   for (const char* text : {"", "{\"schema\": 1, \"langu", "{\"schema\": 2}", "{\"schema\": 1, \"langauge\": \"de\"}",
-                           "{\"schema\": 1, \"theme\": \"pink\"}", "[]"}) {
+                           "{\"schema\": 1, \"theme\": \"pink\"}", "[]", "{\"schema\": 1, \"mouse\": \"two\"}",
+                           "{\"schema\": 1, \"keys\": {\"search\": \"H\"}}",
+                           "{\"schema\": 1, \"keys\": {\"search\": \"Ctrl\"}}", "{\"schema\": 1, \"keys\": 3}"}) {
     message.clear();
     write_file(file, text);
     EXPECT_EQ(settings_or_defaults(file, message), Settings{}) << text;

@@ -140,6 +140,7 @@ void draw_presets(SceneState& scene, const std::vector<Preset>& presets) {
 }  // namespace
 
 void DemonstratePanel::draw(PanelContext& context) {
+  context.asks.big_type = ui::button("comfort.big_type") || context.asks.big_type;
   if (context.specimen.muscles.size() > 1) {
     ui::heading("demonstrate.presets");
     draw_presets(context.controls.scene, context.facts.presets);

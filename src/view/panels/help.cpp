@@ -1,5 +1,8 @@
 #include "view/panels/help.h"
 
+#include <array>
+#include <utility>
+
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -9,12 +12,28 @@
 
 namespace myotact::view {
 
-void draw_help(bool& open) {
+namespace {
+
+constexpr std::array kEveryMouse = {
+    std::pair{"mouse.wheel", "mouse.wheel_does"}, std::pair{"mouse.click", "mouse.selects"},
+    std::pair{"mouse.right_click", "mouse.menu"}, std::pair{"mouse.ctrl", "mouse.hand"}};
+
+void draw_row(const char* how, const char* what) {
+  ImGui::TableNextColumn();
+  ui::text(how);
+  ui::note_control(how);
+  ImGui::TableNextColumn();
+  ui::text(what);
+}
+
+}  // namespace
+
+void draw_help(bool& open, const std::vector<KeyBinding>& bindings, MousePreset mouse) {
   ImGui::SetNextWindowPos(ImVec2(0.5f * ImGui::GetIO().DisplaySize.x, 0.5f * ImGui::GetIO().DisplaySize.y),
                           ImGuiCond_Appearing, ImVec2(0.5f, 0.5f));
   ImGui::Begin(fmt::format("{}###help", ui::tr("help.title")).c_str(), &open, ImGuiWindowFlags_AlwaysAutoResize);
-  if (ImGui::BeginTable("keys", 2)) {
-    for (const KeyBinding& binding : key_bindings()) {
+  if (ImGui::BeginTable("keys", 4, ImGuiTableFlags_SizingFixedFit)) {
+    for (const KeyBinding& binding : bindings) {
       ImGui::TableNextColumn();
       ImGui::TextUnformatted(name_of(binding).c_str());
       ImGui::TableNextColumn();
@@ -23,7 +42,12 @@ void draw_help(bool& open) {
     ImGui::EndTable();
   }
   ImGui::Separator();
-  ui::text("help.mouse");
+  if (ImGui::BeginTable("mouse", 4, ImGuiTableFlags_SizingFixedFit)) {
+    for (const MouseRow& row : mouse_rows(mouse)) draw_row(row.how, row.what);
+    for (const auto& [how, what] : kEveryMouse) draw_row(how, what);
+    if (mouse == MousePreset::Blender) draw_row("mouse.number_pad", "mouse.views");
+    ImGui::EndTable();
+  }
   ImGui::End();
 }
 

@@ -1,8 +1,13 @@
 #pragma once
 
+#include <vector>
+
+#include "view/key_bindings.h"
+#include "view/mouse_preset.h"
+
 namespace myotact::view {
 
 /// Keys and mouse, over everything; `open` becomes false when it is closed.
-void draw_help(bool& open);
+void draw_help(bool& open, const std::vector<KeyBinding>& bindings, MousePreset mouse);
 
 }  // namespace myotact::view

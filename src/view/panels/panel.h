@@ -57,6 +57,9 @@ struct PartNote {
   std::string part, text;  // key of the muscle or bone
 };
 
+/// One press of a key or button changes the common level of co-contraction by this.
+inline constexpr double kCoContractionStep = 0.05;
+
 /// What a panel asks of the window itself, once.
 struct WindowAsks {
   std::optional<PointerMode> pointer_mode;
@@ -64,6 +67,8 @@ struct WindowAsks {
   bool frame_selection = false;         // to come near what is selected; all when nothing is
   bool undo = false, redo = false;
   bool help = false;                               // to be shown or hidden
+  bool big_type = false;                           // for a class, to begin or to end
+  double co_contraction_step = 0.0;                // to be added to the common level
   bool free_orbit = false;                         // was switched on or off
   bool record = false;                             // to begin, or to end
   std::optional<SceneWish> wish;                   // a scene to be opened

@@ -44,12 +44,25 @@ void SettingsPanel::draw(Settings& settings, std::string& message) {
     dragged_scale_.reset();
     changed = true;
   }
+  constexpr std::array kMice = {"mouse.three_button", "mouse.trackpad", "mouse.blender"};  // as in MousePreset
+  int mouse = static_cast<int>(settings.mouse);
+  if (ui::choice("comfort.mouse", mouse, kMice)) {
+    settings.mouse = static_cast<MousePreset>(mouse);
+    changed = true;
+  }
   changed = ui::checkbox("comfort.free_orbit", settings.free_orbit) || changed;
   if (ui::button("comfort.tour")) {
     settings.tour_done = false;
     changed = true;
   }
+  changed = keys_.draw(settings.keys) || changed;
   if (changed) keep(settings, message);
+}
+
+bool SettingsPanel::take_key(const KeyPressed& pressed, Settings& settings, std::string& message) {
+  if (!keys_.waits()) return false;
+  if (keys_.take(pressed, settings.keys)) keep(settings, message);
+  return true;
 }
 
 void keep(const Settings& settings, std::string& message) {

@@ -3,17 +3,21 @@
 #include <optional>
 #include <string>
 
+#include "view/panels/key_list.h"
 #include "view/settings.h"
 
 namespace myotact::view {
 
-/// Language, colours, size: they change at once, and are kept.
+/// Language, colours, size, mouse, keys: they change at once, and are kept.
 class SettingsPanel {
  public:
   /// `message`: why they could not be kept.
   void draw(Settings& settings, std::string& message);
+  /// A key that goes down while it waits for one; false: it does not.
+  bool take_key(const KeyPressed& pressed, Settings& settings, std::string& message);
 
  private:
+  KeyList keys_;
   std::optional<double> dragged_scale_;  // while the slider is held: the sizes change when it is let go
 };
 

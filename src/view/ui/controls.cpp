@@ -57,7 +57,8 @@ const std::vector<ControlPlace>& controls_of_last_picture() {
 void note_control(const char* key, const std::string& value) {
   if (!ImGui::IsItemVisible()) return;
   const ImVec2 low = ImGui::GetItemRectMin(), size = ImGui::GetItemRectSize();
-  places().next.push_back({key, value, low.x, low.y, size.x, size.y});
+  places().next.push_back(
+      {key, value, low.x, low.y, size.x, size.y, ImGui::GetIO().NavVisible && ImGui::IsItemFocused()});
 }
 
 bool button(const char* key) {

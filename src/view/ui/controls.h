@@ -46,6 +46,7 @@ void note_control(const char* key, const std::string& value = "");
 struct ControlPlace {
   std::string key, value;
   float x = 0.0f, y = 0.0f, width = 0.0f, height = 0.0f;  // pixels of the window, from its top left corner
+  bool focused = false;                                   // by the keyboard
 };                                                        // of a slider: its track
 const std::vector<ControlPlace>& controls_of_last_picture();
 /// At the start of each picture.

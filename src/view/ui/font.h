@@ -2,7 +2,11 @@
 
 namespace myotact::view::ui {
 
-/// Adds the font of the interface to the current ImGui context; ImGui's own where it is not installed.
-void add_font(float height_px);
+/// What Debian's package fonts-dejavu-core installs.
+inline constexpr const char* kFontFile = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+
+/// Adds the font of the interface to the current ImGui context; where there is no such file, ImGui's own in the same
+/// height, and it returns false.
+bool add_font(float height_px, const char* file = kFontFile);
 
 }  // namespace myotact::view::ui

@@ -46,6 +46,11 @@ void apply_theme(Theme theme) {
     colours[ImGuiCol_TabHovered] = ImVec4(0.18f, 0.42f, 0.72f, 1.0f);
     colours[ImGuiCol_PlotHistogramHovered] = ImVec4(1.0f, 0.60f, 0.20f, 1.0f);
   }
+  if (theme != Theme::Contrast) return;
+  colours[ImGuiCol_Text] = ImVec4(1.0f, 1.0f, 1.0f, 1.0f);
+  colours[ImGuiCol_TextDisabled] = ImVec4(0.80f, 0.80f, 0.80f, 1.0f);
+  colours[ImGuiCol_WindowBg] = colours[ImGuiCol_PopupBg] = ImVec4(0.0f, 0.0f, 0.0f, 1.0f);
+  colours[ImGuiCol_Border] = ImVec4(0.85f, 0.85f, 0.85f, 1.0f);
 }
 
 std::span<const TextPair> text_pairs() {

@@ -6,7 +6,8 @@
 
 namespace myotact::view::ui {
 
-enum class Theme { Dark, Light };
+/// Contrast: white on black, for a projector in a bright room.
+enum class Theme { Dark, Light, Contrast };
 
 /// Sets the colours of the current ImGui context. Every text stands out by 4.5:1 or more (WCAG 2.1, 1.4.3).
 void apply_theme(Theme theme);

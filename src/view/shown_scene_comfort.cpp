@@ -1,0 +1,73 @@
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "view/shown_scene.h"
+#include "view/ui/text.h"
+
+// Keys that save ways of the hand, and big type for a class.
+
+namespace myotact::view {
+
+namespace {
+
+const char* task_of(KeyAction action) {
+  constexpr std::array kTasks = {std::pair{KeyAction::TaskFeel, "tasks.feel"},
+                                 std::pair{KeyAction::TaskSee, "tasks.see"},
+                                 std::pair{KeyAction::TaskDemonstrate, "tasks.demonstrate"},
+                                 std::pair{KeyAction::TaskLearn, "tasks.learn"},
+                                 std::pair{KeyAction::TaskPlots, "tasks.plots"},
+                                 std::pair{KeyAction::TaskSettings, "tasks.settings"}};
+  const auto* found =
+      std::find_if(kTasks.begin(), kTasks.end(), [&](const auto& task) { return task.first == action; });
+  return found == kTasks.end() ? nullptr : found->second;
+}
+
+}  // namespace
+
+/// What the keys of areas, tasks and the class do; false for other keys.
+bool ShownScene::act_on_comfort(KeyAction action, WindowAsks& asks) {
+  if (const char* task = task_of(action)) {
+    open_task_ = task;
+    return true;
+  }
+  switch (action) {
+    case KeyAction::NextArea:
+      area_step_ = 1;
+      return true;
+    case KeyAction::PreviousArea:
+      area_step_ = -1;
+      return true;
+    case KeyAction::LessCoContraction:
+      asks.co_contraction_step = -kCoContractionStep;
+      return true;
+    case KeyAction::MoreCoContraction:
+      asks.co_contraction_step = kCoContractionStep;
+      return true;
+    case KeyAction::BigType:
+      asks.big_type = true;
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// Of both sides of the joint, whatever told the muscles what to do before.
+void ShownScene::add_co_contraction(double step) {
+  SceneState& scene = controls_.scene;
+  if (scene.drive != Drive::Balance) scene.common = 0.0;
+  scene.drive = Drive::Balance;
+  scene.common = std::clamp(scene.common + step, 0.0, 1.0);
+}
+
+void ShownScene::set_big_type(bool on) {
+  big_type_ = on;
+  if (!on) apply(settings);
+}
+
+double ShownScene::scale() const {
+  constexpr double kForAClass = 1.6;  // letters of 24 pixels on a projector of 720 or 800 lines
+  return big_type_ ? std::max(settings.scale, kForAClass) : settings.scale;
+}
+
+}  // namespace myotact::view

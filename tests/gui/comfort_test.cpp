@@ -1,0 +1,121 @@
+#include <cmath>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "gui/gui_program.h"
+
+// Keys and mouse as a person likes them, the window without a mouse, and big type for a class.
+
+namespace myotact {
+namespace {
+
+using nlohmann::json;
+using testing::GuiProgram;
+
+/// The control that has the keyboard; "" for none.
+std::string focused_control(const json& state) {
+  for (const json& control : state["controls"]) {
+    if (control["focused"]) return control["key"];
+  }
+  return "";
+}
+
+/// What the panel beside the tabs shows now.
+std::set<std::string> controls_of(const json& state, const std::string& part) {
+  std::set<std::string> keys;
+  for (const json& control : state["controls"]) {
+    if (const std::string key = control["key"]; key.starts_with(part)) keys.insert(key);
+  }
+  return keys;
+}
+
+class ComfortTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (const std::string missing = testing::missing_tools(); !missing.empty()) {
+      GTEST_SKIP() << "not installed:" << missing << " (packages xvfb, xdotool, imagemagick)";
+    }
+  }
+};
+
+TEST_F(ComfortTest, AKeyIsGivenAwayAndTheMouseWorksAsInBlender) {
+  GuiProgram gui("comfort", "elbow");
+  const auto becomes = [&](const std::string& control, const std::string& value) {
+    return gui.wait_until([&](const json&) { return gui.value_of(control) == value; });
+  };
+  gui.key("ctrl+6");
+  gui.click("comfort.keys");
+  gui.click("keys.look");
+  ASSERT_TRUE(becomes("keys.look", "Press a key"));
+  gui.key("h");  // hides what is selected
+  ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.shows("comfort.key_refused"); }));
+  EXPECT_NE(gui.value_of("comfort.key_refused").find("hide what is selected"), std::string::npos);
+  gui.screenshot("refused");
+  gui.click("keys.touch");
+  ASSERT_TRUE(becomes("keys.touch", "Press a key"));
+  gui.key("ctrl+k");
+  EXPECT_TRUE(becomes("keys.touch", "Ctrl+K"));
+  gui.key("ctrl+k");
+  EXPECT_TRUE(becomes("toolbar.touch", "on"));
+  gui.key("v");
+  EXPECT_TRUE(becomes("toolbar.look", "on"));
+  gui.key("t");  // nothing any more
+  gui.let_draw();
+  EXPECT_EQ(gui.value_of("toolbar.touch"), "off");
+
+  gui.click("comfort.mouse");
+  gui.click("mouse.blender");
+  EXPECT_TRUE(becomes("comfort.mouse", "mouse.blender"));
+  const json before = gui.state()["view"]["camera"];
+  gui.key("KP_1");
+  EXPECT_TRUE(gui.wait_until(
+      [&](const json& state) { return state["view"]["camera"]["azimuth_rad"] != before["azimuth_rad"]; }));
+  gui.key("F1");
+  EXPECT_TRUE(gui.wait_until([&](const json&) { return gui.shows("mouse.shift_middle"); }));
+  EXPECT_FALSE(gui.shows("mouse.right"));
+  gui.screenshot("help");
+}
+
+TEST_F(ComfortTest, TheKeyboardReachesEveryControlOfAPanelAndEveryArea) {
+  GuiProgram gui("keyboard", "elbow");
+  gui.key("ctrl+2");
+  ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.shows("see.labels"); }));
+  std::set<std::string> areas, reached;
+  for (int i = 0; i < 4; ++i) {
+    gui.key("F6");
+    gui.let_draw();
+    const std::string at = focused_control(gui.state());
+    areas.insert(at.substr(0, at.find('.')));
+  }
+  EXPECT_EQ(areas, (std::set<std::string>{"toolbar", "find", "tasks", "keep"}));
+  gui.key("shift+F6");
+  gui.let_draw();
+  for (int i = 0; i < 40; ++i) {
+    gui.key("Down");
+    gui.let_draw();
+    reached.insert(focused_control(gui.state()));
+  }
+  for (const std::string& key : controls_of(gui.state(), "see.")) EXPECT_TRUE(reached.contains(key)) << key;
+}
+
+TEST_F(ComfortTest, BigTypeShowsTheStiffnessToAClassAndGoesAway) {
+  GuiProgram gui("class", "elbow");
+  gui.key("F9");
+  ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.shows("class.K") && !gui.shows("tasks.see"); }));
+  gui.key("equal");
+  gui.key("equal");
+  EXPECT_TRUE(gui.wait_until([](const json& state) {
+    return state["scene"]["drive"] == "balance" && std::abs(state["scene"]["common"].get<double>() - 0.1) < 1e-12;
+  }));
+  gui.key("minus");
+  EXPECT_TRUE(gui.wait_until(
+      [](const json& state) { return std::abs(state["scene"]["common"].get<double>() - 0.05) < 1e-12; }));
+  gui.screenshot("big");
+  gui.key("F9");
+  EXPECT_TRUE(gui.wait_until([&](const json&) { return !gui.shows("class.K") && gui.shows("tasks.see"); }));
+}
+
+}  // namespace
+}  // namespace myotact
