@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -27,8 +28,13 @@ std::string bare_name(int key) {
   }
   if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F25) return fmt::format("F{}", key - GLFW_KEY_F1 + 1);
   if (key >= GLFW_KEY_KP_0 && key <= GLFW_KEY_KP_9) return fmt::format("Num {}", key - GLFW_KEY_KP_0);
-  if (key < GLFW_KEY_APOSTROPHE || key > GLFW_KEY_GRAVE_ACCENT) return "";
-  return {static_cast<char>(key)};  // letters, digits and signs are their own codes
+  constexpr std::string_view kSigns = "',-./0123456789;=[\\]`";  // that GLFW has keys of, by these codes
+  const bool letter = key >= GLFW_KEY_A && key <= GLFW_KEY_Z;
+  if (!letter && (key < GLFW_KEY_APOSTROPHE || key > GLFW_KEY_GRAVE_ACCENT ||
+                  kSigns.find(static_cast<char>(key)) == std::string_view::npos)) {
+    return "";
+  }
+  return {static_cast<char>(key)};
 }
 
 }  // namespace

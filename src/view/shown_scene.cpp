@@ -98,7 +98,7 @@ void ShownScene::restore(const WorkState& earlier) {
 
 void ShownScene::draw_tasks(PanelContext& context) {
   if (!ImGui::BeginTabBar("tasks")) return;
-  const char* wanted = std::exchange(open_task_, nullptr);
+  const std::string wanted = std::exchange(open_task_, {});
   const auto tab = [&](const char* key, const auto& draw) {
     const ImGuiTabItemFlags flags = key == wanted ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;
     const bool open = ImGui::BeginTabItem(fmt::format("{}###{}", ui::tr(key), key).c_str(), nullptr, flags);

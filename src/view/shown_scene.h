@@ -120,10 +120,10 @@ class ShownScene {
   NewsStrip news_strip_;
   SettingsPanel settings_panel_;
   Tour tour_;
-  std::vector<KeyBinding> keys_;     // as the person chose them
-  const char* open_task_ = nullptr;  // tab to be opened; null: none
-  int area_step_ = 0;                // to the area that the keyboard goes to; 0: it stays
-  bool big_type_ = false;            // for a class in front of a projector
+  std::vector<KeyBinding> keys_;  // as the person chose them
+  std::string open_task_;         // tab to be opened; empty: none
+  int area_step_ = 0;             // to the area that the keyboard goes to; 0: it stays
+  bool big_type_ = false;         // for a class in front of a projector
   bool help_ = false;
   WorksPanel works_;
   BookmarkList bookmarks_;

@@ -7,11 +7,13 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
+#include <imgui.h>
 
 #include "core/error.h"
 #include "core/file.h"
 #include "view/key_bindings.h"
 #include "view/layout.h"
+#include "view/ui/font.h"
 #include "view/ui/text.h"
 
 // What holds for the interface as a whole: texts, keys, areas.
@@ -131,6 +133,26 @@ TEST(KeyBindings, StandInTheReadme) {
     const std::string row = "| `" + name_of(binding) + "` | " + ui::tr(binding.what) + " |";
     EXPECT_NE(readme.find(row), std::string::npos) << "README lacks: " << row;
   }
+}
+
+TEST(WindowLayout, TheTabsOfTheTasksAreReadWholeInEveryLanguage) {
+  ImGui::CreateContext();
+  constexpr float kEm = 15.0f;
+  ui::add_font(kEm);
+  ASSERT_TRUE(ImGui::GetIO().Fonts->Build());
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float room = layout_of(1280.0f, 800.0f, kEm).tasks.width - 2.0f * style.WindowPadding.x;
+  for (const std::string& language : ui::languages()) {
+    const ui::Catalogue texts = ui::load_catalogue(language);
+    float width = 0.0f;
+    for (const char* tab : {"feel", "see", "demonstrate", "learn", "plots", "settings"}) {
+      const std::string& text = texts.at(std::string("tasks.") + tab);
+      width += ImGui::GetIO().Fonts->Fonts[0]->CalcTextSizeA(kEm, 1e4f, 0.0f, text.c_str()).x;
+      width += 2.0f * style.FramePadding.x + 1.0f + style.ItemInnerSpacing.x;  // as ImGui's tabs are laid out
+    }
+    EXPECT_LE(width, room) << language;
+  }
+  ImGui::DestroyContext();
 }
 
 TEST(WindowLayout, AreasLieWithinTheWindowAndTheSceneNeverVanishes) {

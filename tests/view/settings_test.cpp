@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <initializer_list>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -23,7 +23,7 @@ void draw_headline(const std::string& text, const char* key) {
 
 void draw_class_panel(PanelContext& context, const Area& scene) {
   const float gap = 0.5f * ImGui::GetFontSize();
-  ImGui::SetNextWindowPos(ImVec2(scene.x + gap, scene.y + gap));
+  ImGui::SetNextWindowPos(ImVec2(scene.x + gap, scene.y + 0.5f * scene.height), 0, ImVec2(0.0f, 0.5f));
   ImGui::Begin("class", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove);
   const auto watched = static_cast<std::size_t>(context.facts.joint);
