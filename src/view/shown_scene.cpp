@@ -104,7 +104,7 @@ void ShownScene::draw_tasks(PanelContext& context) {
     const bool open = ImGui::BeginTabItem(fmt::format("{}###{}", ui::tr(key), key).c_str(), nullptr, flags);
     ui::note_control(key, open ? "on" : "off");
     if (!open) return;
-    ImGui::BeginChild(key, ImVec2(0.0f, 0.0f), false, ImGuiWindowFlags_NavFlattened);
+    ImGui::BeginChild(key);
     draw();
     ImGui::EndChild();
     ImGui::EndTabItem();
