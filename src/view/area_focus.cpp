@@ -9,6 +9,17 @@
 
 namespace myotact::view {
 
+namespace {
+
+/// A window and, after it, what scrolls within it, where there is anything for the keyboard.
+void add_with_children(ImGuiWindow* window, std::vector<ImGuiWindow*>& stops) {
+  if (window == nullptr) return;
+  if (window->DC.NavLayersActiveMaskNext != 0) stops.push_back(window);
+  for (ImGuiWindow* child : window->DC.ChildWindows) add_with_children(child, stops);
+}
+
+}  // namespace
+
 void focus_next_area(const Layout& layout, int step) {
   struct Named {
     const char* window;
@@ -18,18 +29,16 @@ void focus_next_area(const Layout& layout, int step) {
                           Named{"timeline", &layout.timeline}};
   std::vector<ImGuiWindow*> shown;
   for (const Named& named : all) {
-    if (!named.area->empty()) shown.push_back(ImGui::FindWindowByName(named.window));
+    if (!named.area->empty()) add_with_children(ImGui::FindWindowByName(named.window), shown);
   }
   if (shown.empty()) return;
   ImGuiContext& imgui = *ImGui::GetCurrentContext();
   const auto count = static_cast<int>(shown.size());
   int place = step > 0 ? -1 : count;  // of the area that has it now; outside: none
   for (int i = 0; i < count; ++i) {
-    const ImGuiWindow* window = shown[static_cast<std::size_t>(i)];
-    if (imgui.NavWindow != nullptr && imgui.NavWindow->RootWindow == window && ImGui::GetIO().NavVisible) place = i;
+    if (imgui.NavWindow == shown[static_cast<std::size_t>(i)] && ImGui::GetIO().NavVisible) place = i;
   }
   ImGuiWindow* next = shown[static_cast<std::size_t>(((place + step) % count + count) % count)];
-  if (next == nullptr) return;
   ImGui::ClearActiveID();
   ImGui::FocusWindow(next);
   ImGui::NavInitWindow(next, true);

@@ -245,6 +245,13 @@ void GuiProgram::key(const std::string& keys) {
   key_up(keys);
 }
 
+void GuiProgram::tap(const std::string& key) {
+  xdotool("keydown " + key);
+  pause_s(0.08);  // ImGui repeats after 0.2 s
+  xdotool("keyup " + key);
+  let_draw();
+}
+
 void GuiProgram::key_down(const std::string& key) {
   xdotool("keydown " + key);
   let_draw();

@@ -63,6 +63,7 @@ class GuiProgram {
   /// Along a slider, from its left end; shares 0 .. 1 of its track.
   void drag_slider(const std::string& control, double from, double to);
   void key(const std::string& keys);  // as xdotool names them: "ctrl+z"
+  void tap(const std::string& key);   // so shortly that it does not repeat
   void key_down(const std::string&key), key_up(const std::string&key);
   void type(const std::string& text);
 
