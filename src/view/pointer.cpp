@@ -22,6 +22,7 @@ constexpr float kWheel_px = 0.1f;         // clicks of the wheel, a pixel of a d
 constexpr float kClick_px = 5.0f;         // a press that moves less is a click
 constexpr double kFreeDepth_m = 0.005;    // of the free hand, a click of the wheel
 constexpr double kHover_m = 0.008;        // of the tool's surface above the limb's: it does not touch by accident
+constexpr double kClear_m = 0.03;         // of a hand let go above the dent that it made: tissue swells back
 constexpr double kPressTime_s = 0.6;      // from touching to the whole depth
 constexpr double kDepthStep_m = 0.00025;  // a click of the wheel
 constexpr double kDeepest_m = 0.006;      // 800 N/m times this is more than any small device gives
@@ -162,12 +163,26 @@ void Pointer::hold_above(PanelContext& context, const PickHit& hit, double heigh
   move_towards(context, glm::dvec3(hit.point_world_m) + (radius_m + height_m) * towards_eye);
 }
 
+/// A button that is let go beside the limb, or over a panel, must not leave the tool in the tissue: it would press on,
+/// unseen.
+void Pointer::let_go(PanelContext& context) {
+  if (!above_world_m_) return;
+  pressed_s_ = 0.0;
+  context.controls.hand_moves = true;
+  move_towards(context, *above_world_m_);
+  if (glm::distance(to_dvec3(context.controls.hand_world_m), *above_world_m_) < kArrived_m) above_world_m_.reset();
+}
+
 void Pointer::touch(PanelContext& context, const std::optional<PickHit>& hit) {
   const ImGuiIO& io = ImGui::GetIO();
   const bool pressed = ImGui::IsMouseDown(ImGuiMouseButton_Left);
   depth_m_ = std::clamp(depth_m_ + kDepthStep_m * static_cast<double>(io.MouseWheel), kDepthStep_m, kDeepest_m);
   pressed_s_ = pressed ? pressed_s_ + static_cast<double>(io.DeltaTime) : 0.0;
-  if (!hit) return;  // the hand stays where it is
+  if (!hit) {
+    if (!pressed) let_go(context);
+    return;  // else the hand stays where it is
+  }
+  above_world_m_ = glm::dvec3(hit->point_world_m) - kClear_m * glm::dvec3(context.view.camera.forward_world());
   const double share = std::min(1.0, pressed_s_ / kPressTime_s);
   hold_above(context, *hit, kHover_m - share * (kHover_m + depth_m_));
 }
@@ -175,7 +190,8 @@ void Pointer::touch(PanelContext& context, const std::optional<PickHit>& hit) {
 void Pointer::pull(PanelContext& context, const Area& scene, const std::optional<PickHit>& hit) {
   if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
     arrived_ = false;
-    if (hit) hold_above(context, *hit, kHover_m);
+    if (hit) above_world_m_.reset();
+    hit ? hold_above(context, *hit, kHover_m) : let_go(context);
     if (ImGui::GetIO().MouseWheel != 0.0f) zoom_to_pointer(scene, context.view.camera);
     return;
   }
@@ -199,10 +215,11 @@ void Pointer::update(PanelContext& context, const Area& scene, const std::vector
     drag_camera(context, scene);
     if (!io.MouseDown[camera_press_->button]) camera_press_.reset();
   }
-  if (io.WantCaptureMouse || scene.empty()) return;
+  if (io.WantCaptureMouse || scene.empty()) return let_go(context);
   begin_camera_drag();
   if (io.KeyCtrl) {
     if (camera_press_) return;
+    above_world_m_.reset();  // the hand is where the person puts it
     move_freely(scene, context.view.camera, true, context.controls);
     return;
   }
@@ -215,6 +232,7 @@ void Pointer::update(PanelContext& context, const Area& scene, const std::vector
   if (camera_press_ && mode_ != PointerMode::Look) return;  // the hand rests meanwhile
   switch (mode_) {
     case PointerMode::Look:
+      let_go(context);
       return look(context, scene);
     case PointerMode::Touch:
       return touch(context, hit);

@@ -43,6 +43,7 @@ class Pointer {
   void begin_camera_drag();
   void drag_camera(PanelContext& context, const Area& scene) const;
   void turn(PanelContext& context, int button) const;
+  void let_go(PanelContext& context);
   void hold_above(PanelContext& context, const PickHit& hit, double height_m);
   void move_towards(PanelContext& context, const glm::dvec3& target_m);
 
@@ -50,8 +51,9 @@ class Pointer {
   std::optional<CameraPress> camera_press_;
   Part hovered_;
   double depth_m_ = 0.002;
-  double pressed_s_ = 0.0;  // how long the left button has been down
-  bool arrived_ = false;    // Pull: the hand is at the line
+  double pressed_s_ = 0.0;                   // how long the left button has been down
+  bool arrived_ = false;                     // Pull: the hand is at the line
+  std::optional<glm::dvec3> above_world_m_;  // Touch: where the hand goes when the button is let go elsewhere
 };
 
 }  // namespace myotact::view
