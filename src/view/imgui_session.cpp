@@ -10,6 +10,7 @@
 #include <imgui_impl_glfw.h>
 #include <imgui_impl_opengl3.h>
 
+#include "view/layout.h"
 #include "view/ui/font.h"
 
 namespace myotact::view {
@@ -35,7 +36,12 @@ ImGuiSession::ImGuiSession(GLFWwindow* window) : window_(window) {
 void ImGuiSession::set_scale(float scale) {
   float across = 1.0f, down = 1.0f;
   glfwGetWindowContentScale(window_, &across, &down);
-  const float wanted = scale * std::clamp(across, 1.0f, kLargestDisplayScale);
+  const float display = std::clamp(across, 1.0f, kLargestDisplayScale);
+  int width = 0, height = 0;
+  glfwGetWindowSize(window_, &width, &height);
+  const float largest =
+      std::floor(largest_em(static_cast<float>(width), static_cast<float>(height))) / (kFontSize * display);
+  const float wanted = (scale <= 1.0f ? scale : std::clamp(largest, 1.0f, scale)) * display;
   if (wanted == drawn_scale_) return;
   if (drawn_scale_ > 0.0f) ImGui_ImplOpenGL3_DestroyFontsTexture();
   ImGui::GetIO().Fonts->Clear();

@@ -1,5 +1,7 @@
 #include "view/layout.h"
 
+#include <algorithm>
+
 namespace myotact::view {
 
 namespace {
@@ -10,6 +12,10 @@ constexpr float kNarrowestScene = 20.0f, kLowestScene = 16.0f;
 constexpr float kWideToolbar = 83.0f;  // in which its controls stand in one row in any language; else in two
 
 }  // namespace
+
+float largest_em(float width, float height) {
+  return std::min(width / (kTasks + kNarrowestScene), height / (kTwoRows + kTimeline + kStatus + kLowestScene));
+}
 
 Layout layout_of(float width, float height, float em, bool sides) {
   Layout layout;

@@ -23,6 +23,10 @@ struct Layout {
   Area toolbar, find, scene, timeline, tasks, status;
 };
 
+/// The largest height of the font [pixels] with which toolbar and tasks are drawn in such a window: larger letters
+/// would hide the very control that makes them smaller.
+float largest_em(float width, float height);
+
 /// `em`: height of the font [pixels]. `sides`: with the panels at the left and the right.
 Layout layout_of(float width, float height, float em, bool sides = true);
 

@@ -173,5 +173,15 @@ TEST(WindowLayout, AreasLieWithinTheWindowAndTheSceneNeverVanishes) {
   }
 }
 
+TEST(WindowLayout, TheLargestLettersStillShowTheSettings) {
+  for (const float width : {640.0f, 700.0f, 1280.0f, 3840.0f}) {
+    for (const float height : {400.0f, 500.0f, 800.0f, 2160.0f}) {
+      const Layout fits = layout_of(width, height, 0.999f * largest_em(width, height));
+      EXPECT_FALSE(fits.toolbar.empty() || fits.tasks.empty()) << width << " x " << height;
+    }
+  }
+  EXPECT_TRUE(layout_of(700.0f, 2160.0f, 1.01f * largest_em(700.0f, 2160.0f)).tasks.empty());
+}
+
 }  // namespace
 }  // namespace myotact::view
