@@ -49,7 +49,8 @@ void NewsStrip::draw(PanelContext& context, const Area& scene, std::string& mess
   ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0.0f), ImVec2(width, scene.height));
   ImGui::Begin("news", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize |
-                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoSavedSettings);
+                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoBringToFrontOnFocus |  // behind the tour
+                   ImGuiWindowFlags_NoSavedSettings);
   if (!message.empty()) {
     ui::paragraph(message);
     ui::note_control("news.message", message);
@@ -61,8 +62,8 @@ void NewsStrip::draw(PanelContext& context, const Area& scene, std::string& mess
     ui::paragraph(text);
     ui::note_control("news.silence", text);
   }
-  if (!notice.empty()) ui::paragraph(notice);
   if (slow && !silent) draw_too_slow(context);
+  if (!notice.empty()) ui::paragraph(notice);  // last: it comes and goes, and what is clicked must not move for it
   ImGui::End();
 }
 

@@ -43,6 +43,7 @@ bool Tour::draw() {
   place.x = std::clamp(place.x, 0.0f, std::max(ImGui::GetIO().DisplaySize.x - width, 0.0f));
   ImGui::SetNextWindowPos(place);
   ImGui::SetNextWindowSize(ImVec2(width, 0.0f));
+  ImGui::SetNextWindowBgAlpha(1.0f);  // it stands over other texts
   ImGui::Begin("tour", nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
