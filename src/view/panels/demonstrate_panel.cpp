@@ -62,7 +62,20 @@ void draw_headline(const messages::JointFrame& joint, const JointReadings& readi
   ui::paragraph(ui::tr("demonstrate.K_band", readings.K_low_Nm_rad, readings.K_high_Nm_rad));
 }
 
-void draw_joint(PanelContext& context) {
+/// Its outcome, or that it runs: the limb hardly moves, and the last outcome is of another state.
+void draw_shove(PanelContext& context, std::optional<double>& began_s) {
+  constexpr double kLasts_s = 4.2;  // simulated: a slow push, then a stroke
+  const double now_s = context.frame.time_s;
+  if (ui::button("demonstrate.shove")) {
+    ++context.controls.shoves;
+    began_s = now_s;
+  }
+  if (began_s && (now_s < *began_s || now_s > *began_s + kLasts_s)) began_s.reset();
+  if (began_s) return ui::paragraph(ui::tr("demonstrate.shove_runs"));
+  if (!context.readings.shove.empty()) ui::paragraph(context.readings.shove);
+}
+
+void draw_joint(PanelContext& context, std::optional<double>& shove_began_s) {
   const auto& joint = context.frame.joints[static_cast<std::size_t>(context.facts.joint)];
   const JointReadings& readings = context.readings;
   draw_headline(joint, readings);
@@ -76,8 +89,7 @@ void draw_joint(PanelContext& context) {
   for (const Part& part : parts) draw_part(part, largest_Nm_rad);
   if (joint.preview) ui::paragraph(messages::kPreviewMark);
   if (!readings.why.empty()) ui::paragraph(readings.why);
-  if (ui::button("demonstrate.shove")) ++context.controls.shoves;
-  if (!readings.shove.empty()) ui::paragraph(readings.shove);
+  draw_shove(context, shove_began_s);
 }
 
 /// Another scene, or other tissue: built beside, while this one goes on.
@@ -151,7 +163,8 @@ void DemonstratePanel::draw(PanelContext& context) {
   if (has_muscles) draw_sliders(context.controls.scene);
   ui::checkbox("demonstrate.gravity", context.controls.scene.gravity);
   ImGui::Separator();
-  if (has_muscles && context.facts.joint < static_cast<int>(context.frame.joints.size())) draw_joint(context);
+  if (has_muscles && context.facts.joint < static_cast<int>(context.frame.joints.size()))
+    draw_joint(context, shove_began_s_);
   ui::heading("demonstrate.model");
   draw_scene_choice(context);
 }

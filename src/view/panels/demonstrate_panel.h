@@ -14,6 +14,7 @@ class DemonstratePanel {
 
  private:
   std::array<std::optional<SceneState>, 2> stored_;  // A and B
+  std::optional<double> shove_began_s_;              // simulated time, while a shove test runs
 };
 
 }  // namespace myotact::view
