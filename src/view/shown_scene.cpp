@@ -144,6 +144,7 @@ void ShownScene::obey(const WindowAsks& asks, const messages::SceneFrame& frame)
 void ShownScene::begin_or_end_recording() {
   if (news.recording) {
     ++controls_.recording_ends;
+    message = ui::tr("keep.recording_ends");
     return;
   }
   try {

@@ -33,6 +33,17 @@ void draw_force(const messages::ToolFrame& tool, double peak_N, bool alone) {
   ui::note_control(key, fmt::format("{:.3f}", force_N));
 }
 
+/// Names of the bones that move as this body.
+std::string bones_of(const PanelContext& context, int body) {
+  std::string names;
+  for (int b = 0; b < static_cast<int>(context.specimen.bones.size()); ++b) {
+    if (context.specimen.bones[static_cast<std::size_t>(b)].body != body) continue;
+    if (!names.empty()) names += ", ";
+    names += name_of(context.specimen, {PartKind::Bone, b}, context.view);
+  }
+  return names;
+}
+
 /// What is touched or held, in words.
 void draw_touched(const PanelContext& context, const messages::ToolFrame& tool) {
   const auto name = [&](PartKind kind, int index) { return name_of(context.specimen, {kind, index}, context.view); };
@@ -43,7 +54,8 @@ void draw_touched(const PanelContext& context, const messages::ToolFrame& tool) 
   if (tool.grabbed_body >= 0) return ui::paragraph(ui::tr("feel.holds_bone"));
   if (tool.touched_muscle >= 0)
     return ui::paragraph(ui::tr("feel.touches", name(PartKind::Muscle, tool.touched_muscle)));
-  ui::paragraph(ui::tr(tool.in_contact ? "feel.touches_bone" : "feel.touches_nothing"));
+  if (!tool.in_contact) return ui::paragraph(ui::tr("feel.touches_nothing"));
+  ui::paragraph(ui::tr("feel.touches_bone", bones_of(context, tool.touched_body)));
 }
 
 struct PartOfForce {

@@ -127,6 +127,12 @@ void FindPanel::draw_row(PanelContext& context, const Part& part) {
   ImGui::PopID();
 }
 
+void FindPanel::select_first(PanelContext& context) {
+  const auto found = anatomy::find_parts(context.specimen, context.part_facts, text_);
+  if (found.empty()) return;
+  select(context.view, {found.front().bone ? PartKind::Bone : PartKind::Muscle, found.front().index});
+}
+
 void FindPanel::draw_results(PanelContext& context) {
   const auto found = anatomy::find_parts(context.specimen, context.part_facts, text_);
   if (found.empty()) ui::paragraph(ui::tr("find.nothing", text_));
@@ -175,6 +181,8 @@ void FindPanel::draw(PanelContext& context) {
   if (focus_) ImGui::SetKeyboardFocusHere();
   focus_ = false;
   ui::input_text("find.search", text_);
+  const bool entered = ImGui::IsItemDeactivated() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+  if (entered && !text_.empty()) select_first(context);
   const bool card = static_cast<bool>(selected_part(context.view));
   constexpr float kCard = 0.42f;  // of the panel's height
   const float below = card ? kCard * ImGui::GetWindowHeight() : 0.0f;

@@ -22,6 +22,7 @@ class FindPanel {
 
  private:
   void draw_row(PanelContext& context, const Part& part);
+  void select_first(PanelContext& context);
   void draw_results(PanelContext& context);
   void draw_tree(PanelContext& context);
   void draw_region(PanelContext& context, const std::string& region);

@@ -149,6 +149,11 @@ void LearnPanel::draw_steps_buttons(ViewState& view) {
   if (enabled_button(hints_left && !run.state().done, "learn.hint")) run.ask_hint();
   const bool goes_on = run.state().done || std::holds_alternative<learn::ReadTask>(run.step().task);
   const bool ends = enabled_button(true, "learn.close");
+  const char* next = ui::tr("learn.next");
+  if (!goes_on) {
+    ImGui::Dummy(ImVec2(ImGui::CalcTextSize(next).x + 2.0f * ImGui::GetStyle().FramePadding.x, 0.0f));
+    ImGui::SameLine();
+  }
   if (ui::button(goes_on ? "learn.next" : "learn.leave_out")) run.go_on();
   if (ends) close(view);
 }
