@@ -64,6 +64,18 @@ bool is_click(ImGuiMouseButton button) {
   return ImGui::IsMouseReleased(button) && io.MouseDragMaxDistanceSqr[button] < kClick_px * kClick_px;
 }
 
+/// Where a hand behind the limb goes first, so that bones do not hold it back there: aside, then towards the eye.
+/// Nothing: it is not behind. `way`: from the hand to its target; `towards_eye`: a unit vector.
+std::optional<glm::dvec3> way_round(const glm::dvec3& way, const glm::dvec3& towards_eye, const glm::dvec3& right) {
+  constexpr double kBehind_m = 0.03, kBeside_m = 0.1;  // a limb is thicker than the first, half of it thinner than this
+  const double behind_m = glm::dot(way, towards_eye);
+  if (behind_m < kBehind_m) return std::nullopt;
+  const double beside_m = glm::dot(way, right);
+  if (std::abs(beside_m) >= kBeside_m) return behind_m * towards_eye;
+  constexpr double kFarther = 1.1;  // than what counts as beside
+  return (beside_m + (beside_m > 0.0 ? -kFarther : kFarther) * kBeside_m) * right;
+}
+
 /// Of the ring of standard views the next one in the direction of a drag.
 const char* next_view(const Camera& camera, bool left_limb, const ImVec2& drag) {
   constexpr float kLevel_rad = 0.7f;
@@ -150,7 +162,8 @@ void Pointer::move_towards(PanelContext& context, const glm::dvec3& target_m) {
   const glm::dvec3 way = target_m - hand_m;
   const glm::dvec3 aside = way - glm::dot(way, towards_eye) * towards_eye;
   const double lift_m = std::clamp(glm::length(aside) - kNear_m, 0.0, kHighest_m);
-  const glm::dvec3 next = target_m + lift_m * towards_eye - hand_m;
+  const glm::dvec3 right(context.view.camera.right_world());
+  const glm::dvec3 next = way_round(way, towards_eye, right).value_or(way + lift_m * towards_eye);
   const double farthest_m = kHandSpeed_m_s * std::min(static_cast<double>(ImGui::GetIO().DeltaTime), 0.1);
   const double share = std::min(1.0, farthest_m / std::max(glm::length(next), 1e-9));
   const glm::dvec3 now_m = hand_m + share * next;
