@@ -148,6 +148,7 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
   view->add_option("--report-state", options.report_state,
                    "keep this JSON file up to date with what the window shows and where its controls are, for programs "
                    "that assist a person");
+  view->add_option("--replay", options.recording, "play this recording in the window; nothing goes to a device");
   bind(view, myotact::app::view);
   bind(add_run(program, options), myotact::app::run);
   bind(add_stiffness(program, options), myotact::app::stiffness);

@@ -44,7 +44,7 @@ struct Options {
   bool suite = false;                              // fidelity: every goal
   std::vector<int> goals;                          // fidelity: these goals
   bool brief = false;                              // fidelity: seconds instead of minutes
-  std::optional<std::filesystem::path> recording;  // fidelity: its path in place of the script
+  std::optional<std::filesystem::path> recording;  // to be played (view), or followed (fidelity)
   std::string truth = "steps";                     // fidelity
   std::string plant;                               // fidelity: faults to be found again; empty: none
   std::optional<std::filesystem::path> answers;    // lesson: what the scripted student answers

@@ -13,9 +13,11 @@
 
 #include "app/interruption.h"
 #include "app/options.h"
+#include "app/picture.h"
 #include "app/stage.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "scene/replay_session.h"
 #include "view/display_loss.h"
 #include "view/window.h"
 
@@ -84,11 +86,40 @@ Options options_of(const Options& given, const view::SceneWish& wish) {
   Options options = given;
   options.scene = wish.scene;
   options.record = wish.recording;
+  options.recording = wish.replay;
   if (wish.tissue.empty() && !wish.work) return options;
   std::erase_if(options.set, [](const std::string& pair) { return pair.starts_with("tissue.default="); });
   if (!wish.tissue.empty()) options.set.push_back("tissue.default=" + wish.tissue);
   return options;
 }
+
+/// A recording that is played, and nothing that could be felt.
+struct ReplayStage {
+  explicit ReplayStage(const Options& options)
+      : loaded(scene::load_recording(*options.recording, overrides_of(options))), session(loaded) {}
+
+  view::WindowSettings window_settings(const Options& options) const {
+    view::WindowSettings settings;
+    view::SceneFacts& facts = settings.facts;
+    facts.scenes = scene::built_in_scenes();
+    facts.name = loaded.scene.name;
+    const bool built_in = std::find(facts.scenes.begin(), facts.scenes.end(), facts.name) != facts.scenes.end();
+    facts.file = built_in ? facts.name : options.scene;  // to go back to
+    facts.title = "Myotact: " + options.recording->filename().string();
+    facts.joint = watched_joint(loaded.scene);
+    facts.replay_s = session.length_s();
+    return settings;
+  }
+
+  const scene::LoadedRecording loaded;
+  scene::ReplaySession session;
+};
+
+/// One of the two.
+struct Built {
+  std::unique_ptr<Stage> stage;
+  std::unique_ptr<ReplayStage> replay;
+};
 
 /// The window and what it shows: one stage that runs and, after a wish for another, the next one being built.
 class Performance {
@@ -108,7 +139,7 @@ class Performance {
     view::on_display_loss([this] {
       if (stage_) stage_->session().stop();
     });
-    while (!window_.should_close() && interruption() == 0 && (!stage_ || stage_->session().running())) {
+    while (!window_.should_close() && interruption() == 0 && runs()) {
       if (next_.valid() && next_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) change_stage();
       if (!draw(end_s)) break;
     }
@@ -116,39 +147,48 @@ class Performance {
   }
 
  private:
-  std::future<std::unique_ptr<Stage>> build(const Options& options) {
+  bool runs() const { return (!stage_ || stage_->session().running()) && (!replay_ || replay_->session.running()); }
+
+  std::future<Built> build(const Options& options) {
     building_ = options;
-    return std::async(std::launch::async, [this, options] { return std::make_unique<Stage>(options, guarded_); });
+    return std::async(std::launch::async, [this, options]() -> Built {
+      if (options.recording) return {nullptr, std::make_unique<ReplayStage>(options)};
+      return {std::make_unique<Stage>(options, guarded_), nullptr};
+    });
   }
 
-  std::future<std::unique_ptr<Stage>> begin() {
+  std::future<Built> begin() {
     if (!options_.session) return build(options_);
     work_ = view::read_work(*options_.session, scene::built_in_scenes());
     return build(options_of(options_, {work_->scene, work_->tissue, {}, work_}));
   }
 
   void change_stage() {
-    std::unique_ptr<Stage> built;
+    Built built;
     try {
       built = next_.get();
     } catch (const Error& failure) {
-      if (!stage_) throw;
+      if (!stage_ && !replay_) throw;
       spdlog::warn("{}", failure.what());
       window_.tell(failure.what());
       return;
     }
     end_session();
-    view::WindowSettings settings = built->window_settings(building_);
+    view::WindowSettings settings =
+        built.stage ? built.stage->window_settings(building_) : built.replay->window_settings(building_);
     settings.work = std::exchange(work_, std::nullopt);
-    window_.open(built->scene().specimen, settings);
-    stage_ = std::move(built);
+    window_.open(built.stage ? built.stage->scene().specimen : built.replay->loaded.scene.specimen, settings);
+    stage_ = std::move(built.stage);
+    replay_ = std::move(built.replay);
     frame_ = {};
     driven_ = false;
-    stage_->session().start();
+    if (stage_) stage_->session().start();
+    if (replay_) replay_->session.start();
     heard_ = std::chrono::steady_clock::now();
   }
 
   void end_session() {
+    if (replay_) replay_->session.stop();
     if (!stage_) return;
     if (const scene::FreeTiming timing = stage_->session().stop(); !timing.refused.empty()) {
       spdlog::warn("{}", timing.refused);
@@ -159,6 +199,7 @@ class Performance {
   bool draw(double end_s) {
     const auto since = std::chrono::steady_clock::now();
     if (stage_ && stage_->session().fetch_frame(frame_)) heard_ = since;
+    if (replay_) replay_->session.fetch_frame(frame_);
     const bool last = frame_.time_s >= end_s;
     if (last) window_.save_next_picture(options_.out / "window.png");
     if (stage_) {
@@ -166,10 +207,12 @@ class Performance {
       window_.set_news({stage_->session().recording(), next_.valid(), silence_s});
       window_.set_readings(stage_->readings(frame_, common_));
     }
+    if (replay_) window_.set_news({false, next_.valid(), 0.0});
     const view::ViewControls& controls = window_.draw(frame_);
-    if (stage_) report_.write(window_, frame_);
+    if (stage_ || replay_) report_.write(window_, frame_);
     leave_time_to_the_simulation(std::chrono::steady_clock::now() - since);
     if (stage_) lead(controls);
+    if (replay_) replay_->session.play_to(controls.replay_to_s);
     if (const auto wish = window_.take_wish(); wish && !next_.valid()) {
       work_ = wish->work;
       next_ = build(options_of(options_, *wish));
@@ -190,9 +233,10 @@ class Performance {
   Options building_;                     // of the newest stage
   std::optional<view::SavedWork> work_;  // that it is to begin with
   WindowReport report_;
-  std::unique_ptr<Stage> stage_;              // none before the first is built
-  std::future<std::unique_ptr<Stage>> next_;  // being built
-  view::Window window_;                       // after the stages: it shows their specimens
+  std::unique_ptr<Stage> stage_;         // none before the first is built, and while a recording is played
+  std::unique_ptr<ReplayStage> replay_;  // the recording that is played, if any
+  std::future<Built> next_;              // being built
+  view::Window window_;                  // after the stages: it shows their specimens
   messages::SceneFrame frame_;
   std::chrono::steady_clock::time_point heard_;  // when the newest frame came
   double common_ = 0.0;

@@ -30,6 +30,7 @@ class ToolReplay {
   /// The ticks of the last feel(), to be taken out before the next one.
   realtime::BoundedFifo<haptics::HapticTick>& ticks() noexcept { return loop_.ticks(); }
   const ForceComparison& comparison() const { return comparison_; }
+  const messages::FeltTool& felt_tool() const noexcept { return loop_.felt_tool(); }
 
  private:
   void publish(const ModelRecord& record, const simulation::Simulation& simulation);
@@ -66,6 +67,8 @@ class ForceReplay {
   ForceComparison comparison() const;
   std::size_t tool_count() const { return tools_.size(); }
   const ForceComparison& comparison(std::size_t tool) const { return tools_[tool]->comparison(); }
+  /// What one tool felt in its last tick.
+  const messages::FeltTool& felt_tool(std::size_t tool) const noexcept { return tools_[tool]->felt_tool(); }
   /// The ticks of one tool in the last feel(), to be taken out before the next one.
   realtime::BoundedFifo<haptics::HapticTick>& ticks(std::size_t tool) noexcept { return tools_[tool]->ticks(); }
 

@@ -103,6 +103,8 @@ std::string describe(const PanelContext& context, const Layout& layout, const Sh
   return Json{{"scene_name", context.facts.name},
               {"recording", context.news.recording},
               {"opening", context.news.opening},
+              {"filming", context.filming},
+              {"replay_s", context.facts.replay_s},
               {"looking_back", moment.looking_back},
               {"newest_s", moment.newest_s},
               {"picture", ImGui::GetFrameCount()},

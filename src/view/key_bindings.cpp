@@ -89,6 +89,7 @@ const std::vector<KeyBinding>& key_bindings() {
       {GLFW_KEY_Y, kCtrl, KeyAction::Redo, "keys.redo"},
       {GLFW_KEY_P, kCtrl, KeyAction::Screenshot, "keys.screenshot"},
       {GLFW_KEY_R, kCtrl, KeyAction::Record, "keys.record"},
+      {GLFW_KEY_R, kCtrl | kShift, KeyAction::Film, "keys.film"},
       {GLFW_KEY_P, kCtrl | kShift, KeyAction::SceneScreenshot, "keys.scene_screenshot"},
       {GLFW_KEY_S, kCtrl, KeyAction::SaveWork, "keys.save_work"},
       {GLFW_KEY_O, kCtrl, KeyAction::OpenWork, "keys.open_work"},

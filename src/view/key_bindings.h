@@ -37,6 +37,7 @@ enum class KeyAction {
   Screenshot,
   Record,
   SceneScreenshot,
+  Film,
   FullScreen,
   SaveWork,
   OpenWork,

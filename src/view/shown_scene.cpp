@@ -130,7 +130,9 @@ void ShownScene::obey(const WindowAsks& asks, const messages::SceneFrame& frame)
   if (asks.undo) restore(history_.undo());
   if (asks.redo) restore(history_.redo());
   if (asks.pointer_mode) pointer_.set_mode(*asks.pointer_mode);
-  if (asks.record) begin_or_end_recording();
+  if (asks.record && !replays()) begin_or_end_recording();
+  if (asks.recordings) recordings_.toggle();
+  if (asks.film) filming_.begin_or_end(facts_.name);
   if (asks.wish) wish = asks.wish;
   if (asks.write_note) find_.focus_note();
   take_marks(asks);
@@ -162,7 +164,8 @@ void ShownScene::draw_areas(PanelContext& context) {
   });
   in_area("find", layout_.find, [&] { find_.draw(context); });
   in_area("tasks", layout_.tasks, [&] { draw_tasks(context); });
-  in_area("timeline", layout_.timeline, [&] { timeline_.draw(context); });
+  in_area("timeline", layout_.timeline, [&] { replays() ? replay_.draw(context) : timeline_.draw(context); });
+  recordings_.draw(context);
   if (big_type_) draw_class_panel(context, layout_.scene);
   in_area("status", layout_.status, [&] { draw_status_bar(context); });
   news_strip_.draw(context, layout_.scene, message);
@@ -175,7 +178,8 @@ void ShownScene::draw_areas(PanelContext& context) {
 }
 
 PanelContext ShownScene::context_of(const messages::SceneFrame& frame, WindowAsks& asks) {
-  return {*specimen_, frame, facts_, readings, news, part_facts_, marks_, hovered_, state_.view, controls_, asks};
+  return {*specimen_, frame,    facts_,        readings,    news,      part_facts_,
+          marks_,     hovered_, filming_.on(), state_.view, controls_, asks};
 }
 
 void ShownScene::draw_panels(const messages::SceneFrame& now, GlfwWindow& window) {
@@ -189,13 +193,14 @@ void ShownScene::draw_panels(const messages::SceneFrame& now, GlfwWindow& window
     history_ = History(state_);
   }
   if (work_) begin_with(*std::exchange(work_, std::nullopt));
-  const messages::SceneFrame& shown = timeline_.choose(now);
+  const messages::SceneFrame& shown =
+      replays() ? replay_.choose(now, facts_.replay_s, controls_) : timeline_.choose(now);
   shown_ = &shown;
   WindowAsks asks;
-  PanelContext present = context_of(now, asks);
+  PanelContext present = context_of(replays() ? shown : now, asks);
   PanelContext seen = context_of(shown, asks);  // a past frame while the person looks back
   plots_.add(present);
-  feel_.add(now);
+  feel_.add(present.frame);
   learn_.observe(present);
   pointer_.free_orbit = settings.free_orbit;
   pointer_.preset = settings.mouse;
@@ -207,7 +212,7 @@ void ShownScene::draw_panels(const messages::SceneFrame& now, GlfwWindow& window
   }
   hold_buttons(window);
   handle_keys(asks, window);
-  if (!timeline_.looks_back() || pointer_.mode() == PointerMode::Look) {  // the past cannot be touched
+  if (!(timeline_.looks_back() || replays()) || pointer_.mode() == PointerMode::Look) {  // the past cannot be touched
     pointer_.update(seen, layout_.scene, renderer_.superficial());
   }
   menu_.draw(present);
@@ -220,7 +225,8 @@ void ShownScene::draw_panels(const messages::SceneFrame& now, GlfwWindow& window
   named.labels = named.labels || big_type_;
   overlay_.draw({*specimen_, shown, named, renderer_.superficial(), {}, SceneExtras{}.background}, layout_.scene,
                 *ImGui::GetBackgroundDrawList());
-  timeline_.draw_banner(layout_.scene);
+  timeline_.draw_past_banner(layout_.scene);
+  if (replays()) draw_banner(layout_.scene, ui::tr("keep.replaying"));
 }
 
 /// The scene's area is given in the window's pixels from the top, the framebuffer's from below.
@@ -241,6 +247,7 @@ void ShownScene::draw_limb(int width, int height) {
 }
 
 void ShownScene::take_picture(int width, int height) {
+  if (const auto told = filming_.take(viewport(width, height))) message = *told;
   if (!picture_wish_ || width <= 0 || height <= 0) return;  // of a minimised window: when it is seen again
   const bool alone = *picture_wish_ == KeyAction::SceneScreenshot && !layout_.scene.empty();
   message = save_picture_for_person(facts_.name, alone ? viewport(width, height) : Viewport{0, 0, width, height});
@@ -249,7 +256,7 @@ void ShownScene::take_picture(int width, int height) {
 
 std::string ShownScene::description(const messages::SceneFrame& now) {
   WindowAsks none;
-  return describe(context_of(timeline_.looks_back() && shown_ != nullptr ? *shown_ : now, none), layout_,
+  return describe(context_of((timeline_.looks_back() || replays()) && shown_ != nullptr ? *shown_ : now, none), layout_,
                   {timeline_.looks_back(), now.time_s});
 }
 

@@ -6,6 +6,7 @@
 #include "anatomy/part_facts.h"
 #include "anatomy/specimen.h"
 #include "messages/scene_frame.h"
+#include "view/filming.h"
 #include "view/glfw_window.h"
 #include "view/history.h"
 #include "view/key_bindings.h"
@@ -18,6 +19,8 @@
 #include "view/panels/news_strip.h"
 #include "view/panels/part_menu.h"
 #include "view/panels/plots_panel.h"
+#include "view/panels/recordings_panel.h"
+#include "view/panels/replay_panel.h"
 #include "view/panels/settings_panel.h"
 #include "view/panels/timeline_panel.h"
 #include "view/panels/tour.h"
@@ -60,10 +63,12 @@ class ShownScene {
   SessionNews news;
   std::string message;            // to be read by the person; empty: none
   std::optional<SceneWish> wish;  // of the person
-  /// Saves the picture that the person asked for, if any, from the framebuffer [pixels]; message says where.
+  /// Saves the picture that the person asked for, and those of a film, from the framebuffer [pixels]; message says
+  /// where.
   void take_picture(int width, int height);
 
  private:
+  bool replays() const { return facts_.replay_s > 0.0; }
   PanelContext context_of(const messages::SceneFrame& frame, WindowAsks& asks);
   float scene_aspect() const { return layout_.scene.empty() ? 1.0f : layout_.scene.width / layout_.scene.height; }
   void look(const Camera& camera);
@@ -116,7 +121,10 @@ class ShownScene {
   LearnPanel learn_;
   PlotsPanel plots_;
   TimelinePanel timeline_;
+  ReplayPanel replay_;  // in its place where a recording is played
+  RecordingsPanel recordings_;
   std::optional<KeyAction> picture_wish_;  // Screenshot or SceneScreenshot
+  Filming filming_;
   NewsStrip news_strip_;
   SettingsPanel settings_panel_;
   Tour tour_;

@@ -71,7 +71,7 @@ bool ShownScene::act_on_play(KeyAction action) {
       }
       return true;
     case KeyAction::StepBack:
-      timeline_.step(-1);
+      replays() ? replay_.step(-1) : timeline_.step(-1);
       return true;
     case KeyAction::Reset:
       ++controls_.resets;
@@ -120,6 +120,9 @@ void ShownScene::act(KeyAction action, WindowAsks& asks, GlfwWindow& window) {
       return;
     case KeyAction::Record:
       asks.record = true;
+      return;
+    case KeyAction::Film:
+      asks.film = true;
       return;
     case KeyAction::SaveWork:
       asks.save_work = "";

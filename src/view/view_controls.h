@@ -17,6 +17,7 @@ struct ViewControls {
   std::uint32_t resets = 0;          // resets asked for so far
   std::uint32_t shoves = 0;          // shove tests asked for so far
   std::uint32_t recording_ends = 0;  // times that a recording was to end
+  double replay_to_s = 0.0;          // of a recording: how far it is to be simulated
   bool hand_moves = false;           // the mouse is the hand now
   std::array<double, 3> hand_world_m{};
   std::uint32_t hand_buttons = 0;

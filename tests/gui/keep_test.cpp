@@ -1,3 +1,5 @@
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -67,6 +69,97 @@ TEST_F(KeepTest, TablesAndPicturesGoIntoThePersonsOwnFolder) {
   gui.key("ctrl+p");
   ASSERT_TRUE(gui.wait_until([&](const json&) { return files_below(own, ".png").size() == 1; }));
   EXPECT_GT(testing::colours_in(files_below(own, ".png")[0], {0, 0, 1280, 800}), 200);
+}
+
+/// Films for some seconds. Returns what stands in the status line then.
+std::string film_with(GuiProgram& gui) {
+  EXPECT_TRUE(gui.wait_until([](const json& state) { return state["frame"]["time_s"] > 0.5; }));
+  gui.click("keep.film");
+  EXPECT_TRUE(gui.wait_until([](const json& state) { return state["filming"] == true; }));
+  testing::pause_s(2.0);
+  gui.key("ctrl+shift+r");
+  EXPECT_TRUE(gui.wait_until([](const json& state) { return state["filming"] == false; }));
+  EXPECT_TRUE(gui.wait_until([&](const json&) { return !gui.value_of("news.message").empty(); }));
+  return gui.value_of("news.message");
+}
+
+void put_ffmpeg(const std::filesystem::path& folder, const std::string& script) {
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "ffmpeg") << "#!/bin/sh\nfor last; do :; done\n" << script << "\n";
+  std::filesystem::permissions(folder / "ffmpeg", std::filesystem::perms::owner_all);
+}
+
+TEST_F(KeepTest, AFilmGoesIntoThePersonsOwnFolder) {
+  const std::filesystem::path tools = std::filesystem::path(MYOTACT_GUI_PICTURES) / "film_tools";
+  put_ffmpeg(tools, "cat > \"$last\"");
+  GuiProgram gui("film", "elbow", "PATH=" + tools.string() + ":$PATH");
+  const std::string told = film_with(gui);
+  const auto films = files_below(gui.folder() / "home", ".mp4");
+  ASSERT_EQ(films.size(), 1u) << told;
+  EXPECT_NE(told.find(films[0].string()), std::string::npos) << told;
+  const std::array<double, 4> box = gui.state()["scene_box"];
+  const auto even = [](double length) { return static_cast<std::uintmax_t>(length) / 2 * 2; };
+  const std::uintmax_t picture = even(box[2]) * even(box[3]) * 3;
+  EXPECT_EQ(std::filesystem::file_size(films[0]) % picture, 0u);
+  EXPECT_GE(std::filesystem::file_size(films[0]) / picture, 25u);  // a second and more of what took two
+}
+
+TEST_F(KeepTest, AnFfmpegThatDiesEndsTheFilmAndNothingElse) {
+  const std::filesystem::path tools = std::filesystem::path(MYOTACT_GUI_PICTURES) / "film_dies_tools";
+  put_ffmpeg(tools, "exit 1");
+  GuiProgram gui("film_dies", "elbow", "PATH=" + tools.string() + ":$PATH");
+  gui.click("keep.film");
+  ASSERT_TRUE(gui.wait_until([&](const json&) { return !gui.value_of("news.message").empty(); }));
+  EXPECT_NE(gui.value_of("news.message").find("ffmpeg"), std::string::npos) << gui.value_of("news.message");
+  EXPECT_TRUE(files_below(gui.folder() / "home", ".mp4").empty());
+  const double then_s = gui.state()["newest_s"];
+  EXPECT_TRUE(gui.wait_until([&](const json& state) { return state["newest_s"] > then_s + 0.2; }));
+}
+
+double replayed_s(const GuiProgram& gui) {
+  const json state = gui.state();
+  return state["frame"]["time_s"];
+}
+
+TEST_F(KeepTest, ARecordingIsPlayedAgainInTheWindow) {
+  GuiProgram gui("replay", "elbow --set tissue.default=line");
+  gui.key("ctrl+r");
+  ASSERT_TRUE(gui.wait_until([](const json& s) { return s["recording"] == true && s["frame"]["time_s"] > 3.0; }));
+  const double angle_rad = gui.state()["frame"]["joints"]["elbow"]["angle_rad"];
+  gui.key("ctrl+r");
+  ASSERT_TRUE(gui.wait_until([](const json& s) { return s["recording"] == false; }));
+  gui.click("keep.recordings");
+  gui.click("keep.recording.0");
+  ASSERT_TRUE(gui.wait_until([](const json& s) { return s["replay_s"] > 2.9; }));
+  EXPECT_TRUE(gui.wait_until([&](const json&) { return replayed_s(gui) > 0.5; }));  // plays at once
+  gui.click("keep.replay_pause");
+  const double paused_s = replayed_s(gui);
+  testing::pause_s(0.5);
+  EXPECT_EQ(replayed_s(gui), paused_s);
+  gui.screenshot("paused");
+  gui.key("Left");
+  EXPECT_TRUE(gui.wait_until([&](const json&) { return replayed_s(gui) < paused_s; }));
+  gui.drag_slider("keep.replay_time", 0.2, 0.98);  // to what was not simulated yet
+  EXPECT_TRUE(gui.wait_until([&](const json&) { return replayed_s(gui) > 2.5; }));
+  const double then_rad = gui.state()["frame"]["joints"]["elbow"]["angle_rad"];
+  EXPECT_NEAR(then_rad, angle_rad, 0.2);  // of the same motion
+  gui.drag_slider("keep.replay_time", 0.98, 0.1);
+  EXPECT_TRUE(gui.wait_until([&](const json&) { return replayed_s(gui) < 1.0; }));
+  gui.click("keep.to_scene");
+  EXPECT_TRUE(gui.wait_until([](const json& s) { return s["replay_s"] == 0.0 && s["frame"]["time_s"] > 0.1; }));
+}
+
+TEST_F(KeepTest, ADamagedRecordingIsSaidAndTheSceneGoesOn) {
+  GuiProgram gui("replay_damaged", "elbow --set tissue.default=line");
+  const std::filesystem::path folder = gui.folder() / "home/data/myotact/recordings";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "foreign.myorec") << "no recording at all";
+  gui.click("keep.recordings");
+  gui.click("keep.recording.0");
+  ASSERT_TRUE(gui.wait_until([&](const json&) { return !gui.value_of("news.message").empty(); }));
+  EXPECT_NE(gui.value_of("news.message").find("is no recording"), std::string::npos);
+  const double then_s = gui.state()["newest_s"];
+  EXPECT_TRUE(gui.wait_until([&](const json& state) { return state["newest_s"] > then_s + 0.2; }));
 }
 
 }  // namespace

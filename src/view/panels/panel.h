@@ -29,6 +29,7 @@ struct SceneFacts {
   std::string tissue;                       // of all muscles, as asked for; empty: as the scene says
   std::string note;                         // what a person should know about its settings
   std::vector<double> device_peaks_N{3.3};  // of the tools' devices
+  double replay_s = 0.0;                    // length of the recording that is played; 0: the scene is simulated
   int joint = 0;                            // that is watched: co-contracted, or the first
   std::vector<Preset> presets;
   std::vector<std::string> scenes;  // that can be opened by name
@@ -43,10 +44,11 @@ struct SessionNews {
 
 /// A scene to be opened.
 struct SceneWish {
-  std::string scene;                               // name or path
-  std::string tissue;                              // "fem", "line" ...; empty: as the scene says
-  std::optional<std::filesystem::path> recording;  // file to record it to
-  std::optional<SavedWork> work = {};              // that it is to begin with
+  std::string scene;                                 // name or path
+  std::string tissue;                                // "fem", "line" ...; empty: as the scene says
+  std::optional<std::filesystem::path> recording;    // file to record it to
+  std::optional<SavedWork> work = {};                // that it is to begin with
+  std::optional<std::filesystem::path> replay = {};  // recording to be played in place of the scene
 };
 
 /// What the mouse is over the scene.
@@ -70,7 +72,7 @@ struct WindowAsks {
   bool big_type = false;                           // for a class, to begin or to end
   double co_contraction_step = 0.0;                // to be added to the common level
   bool free_orbit = false;                         // was switched on or off
-  bool record = false;                             // to begin, or to end
+  bool record = false, film = false;               // to begin, or to end
   std::optional<SceneWish> wish;                   // a scene to be opened
   std::optional<PartNote> note;                    // to be kept
   bool write_note = false;                         // about the selected part
@@ -78,6 +80,7 @@ struct WindowAsks {
   std::optional<Camera> turn_to;                   // the view to turn to
   std::optional<std::string> save_work;            // under this name; empty: the scene's
   std::optional<std::filesystem::path> open_work;  // a saved work
+  bool recordings = false;                         // their list to be shown or hidden
   bool works = false;                              // their list to be shown or hidden
   std::string message;                             // a sentence for the person to read
   Part menu_of;                                    // the menu of this part is to open under the pointer
@@ -94,6 +97,7 @@ struct PanelContext {
   const anatomy::FactsByKey& part_facts;
   const Marks& marks;      // of the person, about this specimen
   Part hovered;            // under the pointer, in the scene or in a list
+  bool filming;            // a film is being taken
   ViewState& view;         // how it is looked at
   ViewControls& controls;  // what is asked of the scene
   WindowAsks& asks;

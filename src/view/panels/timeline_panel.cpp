@@ -32,6 +32,10 @@ void TimelinePanel::draw(PanelContext& context) {
     context.asks.record = true;
   }
   ImGui::SameLine();
+  if (ui::toggle_button(context.filming ? "keep.stop_film" : "keep.film", context.filming)) context.asks.film = true;
+  ImGui::SameLine();
+  if (ui::button("keep.recordings")) context.asks.recordings = true;
+  ImGui::SameLine();
   if (ui::button("keep.step_back")) step(-1);
   ImGui::SameLine();
   if (ui::button(controls.paused ? "keep.play" : "keep.pause")) {
@@ -61,9 +65,12 @@ void TimelinePanel::draw(PanelContext& context) {
   }
 }
 
-void TimelinePanel::draw_banner(const Area& scene) const {
-  if (!looks_back() || scene.empty()) return;
-  const std::string text = ui::tr("keep.looking_back", newest_s_ - past_.time_s);
+void TimelinePanel::draw_past_banner(const Area& scene) const {
+  if (looks_back()) draw_banner(scene, ui::tr("keep.looking_back", newest_s_ - past_.time_s));
+}
+
+void draw_banner(const Area& scene, const std::string& text) {
+  if (scene.empty()) return;
   const float em = ImGui::GetFontSize();
   const float width = std::max(scene.width - 2.0f * em, em);
   const float wrap = std::min(ImGui::CalcTextSize(text.c_str()).x + em, width);

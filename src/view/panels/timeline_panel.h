@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "view/frame_history.h"
 #include "view/layout.h"
@@ -17,7 +18,7 @@ class TimelinePanel {
   const messages::SceneFrame& choose(const messages::SceneFrame& present);
   void draw(PanelContext& context);
   /// Says over the scene that this is the past.
-  void draw_banner(const Area& scene) const;
+  void draw_past_banner(const Area& scene) const;
 
   bool looks_back() const { return past_s_.has_value(); }
   /// To the frame before the one that is looked at, or after; past the newest: to the present.
@@ -30,5 +31,8 @@ class TimelinePanel {
   messages::SceneFrame past_;
   double newest_s_ = 0.0;
 };
+
+/// A sentence at the top of the scene: that it is not what happens now.
+void draw_banner(const Area& scene, const std::string& text);
 
 }  // namespace myotact::view

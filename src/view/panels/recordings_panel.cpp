@@ -1,0 +1,56 @@
+#include "view/panels/recordings_panel.h"
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "core/user_folder.h"
+#include "view/ui/controls.h"
+#include "view/ui/text.h"
+
+namespace myotact::view {
+
+std::vector<std::filesystem::path> newest_first(const std::filesystem::path& folder, const std::string& extension) {
+  std::vector<std::pair<std::filesystem::file_time_type, std::filesystem::path>> found;
+  std::error_code problem;  // of a folder or a file that is gone meanwhile: then it is not listed
+  for (std::filesystem::directory_iterator at(folder, problem), end; !problem && at != end; at.increment(problem)) {
+    std::error_code gone;
+    const auto changed = at->last_write_time(gone);
+    if (!gone && at->path().extension() == extension) found.emplace_back(changed, at->path());
+  }
+  std::sort(found.rbegin(), found.rend());
+  std::vector<std::filesystem::path> files;
+  for (auto& [changed, file] : found) files.push_back(std::move(file));
+  return files;
+}
+
+void RecordingsPanel::toggle() {
+  open_ = !open_;
+  if (open_) files_ = newest_first(user_data_folder() / "recordings", ".myorec");
+}
+
+void RecordingsPanel::draw(PanelContext& context) {
+  if (!open_) return;
+  constexpr float kWidth_em = 30.0f, kHeight_em = 18.0f;
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const float em = ImGui::GetFontSize();
+  ImGui::SetNextWindowPos(ImVec2(0.5f * display.x, 0.5f * display.y), ImGuiCond_Appearing, ImVec2(0.5f, 0.5f));
+  ImGui::SetNextWindowSize(ImVec2(kWidth_em * em, kHeight_em * em), ImGuiCond_Appearing);
+  const std::string title = fmt::format("{}###recordings", ui::tr("keep.recordings_title"));
+  if (ImGui::Begin(title.c_str(), &open_, ImGuiWindowFlags_NoCollapse)) {
+    if (files_.empty()) ui::paragraph(ui::tr("keep.no_recordings"));
+    for (std::size_t i = 0; i < files_.size(); ++i) {
+      if (ImGui::Selectable(files_[i].stem().c_str())) {
+        context.asks.wish = SceneWish{context.facts.file, context.facts.tissue, {}, {}, files_[i]};
+        open_ = false;
+      }
+      ui::note_control(fmt::format("keep.recording.{}", i).c_str(), files_[i].string());
+    }
+  }
+  ImGui::End();
+}
+
+}  // namespace myotact::view
