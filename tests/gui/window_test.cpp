@@ -84,6 +84,12 @@ TEST_F(WindowTest, AMuscleIsFoundThroughASlipIsolatedTouchedAndPulled) {
   expect_drawn(gui, "touched");
   gui.release();
   EXPECT_TRUE(gui.wait_until([](const json& s) { return !s["frame"]["tools"][0]["in_contact"]; }));
+  gui.move_to(middle[0], middle[1]);
+  gui.press();
+  EXPECT_TRUE(gui.wait_until([](const json& s) { return s["frame"]["tools"][0]["in_contact"] == true; }));
+  gui.move_to(1000.0, 600.0);  // a panel: the button is let go where the scene does not see it
+  gui.release();
+  EXPECT_TRUE(gui.wait_until([](const json& s) { return !s["frame"]["tools"][0]["in_contact"]; }));
 
   gui.click("toolbar.pull");
   gui.move_to(middle[0], middle[1]);
