@@ -22,14 +22,7 @@ std::string focused_control(const json& state) {
   return "";
 }
 
-class ComfortTest : public ::testing::Test {
- protected:
-  void SetUp() override {
-    if (const std::string missing = testing::missing_tools(); !missing.empty()) {
-      GTEST_SKIP() << "not installed:" << missing << " (packages xvfb, xdotool, imagemagick)";
-    }
-  }
-};
+class ComfortTest : public testing::GuiTest {};
 
 TEST_F(ComfortTest, AKeyIsGivenAwayAndTheMouseWorksAsInBlender) {
   GuiProgram gui("comfort", "elbow");

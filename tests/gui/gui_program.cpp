@@ -85,13 +85,13 @@ int Child::wait(double seconds) {
   return wait_for([this] { return !running(); }, seconds) ? status_ : -1;
 }
 
-std::string missing_tools() {
+void GuiTest::SetUp() {
   std::string missing;
   for (const char* tool : {"Xvfb", "xdotool", "import", "convert", "compare"}) {
     if (std::system(("command -v " + std::string(tool) + " >/dev/null").c_str()) != 0)
       missing += std::string(" ") + tool;
   }
-  return missing;
+  if (!missing.empty()) GTEST_SKIP() << "not installed:" << missing << " (packages xvfb, xdotool, imagemagick)";
 }
 
 GuiProgram::GuiProgram(const std::string& name, const std::string& arguments, const std::string& environment)

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <sys/types.h>
 
@@ -31,8 +32,11 @@ class Child {
   bool ended_ = false;
 };
 
-/// Whether the tools of these tests are installed; if not, what is missing.
-std::string missing_tools();
+/// Skips, and says what to install, where the tools of these tests are missing.
+class GuiTest : public ::testing::Test {
+ protected:
+  void SetUp() override;
+};
 
 /// The program's window on a virtual display of its own, with a home of its own, driven by a real pointer and real
 /// keys. It tells what it shows by --report-state; controls are found by their keys.

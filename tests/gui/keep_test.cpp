@@ -17,14 +17,7 @@ namespace {
 using nlohmann::json;
 using testing::GuiProgram;
 
-class KeepTest : public ::testing::Test {
- protected:
-  void SetUp() override {
-    if (const std::string missing = testing::missing_tools(); !missing.empty()) {
-      GTEST_SKIP() << "not installed:" << missing << " (packages xvfb, xdotool, imagemagick)";
-    }
-  }
-};
+class KeepTest : public testing::GuiTest {};
 
 std::vector<std::filesystem::path> files_below(const std::filesystem::path& folder, const std::string& extension) {
   std::vector<std::filesystem::path> found;

@@ -16,14 +16,7 @@ using nlohmann::json;
 using testing::GuiProgram;
 using ::testing::HasSubstr;
 
-class LearnGui : public ::testing::Test {
- protected:
-  void SetUp() override {
-    if (const std::string missing = testing::missing_tools(); !missing.empty()) {
-      GTEST_SKIP() << "not installed:" << missing << " (packages xvfb, xdotool, imagemagick)";
-    }
-  }
-};
+class LearnGui : public testing::GuiTest {};
 
 /// A folder of data with a quiz, one that is cut off, and later the results.
 std::filesystem::path data_with_quizzes() {

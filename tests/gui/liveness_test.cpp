@@ -17,12 +17,11 @@ using nlohmann::json;
 using testing::GuiProgram;
 using testing::HeldThread;
 
-class LivenessTest : public ::testing::Test {
+class LivenessTest : public testing::GuiTest {
  protected:
   void SetUp() override {
-    if (const std::string missing = testing::missing_tools(); !missing.empty()) {
-      GTEST_SKIP() << "not installed:" << missing << " (packages xvfb, xdotool, imagemagick)";
-    }
+    testing::GuiTest::SetUp();
+    if (IsSkipped()) return;
     if (const std::string why = testing::debugger_refused(); !why.empty()) {
       GTEST_SKIP() << "no thread may be stopped here (" << why << "); allow ptrace of child processes";
     }

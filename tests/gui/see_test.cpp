@@ -10,10 +10,9 @@ namespace {
 using nlohmann::json;
 using testing::GuiProgram;
 
-TEST(SeePanel, LayersNamesAndASectionAreSetAndTakenBack) {
-  if (const std::string missing = testing::missing_tools(); !missing.empty()) {
-    GTEST_SKIP() << "not installed:" << missing << " (packages xvfb, xdotool, imagemagick)";
-  }
+class SeePanel : public testing::GuiTest {};
+
+TEST_F(SeePanel, LayersNamesAndASectionAreSetAndTakenBack) {
   GuiProgram gui("see", "elbow");
   gui.click("tasks.see");
   ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.shows("see.labels"); }));

@@ -15,14 +15,7 @@ namespace {
 using nlohmann::json;
 using testing::GuiProgram;
 
-class SessionTest : public ::testing::Test {
- protected:
-  void SetUp() override {
-    if (const std::string missing = testing::missing_tools(); !missing.empty()) {
-      GTEST_SKIP() << "not installed:" << missing << " (packages xvfb, xdotool, imagemagick)";
-    }
-  }
-};
+class SessionTest : public testing::GuiTest {};
 
 /// Whether the camera's way has an end: the view is that of `wanted`, to a thousandth.
 bool looks_as(const json& view, const json& wanted) {

@@ -14,14 +14,7 @@ namespace {
 using nlohmann::json;
 using testing::GuiProgram;
 
-class WindowTest : public ::testing::Test {
- protected:
-  void SetUp() override {
-    if (const std::string missing = testing::missing_tools(); !missing.empty()) {
-      GTEST_SKIP() << "not installed:" << missing << " (packages xvfb, xdotool, imagemagick)";
-    }
-  }
-};
+class WindowTest : public testing::GuiTest {};
 
 /// The scene's part of a picture holds many colours: no blank frame passes.
 void expect_drawn(const GuiProgram& gui, const std::string& name) {
