@@ -106,6 +106,7 @@ std::string describe(const PanelContext& context, const Layout& layout, const Sh
               {"filming", context.filming},
               {"replay_s", context.facts.replay_s},
               {"looking_back", moment.looking_back},
+              {"turning", moment.turning},
               {"newest_s", moment.newest_s},
               {"picture", ImGui::GetFrameCount()},
               {"view", view_json(context.specimen, context.view)},

@@ -10,6 +10,7 @@ namespace myotact::view {
 /// Which moment a picture showed.
 struct ShownMoment {
   bool looking_back = false;
+  bool turning = false;   // on the way to another view
   double newest_s = 0.0;  // of the simulation, simulated time
 };
 

@@ -257,7 +257,7 @@ void ShownScene::take_picture(int width, int height) {
 std::string ShownScene::description(const messages::SceneFrame& now) {
   WindowAsks none;
   return describe(context_of((timeline_.looks_back() || replays()) && shown_ != nullptr ? *shown_ : now, none), layout_,
-                  {timeline_.looks_back(), now.time_s});
+                  {timeline_.looks_back(), turn_.share < 1.0f, now.time_s});
 }
 
 }  // namespace myotact::view
