@@ -3,7 +3,9 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "core/error.h"
 #include "core/file.h"
@@ -140,14 +142,18 @@ TEST(SavedWork, CharactersAreCountedNotBytes) {
   EXPECT_EQ(bytes_of_characters("aö前", 9), 6u);
 }
 
-/// With a home of its own.
+/// With a home of its own: tests run beside each other.
 struct PersonsFolder : ::testing::Test {
   PersonsFolder() {
     std::filesystem::remove_all(folder);
     setenv("XDG_DATA_HOME", folder.c_str(), 1);
   }
-  ~PersonsFolder() override { unsetenv("XDG_DATA_HOME"); }
-  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "myotact_works";
+  ~PersonsFolder() override {
+    unsetenv("XDG_DATA_HOME");
+    std::filesystem::remove_all(folder);
+  }
+  const std::filesystem::path folder =
+      std::filesystem::path(::testing::TempDir()) / fmt::format("myotact_works_{}", ::getpid());
 };
 
 TEST_F(PersonsFolder, ListsWhatWasSavedNewestFirstAndLosesNothing) {
