@@ -110,6 +110,13 @@ void write_file(const std::filesystem::path& path, std::string_view bytes) {
   }
 }
 
+std::optional<std::filesystem::path> set_aside(const std::filesystem::path& path) {
+  const std::filesystem::path aside = path.string() + ".broken";
+  std::error_code refused;
+  std::filesystem::rename(path, aside, refused);
+  return refused ? std::nullopt : std::optional(aside);
+}
+
 void make_writable_folder(const std::filesystem::path& folder) {
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -17,6 +18,10 @@ std::string read_file(const std::filesystem::path& path);
 /// Writes a temporary file beside `path`, flushes it to disk and renames it, so that nothing half-written stays behind.
 /// Throws Error InputOutput, also for a device, pipe or folder of that name, which the file would replace.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// Renames a file that cannot be used to FILE.broken, which it returns; an older one of that name is replaced. Nothing
+/// where that is refused.
+std::optional<std::filesystem::path> set_aside(const std::filesystem::path& path);
 
 /// Makes the folder and its parents, and checks that files can be made in it. Throws Error InputOutput.
 void make_writable_folder(const std::filesystem::path& folder);

@@ -19,13 +19,22 @@ std::filesystem::path folder_of(const char* variable) {
   return value == nullptr ? std::filesystem::path() : std::filesystem::path(value);
 }
 
+/// The folder that the variable names, or else that one of the home.
+std::filesystem::path own_folder(const char* variable, const std::filesystem::path& in_home) {
+  // The specification wants an absolute path, and says to ignore others.
+  if (const auto named = folder_of(variable); named.is_absolute()) return named / "myotact";
+  const auto home = folder_of("HOME");
+  return home.empty() ? home : home / in_home / "myotact";
+}
+
 }  // namespace
 
 std::filesystem::path user_data_folder() {
-  // The specification wants an absolute path, and says to ignore others.
-  if (const auto data = folder_of("XDG_DATA_HOME"); data.is_absolute()) return data / "myotact";
-  const auto home = folder_of("HOME");
-  return home.empty() ? home : home / ".local" / "share" / "myotact";
+  return own_folder("XDG_DATA_HOME", ".local/share");
+}
+
+std::filesystem::path user_config_folder() {
+  return own_folder("XDG_CONFIG_HOME", ".config");
 }
 
 std::filesystem::path new_user_path(const std::string& kind, const std::string& name, const std::string& extension) {

@@ -9,6 +9,9 @@ namespace myotact {
 /// ~/.local/share/myotact in its place. Empty without a home.
 std::filesystem::path user_data_folder();
 
+/// Where settings lie: $XDG_CONFIG_HOME/myotact, or ~/.config/myotact in its place. Empty without a home.
+std::filesystem::path user_config_folder();
+
 /// A path of that folder's folder `kind` that is not taken yet, by local time, without blanks:
 /// "KIND/NAME_2026-03-01_14.05.09". Makes the folder. Throws Error InputOutput where nothing can be written, or without
 /// a home.

@@ -22,6 +22,9 @@ class Pointer {
  public:
   void update(PanelContext& context, const Area& scene, const std::vector<bool>& superficial);
 
+  /// Instead of update(), while the scene that is shown cannot be touched: a tool in the tissue leaves it.
+  void rest(PanelContext& context) { let_go(context); }
+
   PointerMode mode() const { return mode_; }
   void set_mode(PointerMode mode) { mode_ = mode; }
   const Part& hovered() const { return hovered_; }
@@ -53,7 +56,7 @@ class Pointer {
   double depth_m_ = 0.002;
   double pressed_s_ = 0.0;                   // how long the left button has been down
   bool arrived_ = false;                     // Pull: the hand is at the line
-  std::optional<glm::dvec3> above_world_m_;  // Touch: where the hand goes when the button is let go elsewhere
+  std::optional<glm::dvec3> above_world_m_;  // Touch: where the hand goes when it is let go elsewhere
 };
 
 }  // namespace myotact::view

@@ -1,7 +1,6 @@
 #include "view/settings.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -9,6 +8,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/json_reader.h"
+#include "core/user_folder.h"
 #include "view/ui/text.h"
 #include "view/ui/theme.h"
 
@@ -19,19 +19,11 @@ namespace {
 constexpr int kSchema = 1;
 const std::vector<std::string> kMice = {"three_button", "trackpad", "blender"};  // as in MousePreset
 
-std::filesystem::path folder_of(const char* variable) {
-  const char* value = std::getenv(variable);
-  return value == nullptr ? std::filesystem::path() : std::filesystem::path(value);
-}
-
 }  // namespace
 
 std::filesystem::path settings_file() {
-  const std::filesystem::path own = std::filesystem::path("myotact") / "settings.json";
-  // The XDG base directory specification wants an absolute path, and says to ignore others.
-  if (const auto config = folder_of("XDG_CONFIG_HOME"); config.is_absolute()) return config / own;
-  const auto home = folder_of("HOME");
-  return home.empty() ? home : home / ".config" / own;
+  const std::filesystem::path own = user_config_folder();
+  return own.empty() ? own : own / "settings.json";
 }
 
 Settings read_settings(const std::filesystem::path& file) {
@@ -58,10 +50,9 @@ Settings settings_or_defaults(const std::filesystem::path& file, std::string& me
   try {
     return read_settings(file);
   } catch (const Error& failure) {
-    std::error_code refused;
-    const std::filesystem::path aside = file.string() + ".broken";
-    std::filesystem::rename(file, aside, refused);
-    message = ui::tr(refused ? "comfort.unusable" : "comfort.set_aside", failure.what(), aside.string());
+    const auto aside = set_aside(file);
+    message = aside ? ui::tr("comfort.set_aside", failure.what(), aside->string())
+                    : ui::tr("comfort.unusable", failure.what(), file.string() + ".broken");
     return {};
   }
 }

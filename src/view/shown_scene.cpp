@@ -214,6 +214,8 @@ void ShownScene::draw_panels(const messages::SceneFrame& now, GlfwWindow& window
   handle_keys(asks, window);
   if (!(timeline_.looks_back() || replays()) || pointer_.mode() == PointerMode::Look) {  // the past cannot be touched
     pointer_.update(seen, layout_.scene, renderer_.superficial());
+  } else {
+    pointer_.rest(present);
   }
   menu_.draw(present);
   hovered_ = pointer_.hovered() ? pointer_.hovered() : find_.hovered();

@@ -36,10 +36,14 @@ TEST(UserFolder, FollowsTheSpecification) {
   const Variable home("HOME", "/home/somebody");
   {
     const Variable data("XDG_DATA_HOME", "/elsewhere");
+    const Variable config("XDG_CONFIG_HOME", "/settings");
     EXPECT_EQ(user_data_folder(), "/elsewhere/myotact");
+    EXPECT_EQ(user_config_folder(), "/settings/myotact");
   }
   for (const char* ignored : {"relative/path", "", static_cast<const char*>(nullptr)}) {
     const Variable data("XDG_DATA_HOME", ignored);
+    const Variable config("XDG_CONFIG_HOME", ignored);
+    EXPECT_EQ(user_config_folder(), "/home/somebody/.config/myotact");
     EXPECT_EQ(user_data_folder(), "/home/somebody/.local/share/myotact");
   }
 }

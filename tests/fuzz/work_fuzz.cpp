@@ -1,18 +1,9 @@
 #include "fuzz/check.h"
-#include "support/synthetic_specimen.h"
+#include "fuzz/small_limb.h"
 #include "view/session/saved_work.h"
 
-namespace {
-
-const myotact::anatomy::Specimen& specimen() {
-  static const myotact::anatomy::Specimen kSpecimen = myotact::testing::antagonist_hinge();
-  return kSpecimen;
-}
-
-}  // namespace
-
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
-  specimen();
+  myotact::testing::small_limb();
   return 0;
 }
 
@@ -21,9 +12,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace myotact;
   testing::check_reader("f.json", [&] {
     const view::SavedWork work = view::parse_work(std::string(testing::as_text(data, size)), "f.json");
-    view::ViewState shown = view::start_view(specimen(), 1.0f);
-    view::show(work.view, specimen(), shown);
-    testing::require(shown.muscles.size() == specimen().muscles.size());
+    view::ViewState shown = view::start_view(testing::small_limb(), 1.0f);
+    view::show(work.view, testing::small_limb(), shown);
+    testing::require(shown.muscles.size() == testing::small_limb().muscles.size());
     for (const int muscle : shown.plotted_muscles) testing::require(muscle >= 0 && muscle < 2);
     testing::require(view::parse_work(view::work_text(work), "f.json") == work);
     const view::JoinedMarks both = view::joined(work.marks, work.marks);

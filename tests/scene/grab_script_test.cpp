@@ -18,12 +18,7 @@ namespace {
 Scene lifted_rod(int workers) {
   Scene scene;
   scene.name = "lifted rod";
-  scene.specimen = testing::antagonist_hinge();
-  testing::BarShape coarse;
-  coarse.cells = {4, 1, 1};
-  scene.specimen.muscles[0] = testing::bar_muscle("flexor", coarse);
-  coarse.origin_m.z() *= -1.0;
-  scene.specimen.muscles[1] = testing::bar_muscle("extensor", coarse);
+  scene.specimen = testing::coarse_antagonist_hinge();
   scene.settings.workers = workers;
   scene.joints.resize(1);
   scene.activations.assign(2, 0.0);

@@ -22,12 +22,7 @@ constexpr int kSteps = 40;
 Scene pressed_flexor() {
   Scene scene;
   scene.name = "pressed flexor";
-  scene.specimen = testing::antagonist_hinge();
-  testing::BarShape coarse;
-  coarse.cells = {4, 1, 1};
-  scene.specimen.muscles[0] = testing::bar_muscle("flexor", coarse);
-  coarse.origin_m.z() *= -1.0;
-  scene.specimen.muscles[1] = testing::bar_muscle("extensor", coarse);
+  scene.specimen = testing::coarse_antagonist_hinge();
   scene.joints.resize(1);
   scene.activations.assign(2, 0.0);
   scene.tools.resize(1);

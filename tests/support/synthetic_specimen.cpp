@@ -176,6 +176,16 @@ anatomy::Specimen antagonist_hinge() {
   return specimen;
 }
 
+anatomy::Specimen coarse_antagonist_hinge() {
+  anatomy::Specimen specimen = antagonist_hinge();
+  BarShape coarse;
+  coarse.cells = {4, 1, 1};
+  specimen.muscles[0] = bar_muscle("flexor", coarse);
+  coarse.origin_m.z() *= -1.0;
+  specimen.muscles[1] = bar_muscle("extensor", coarse);
+  return specimen;
+}
+
 anatomy::Specimen single_muscle(const BarShape& shape) {
   anatomy::Specimen specimen = hinged_bones();
   specimen.muscles = {bar_muscle("flexor", shape)};

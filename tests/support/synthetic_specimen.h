@@ -38,6 +38,9 @@ anatomy::Specimen hinged_bones();
 /// hinged_bones() with `flexor` (above the joint, z > 0) and `extensor` (below), mirror images.
 anatomy::Specimen antagonist_hinge();
 
+/// The same of four cells each, for tests that take many steps.
+anatomy::Specimen coarse_antagonist_hinge();
+
 /// hinged_bones() with one muscle: the flexor of the given shape.
 anatomy::Specimen single_muscle(const BarShape& shape);
 

@@ -34,13 +34,7 @@ void RecordingsPanel::toggle() {
 
 void RecordingsPanel::draw(PanelContext& context) {
   if (!open_) return;
-  constexpr float kWidth_em = 30.0f, kHeight_em = 18.0f;
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const float em = ImGui::GetFontSize();
-  ImGui::SetNextWindowPos(ImVec2(0.5f * display.x, 0.5f * display.y), ImGuiCond_Appearing, ImVec2(0.5f, 0.5f));
-  ImGui::SetNextWindowSize(ImVec2(kWidth_em * em, kHeight_em * em), ImGuiCond_Appearing);
-  const std::string title = fmt::format("{}###recordings", ui::tr("keep.recordings_title"));
-  if (ImGui::Begin(title.c_str(), &open_, ImGuiWindowFlags_NoCollapse)) {
+  if (ui::begin_dialog("keep.recordings_title", 30.0f, 18.0f, open_)) {
     if (files_.empty()) ui::paragraph(ui::tr("keep.no_recordings"));
     for (std::size_t i = 0; i < files_.size(); ++i) {
       if (ImGui::Selectable(files_[i].stem().c_str())) {

@@ -39,12 +39,7 @@ void WorksPanel::draw_list(PanelContext& context) {
 
 void WorksPanel::draw(PanelContext& context) {
   if (!open_) return;
-  constexpr float kWidth_em = 30.0f, kHeight_em = 22.0f;
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const float em = ImGui::GetFontSize();
-  ImGui::SetNextWindowPos(ImVec2(0.5f * display.x, 0.5f * display.y), ImGuiCond_Appearing, ImVec2(0.5f, 0.5f));
-  ImGui::SetNextWindowSize(ImVec2(kWidth_em * em, kHeight_em * em), ImGuiCond_Appearing);
-  if (ImGui::Begin(fmt::format("{}###works", ui::tr("session.title")).c_str(), &open_, ImGuiWindowFlags_NoCollapse)) {
+  if (ui::begin_dialog("session.title", 30.0f, 22.0f, open_)) {
     constexpr float kName = 0.7f;  // of the width
     ImGui::SetNextItemWidth(kName * ImGui::GetContentRegionAvail().x);
     ui::input_text("session.name", name_);
@@ -55,7 +50,7 @@ void WorksPanel::draw(PanelContext& context) {
       name_.clear();
     }
     ImGui::Separator();
-    ImGui::BeginChild("list", ImVec2(0.0f, -4.0f * em));
+    ImGui::BeginChild("list", ImVec2(0.0f, -4.0f * ImGui::GetFontSize()));
     draw_list(context);
     ImGui::EndChild();
     ImGui::Separator();

@@ -146,10 +146,9 @@ Marks marks_or_none(const std::filesystem::path& file, std::string& message) {
   try {
     return read_marks(file);
   } catch (const Error& failure) {
-    std::error_code refused;
-    const std::filesystem::path aside = file.string() + ".broken";
-    std::filesystem::rename(file, aside, refused);
-    message = ui::tr(refused ? "session.marks_unusable" : "session.marks_set_aside", failure.what(), aside.string());
+    const auto aside = set_aside(file);
+    message = aside ? ui::tr("session.marks_set_aside", failure.what(), aside->string())
+                    : ui::tr("session.marks_unusable", failure.what(), file.string() + ".broken");
     return {};
   }
 }

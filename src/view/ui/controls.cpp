@@ -146,6 +146,15 @@ void heading(const char* key) {
   ImGui::Separator();
 }
 
+bool begin_dialog(const char* title_key, float width_em, float height_em, bool& open) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const float em = ImGui::GetFontSize();
+  ImGui::SetNextWindowPos(ImVec2(0.5f * display.x, 0.5f * display.y), ImGuiCond_Appearing, ImVec2(0.5f, 0.5f));
+  ImGui::SetNextWindowSize(ImVec2(width_em * em, height_em * em), ImGuiCond_Appearing);
+  const std::string title = fmt::format("{}###{}", tr(title_key), title_key);
+  return ImGui::Begin(title.c_str(), &open, ImGuiWindowFlags_NoCollapse);
+}
+
 void bar(double share, const std::string& text) {
   paragraph(text);
   constexpr float kHeight_em = 0.45f;

@@ -39,6 +39,11 @@ void heading(const char* key);
 /// stand out from every colour. Its colour is ImGuiCol_PlotHistogram.
 void bar(double share, const std::string& text);
 
+/// A window of its own that first stands in the middle, `width_em` x `height_em` font heights large; end it with
+/// ImGui::End(), whatever is returned. False: it is folded, and needs no content. `open`: becomes false when the person
+/// closes it.
+bool begin_dialog(const char* title_key, float width_em, float height_em, bool& open);
+
 /// Enters the control just drawn into the list below, for controls that are made by hand.
 void note_control(const char* key, const std::string& value = "");
 
