@@ -1,5 +1,5 @@
 #!/bin/sh
-# Makes the embedded specimens anew: plane, plate and pad; and from the figures in assets/canine the whole fore- and hindlimb
+# Makes the embedded specimens anew: plane, plate, pad, particle and spring; and from the figures in assets/canine the whole fore- and hindlimb
 # as far as one elliptical centreline describes their muscles. The same machine gives the same bytes. meshes/canine_elbow
 # was made before neighbouring muscles were parted; tests and figures rest on it. Its lines are those that
 # `loft elbow.json` gives today. Tetrahedra and lines of meshes/canine_forelimb are of an earlier rule.

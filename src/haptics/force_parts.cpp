@@ -20,15 +20,11 @@ messages::ForceParts force_parts(const TickForces& tick) noexcept {
   const Vec3 texture_N = or_zero(tick.wanted.texture_N - strummed_N);
   const Vec3 line_N = or_zero(tick.wanted.line_N) + strummed_N;
   const Vec3 bone_N = or_zero(tick.wanted.bone_N);
+  const Vec3 tether_N = or_zero(tick.wanted.tether_N);
   const Vec3 damping_N = or_zero(tick.ports_change_N + tick.gate_damping_N);
-  const Vec3 asked_N = across_N + along_N + texture_N + line_N + bone_N + damping_N;
-  return {to_array(across_N),
-          to_array(along_N),
-          to_array(texture_N),
-          to_array(line_N),
-          to_array(bone_N),
-          to_array(damping_N),
-          to_array(tick.sent_N - asked_N)};
+  const Vec3 asked_N = across_N + along_N + texture_N + line_N + bone_N + tether_N + damping_N;
+  return {to_array(across_N), to_array(along_N),  to_array(texture_N), to_array(line_N),
+          to_array(bone_N),   to_array(tether_N), to_array(damping_N), to_array(tick.sent_N - asked_N)};
 }
 
 }  // namespace myotact::haptics

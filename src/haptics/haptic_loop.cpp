@@ -63,6 +63,8 @@ HapticLoop::HapticLoop(device::Device& device, const HapticSettings& settings)
       bone_(settings_.bone),
       plane_(settings_.contact.radius_m),
       pulling_({settings_.bone.stiffness_N_m, settings_.force_scale}),
+      stiffest_tether_N_m_(settings.limit_stiffness ? stiffness_bound(device.profile()).smallest_N_m()
+                                                    : std::numeric_limits<double>::infinity()),
       ports_(device.profile()),
       buzz_(device.profile().resolution_m),
       notice_(settings.limit_stiffness ? stiffness_notice(device.profile(), settings.contact.stiffness_N_m) : ""),
@@ -112,6 +114,8 @@ void HapticLoop::tick(std::uint64_t now_ns) noexcept {
     const Vec3 line_N =
         line_.tick(line, {goal.position_m, goal.velocity_m_s, (buttons & messages::kGrabButton) != 0}, dt_s_);
     felt.line_N = settings_.force_scale * line_N;
+    tether_ = tether_spring(now_ns);
+    felt.tether_N = tether_.force_N(goal.position_m);
     forces_.wanted = felt;
     felt = make_passive(felt, goal);
     forces_.ports_change_N = felt.sum_N() - forces_.wanted.sum_N();
@@ -157,6 +161,12 @@ Vec3 HapticLoop::bone_force_N(const ProxyGoal& goal, std::uint32_t buttons, bool
     held_ = held_by(bone_);
   }
   return force_N;
+}
+
+TetherSpring HapticLoop::tether_spring(std::uint64_t now_ns) const noexcept {
+  if (model_ == nullptr || !(model_->tether.stiffness_N_m > 0.0)) return {};
+  const double wanted_N_m = settings_.force_scale * model_->tether.stiffness_N_m;
+  return {tether_anchor_m(*model_, now_ns), std::min(wanted_N_m, stiffest_tether_N_m_), gate_.limit_N()};
 }
 
 bool HapticLoop::goes_by_reports() const noexcept {
@@ -260,6 +270,7 @@ PortForces HapticLoop::make_passive(const PortForces& felt, const ProxyGoal& goa
   tick.body_stiffness_N_m = settings_.force_scale * held_.stiffness_N_m;
   tick.body_point_m = held_.target_m;
   if (tick.body_stiffness_N_m > 0.0) tick.body_point_m += felt.bone_N / tick.body_stiffness_N_m;
+  tick.tether = tether_;
   const PortForces passive = ports_.admit(tick);
   if (ports_.missing_J() > kTold_J) faults_ |= bit(Fault::EnergyInjected);
   return passive;

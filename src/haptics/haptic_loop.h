@@ -18,6 +18,7 @@
 #include "haptics/moving_surface.h"
 #include "haptics/muscle_line_drag.h"
 #include "haptics/proxy.h"
+#include "haptics/tether.h"
 #include "haptics/texture.h"
 #include "messages/felt_tool.h"
 #include "messages/local_model.h"
@@ -63,7 +64,7 @@ Vec3 coupling_force_N(const Proxy& proxy, const ProxyGoal& device, const Contact
 
 /// One tool, once a millisecond: reads the device and the newest model, computes, gates and writes in the same tick.
 ///
-///   device.read --> [proxy, friction, coupling] + [texture] + [muscle line, bone] --> [ports] --> [force gate]
+///   device.read --> [proxy, friction, coupling] + [texture] + [muscle line, bone, tether] --> [ports] --> [force gate]
 ///        models() newest --^                          device.write, tool_states() newest, ticks() all <--'
 ///
 /// Whoever calls tick() owns the clock: a virtual one in lockstep, HapticThread's when it runs free.
@@ -106,6 +107,7 @@ class HapticLoop {
   Vec3 reported_force_N(const Vec3& tool_m, bool is_new) noexcept;
   WayOut reported_way_out(const Vec3& tool_m) const noexcept;
   bool goes_by_reports() const noexcept;
+  TetherSpring tether_spring(std::uint64_t now_ns) const noexcept;
   Vec3 bone_force_N(const ProxyGoal& goal, std::uint32_t buttons, bool is_new) noexcept;
   void soften(const Vec3& device_m) noexcept;
   double contact_share() const noexcept;
@@ -151,6 +153,8 @@ class HapticLoop {
   WayOut way_out_;                        // of the reported contacts; bears: a model is in use
   Vec3 reported_moved_m_ = Vec3::Zero();  // by the report of this tick, as work on the way before it
   HeldBone held_;
+  double stiffest_tether_N_m_;  // that the device bears
+  TetherSpring tether_;
   HapticPorts ports_;
   BuzzDetector buzz_;
   double age_share_ = 1.0;  // of the contact's stiffness, that the age of the model leaves

@@ -52,7 +52,8 @@ HapticPorts::HapticPorts(const device::DeviceProfile& profile, const PortSetting
       contact_(settings),
       texture_(settings),
       line_(settings),
-      bone_(settings) {}
+      bone_(settings),
+      tether_(settings) {}
 
 /// A hand that closes on a taut line, or on the move, finds energy in it that nobody here put in.
 void HapticPorts::find(EnergyPort& port, double energy_J) noexcept {
@@ -130,6 +131,30 @@ PortTick HapticPorts::bone_tick(const PortsTick& tick) noexcept {
   return port;
 }
 
+/// First the hand moves, then the anchor. What the second does to the spring's energy is work on its end: the port
+/// knows it as force times motion, and is credited with what a finite motion adds to that.
+PortTick HapticPorts::tether_tick(const PortsTick& tick) noexcept {
+  PortTick port;
+  port.wanted_N = tick.wanted.tether_N;
+  port.stored_J = tick.tether.energy_J(tick.hand_m);
+  const double kept_J = tether_spring_.energy_J(tick.hand_m);
+  port.spring_gave_J = tether_stored_J_ - kept_J;
+  port.friction_J = friction_J(profile_, moved_m_.norm(), tick.dt_s);
+  TetherSpring moved = tether_spring_;
+  if (moved.stiffness_N_m > 0.0) {
+    moved.anchor_m = tick.tether.anchor_m;
+    port.environment_moved_m = moved.anchor_m - tether_spring_.anchor_m;
+  }
+  const double moved_J = moved.energy_J(tick.hand_m);
+  tether_.credit(moved_J - kept_J - tether_wanted_N_.dot(port.environment_moved_m));
+  find(tether_, std::max(0.0, port.stored_J - moved_J));
+  port.opens = tick.tether.stiffness_N_m < tether_spring_.stiffness_N_m;
+  tether_spring_ = tick.tether;
+  tether_wanted_N_ = port.wanted_N;
+  tether_stored_J_ = port.stored_J;
+  return port;
+}
+
 Vec3 HapticPorts::admit(EnergyPort& port, PortTick tick, const PortsTick& all) noexcept {
   tick.hand_moved_m = moved_m_;
   tick.dt_s = all.dt_s;
@@ -150,6 +175,7 @@ PortForces HapticPorts::admit(const PortsTick& tick) noexcept {
   asked.texture_N = admit(texture_, texture_tick(tick), tick);
   asked.line_N = admit(line_, line_tick(tick), tick);
   asked.bone_N = admit(bone_, bone_tick(tick), tick);
+  asked.tether_N = admit(tether_, tether_tick(tick), tick);
   asked_N_ = asked.sum_N();
   return asked;
 }
@@ -157,15 +183,17 @@ PortForces HapticPorts::admit(const PortsTick& tick) noexcept {
 void HapticPorts::book(const Vec3& sent_N) noexcept {
   const double asked_N2 = asked_N_.squaredNorm();
   const double share = asked_N2 > 0.0 ? std::clamp(sent_N.dot(asked_N_) / asked_N2, 0.0, 1.0) : 0.0;
-  for (EnergyPort* port : {&contact_, &texture_, &line_, &bone_}) port->book(share);
+  for (EnergyPort* port : {&contact_, &texture_, &line_, &bone_, &tether_}) port->book(share);
 }
 
 double HapticPorts::missing_J() const noexcept {
-  return std::max({contact_.missing_J(), texture_.missing_J(), line_.missing_J(), bone_.missing_J()});
+  return std::max(
+      {contact_.missing_J(), texture_.missing_J(), line_.missing_J(), bone_.missing_J(), tether_.missing_J()});
 }
 
 double HapticPorts::damping_Ns_m() const noexcept {
-  return contact_.damping_Ns_m() + texture_.damping_Ns_m() + line_.damping_Ns_m() + bone_.damping_Ns_m();
+  return contact_.damping_Ns_m() + texture_.damping_Ns_m() + line_.damping_Ns_m() + bone_.damping_Ns_m() +
+         tether_.damping_Ns_m();
 }
 
 }  // namespace myotact::haptics

@@ -5,6 +5,7 @@
 #include "core/vector.h"
 #include "device/device.h"
 #include "haptics/energy_port.h"
+#include "haptics/tether.h"
 #include "messages/local_model.h"
 
 namespace myotact::haptics {
@@ -15,8 +16,9 @@ struct PortForces {
   Vec3 texture_N = Vec3::Zero();
   Vec3 line_N = Vec3::Zero();
   Vec3 bone_N = Vec3::Zero();
+  Vec3 tether_N = Vec3::Zero();
 
-  Vec3 sum_N() const { return contact_N + texture_N + line_N + bone_N; }
+  Vec3 sum_N() const { return contact_N + texture_N + line_N + bone_N + tether_N; }
 };
 
 /// What the ports must know of the tick beside the forces.
@@ -33,6 +35,7 @@ struct PortsTick {
   std::int32_t body = -1;                     // in hand
   Vec3 body_point_m = Vec3::Zero();           // its point in hand
   double body_stiffness_N_m = 0.0;            // of the grip, felt
+  TetherSpring tether;
 };
 
 /// One observer of energy for each effect, side by side: none can spend what another took.
@@ -42,6 +45,7 @@ struct PortsTick {
 ///   line     string to the ends of a muscle line; the muscle changes its tension. By its potential: no bound on its
 ///            stiffness has used up the device's friction yet, as those of contact and bone have
 ///   bone     spring between hand and a point of a bone, which moves
+///   tether   spring between hand and a place of the scene, which moves. By its potential, as the line
 ///
 /// Together they damp no more than the device bears. Real-time safe; one thread.
 class HapticPorts {
@@ -54,7 +58,7 @@ class HapticPorts {
   void book(const Vec3& sent_N) noexcept;
 
   double damping_Ns_m() const noexcept;                 // added in the last tick, all ports
-  double found_J() const noexcept { return found_J_; }  // stored in lines and grips when the hand closed, so far
+  double found_J() const noexcept { return found_J_; }  // stored in lines, grips and tethers as they began, so far
   double missing_J() const noexcept;                    // what came out and should not have, in the worst port
   const EnergyPort& texture() const noexcept { return texture_; }
 
@@ -64,11 +68,12 @@ class HapticPorts {
   PortTick texture_tick(const PortsTick& tick) noexcept;
   PortTick line_tick(const PortsTick& tick) noexcept;
   PortTick bone_tick(const PortsTick& tick) noexcept;
+  PortTick tether_tick(const PortsTick& tick) noexcept;
   Vec3 admit(EnergyPort& port, PortTick tick, const PortsTick& all) noexcept;
 
   device::DeviceProfile profile_;
   double damping_share_;
-  EnergyPort contact_, texture_, line_, bone_;
+  EnergyPort contact_, texture_, line_, bone_, tether_;
   double texture_held_J_ = 0.0;
   Vec3 hand_m_ = Vec3::Zero();
   bool knows_hand_ = false;
@@ -84,6 +89,9 @@ class HapticPorts {
   Vec3 body_point_m_ = Vec3::Zero();
   double body_stiffness_N_m_ = 0.0;
   Vec3 body_offset_m_ = Vec3::Zero();  // from point to hand when it closed
+  TetherSpring tether_spring_;         // of the last tick
+  Vec3 tether_wanted_N_ = Vec3::Zero();
+  double tether_stored_J_ = 0.0;
 };
 
 /// Energy in the string of a line in hand, unscaled, against the hand resting on its straight way [J].

@@ -82,6 +82,11 @@ bool is_sound(const messages::ReportedContacts& reported) {
   return is_place(reported.tool_world_m);
 }
 
+bool is_sound(const messages::LocalTether& tether) {
+  return std::isfinite(tether.stiffness_N_m) && is_place(tether.anchor_world_m) &&
+         to_vec3(tether.anchor_velocity_world_m_s).allFinite();
+}
+
 }  // namespace
 
 bool is_sound(const messages::LocalModel& model) noexcept {
@@ -97,7 +102,7 @@ bool is_sound(const messages::LocalModel& model) noexcept {
   const auto is_finite = [](double x) { return std::isfinite(x); };
   const messages::LocalContact& contact = model.contact;
   if (!all_finite(contact.compliance_m_N) || !to_vec3(contact.force_world_N).allFinite()) return false;
-  if (!is_sound(model.grip) || !is_sound(model.reported)) return false;
+  if (!is_sound(model.grip) || !is_sound(model.reported) || !is_sound(model.tether)) return false;
   const messages::LocalLine& line = model.line;
   const bool line_is_finite = is_finite(line.tension_N) && is_finite(line.length_m) && is_finite(line.stiffness_N_m) &&
                               is_finite(line.damping_Ns_m) && is_place(line.proximal_point_world_m) &&

@@ -78,6 +78,15 @@ struct LocalGrip {
   std::array<double, 9> damping_1_s{};
 };
 
+/// A spring between the hand and a place that the simulation moves; the hand feels
+///
+///   force = stiffness (anchor - hand)
+struct LocalTether {
+  double stiffness_N_m = 0.0;              // > 0; 0: no tether
+  std::array<double, 3> anchor_world_m{};  // it and its rate at published_at
+  std::array<double, 3> anchor_velocity_world_m_s{};
+};
+
 /// What a place of a surface is made of, for how it feels.
 enum class Tissue : std::int32_t { Muscle, Tendon, Fascia, Bone, Fat, Skin };
 
@@ -116,6 +125,7 @@ struct LocalModel {
   LocalLine line{};
   LocalGrip grip{};
   LocalJoint joint{};
+  LocalTether tether{};
 };
 
 static_assert(std::is_trivially_copyable_v<LocalModel>);

@@ -17,6 +17,7 @@ struct ForceParts {
   std::array<double, 3> texture{};
   std::array<double, 3> line{};     // of the muscle line in hand, or strummed
   std::array<double, 3> bone{};     // in hand
+  std::array<double, 3> tether{};   // spring between the hand and a place of the scene
   std::array<double, 3> damping{};  // what keeps the loop passive
   std::array<double, 3> limits{};   // what ramp, fade, clamp and slew limit of the gate change
 };
@@ -71,7 +72,7 @@ struct RateFrame {
   double simulation_hz = 0.0;
   double haptic_hz = 0.0;
   std::uint64_t missed_ticks = 0;  // since the start
-  double time_factor = 1.0;  // simulated seconds a second
+  double time_factor = 1.0;        // simulated seconds a second
 };
 
 /// A drawable snapshot of the scene. Vectors are sized once and filled in place; order as in the specimen.
@@ -80,13 +81,14 @@ struct SceneFrame {
   double time_s = 0.0;
   double residual_share = 0.0;                     // out-of-balance force of the last step over the size of the forces
   std::vector<std::array<double, 12>> body_poses;  // X_WB, row-major 3x4, bodies
-  std::vector<std::vector<std::array<float, 3>>> skins_world_m;   // muscles x skin vertices
-  std::vector<double> activations;                                // muscles, 0 .. 1
-  std::vector<double> tensions_N;                                 // muscles
-  std::vector<double> stretches;                                  // muscles, fibre length over optimal, mean
-  std::vector<double> volume_ratios;                              // muscles, volume now over rest
-  std::vector<double> smallest_volume_ratios;                     // muscles, over the integration points
-  std::vector<std::vector<std::array<double, 3>>> lines_world_m;  // muscles x line points
+  std::vector<std::vector<std::array<float, 3>>> skins_world_m;       // muscles x skin vertices
+  std::vector<double> activations;                                    // muscles, 0 .. 1
+  std::vector<double> tensions_N;                                     // muscles
+  std::vector<double> stretches;                                      // muscles, fibre length over optimal, mean
+  std::vector<double> volume_ratios;                                  // muscles, volume now over rest
+  std::vector<double> smallest_volume_ratios;                         // muscles, over the integration points
+  std::vector<std::vector<std::array<double, 3>>> lines_world_m;      // muscles x line points
+  std::vector<std::array<std::array<double, 3>, 2>> springs_world_m;  // drawn between two places, beside the muscles
   std::vector<JointFrame> joints;
   std::vector<ToolFrame> tools;
   RateFrame rates;

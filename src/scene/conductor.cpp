@@ -45,6 +45,7 @@ std::vector<double> start_angles(const Scene& scene) {
 }  // namespace
 
 Vec3 start_of_hand(const Scene& scene, std::size_t tool) {
+  if (scene.settings.tether) return simulation::tether_start_m(*scene.settings.tether);
   const anatomy::Specimen& specimen = scene.specimen;
   const double side = specimen.side == "right" ? -1.0 : 1.0;
   const Vec3 start_m = specimen.muscles.empty() ? above_bones(specimen) : beside_muscles(specimen, side);
@@ -222,6 +223,10 @@ std::string Conductor::notice() const {
   if (!starts_at_rest_ || measured_torques_.unsettled_level) {
     return "the tissue came to no complete rest in the starting posture, so that the balance is rough; start nearer to "
            "the specimen's own posture, or without contact";
+  }
+  if (simulation_->particle_lost()) {
+    return "the particle flew away: explicit integration gains energy in every step of its swing; choose \"implicit\", "
+           "or a smaller dt_s, and reset";
   }
   if (const int muscle = simulation_->stuck_line(); muscle >= 0) {
     return "the line of " + scene_->specimen.muscles[static_cast<std::size_t>(muscle)].key +

@@ -87,7 +87,7 @@ class Conductor {
 };
 
 /// Where the hand of a tool begins: beside the limb, out of reach of every muscle; two hands 0.16 m apart, the left one
-/// on the left of a person who looks at the limb from its lateral side.
+/// on the left of a person who looks at the limb from its lateral side. On a tether, where nothing pulls.
 Vec3 start_of_hand(const Scene& scene, std::size_t tool);
 
 /// Tells the simulation what a step's record says.

@@ -11,6 +11,7 @@ void hold_still(messages::LocalModel& model) {
   model.previous_world_m = model.current_world_m;
   model.grip.velocity_world_m_s = model.grip.acceleration_world_m_s2 = {};
   model.grip.mobility_1_kg = {};
+  model.tether.anchor_velocity_world_m_s = {};
 }
 
 }  // namespace

@@ -20,15 +20,6 @@ const anatomy::MuscleLine& line_of(const anatomy::Specimen& specimen, int muscle
                        [&](const anatomy::MuscleLine& line) { return line.muscle == muscle; });
 }
 
-/// FNV-1a over the bytes of numbers.
-void add_to_hash(std::span<const double> values, std::uint64_t& hash) {
-  for (double value : values) {
-    std::array<unsigned char, sizeof(double)> bytes;
-    std::memcpy(bytes.data(), &value, sizeof(double));
-    for (unsigned char byte : bytes) hash = (hash ^ byte) * 1099511628211ull;
-  }
-}
-
 std::span<const double> as_span(const Eigen::VectorXd& v) {
   return {v.data(), static_cast<std::size_t>(v.size())};
 }
@@ -190,6 +181,14 @@ void return_to_file_pose(Limb& limb) {
     if (!muscle.line) continue;
     evaluate_line_tissue(limb.skeleton, {}, 0.0, *muscle.line);
     bring_to_rest(0.0, *muscle.line);
+  }
+}
+
+void add_to_hash(std::span<const double> values, std::uint64_t& hash) {
+  for (double value : values) {
+    std::array<unsigned char, sizeof(double)> bytes;
+    std::memcpy(bytes.data(), &value, sizeof(double));
+    for (unsigned char byte : bytes) hash = (hash ^ byte) * 1099511628211ull;
   }
 }
 

@@ -110,6 +110,8 @@ void evaluate_lines(Limb& limb, const TimeRule& rule);
 
 /// Equal for equal bits of everything that moves.
 std::uint64_t hash_of_state(const Limb& limb);
+/// FNV-1a over the bytes of more numbers.
+void add_to_hash(std::span<const double> values, std::uint64_t& hash);
 
 /// Copies the outcome of the last forces pass to the muscles' readouts, and the bones' loads to `limb.loads`.
 void read_out(Limb& limb);

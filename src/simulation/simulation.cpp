@@ -48,6 +48,7 @@ Simulation::Impl::Impl(const anatomy::Specimen& given, const SimulationSettings&
     lines.push_back({&*found, arc_fractions(line_points_W(*found, limb.skeleton)), geometry.length_m});
   }
   workers.run(surfaces.count(), [&](int surface) { surfaces.follow(limb, surface, true); });
+  if (settings.tether) tether.emplace(*settings.tether, specimen);
   read_out(limb);
 }
 
@@ -116,6 +117,7 @@ bool Simulation::settle(std::span<const double> joint_angles_rad, std::span<cons
   const bool settled = settle_limb(in.limb, joint_angles_rad, in.excitations, in.workers);
   refresh_stiffness(in.limb, in.workers);
   in.workers.run(in.surfaces.count(), [&](int surface) { in.surfaces.follow(in.limb, surface, true); });
+  if (in.tether) in.tether->restart();
   in.whole_steps = 0;
   return settled;
 }
@@ -149,6 +151,7 @@ void Simulation::step(std::span<const messages::ToolState> tools) {
     if (task == 0 && refreshes) refresh_muscle_stiffness(in.limb, in.limb.muscles[at(in.next_refresh)]);
   });
   if (refreshes) in.next_refresh = (in.next_refresh + 1) % static_cast<int>(in.limb.muscles.size());
+  if (in.tether) in.tether->step(tools.empty() ? nullptr : &tools.front(), dt_s);
   ++in.steps;
   std::vector<int> offered;
   for (std::size_t t = 0; t < tools.size(); ++t) {

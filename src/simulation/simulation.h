@@ -13,6 +13,7 @@
 #include "messages/scene_frame.h"
 #include "messages/tool_state.h"
 #include "simulation/hill_muscle.h"
+#include "simulation/tether.h"
 #include "simulation/tissue_model.h"
 
 namespace myotact::simulation {
@@ -24,6 +25,7 @@ struct SimulationSettings {
   std::vector<TissueModel> tissue;  // one a muscle; empty: all Fem
   Tendon tendon = Tendon::Elastic;  // of the Line muscles
   bool contact = true;  // muscles touch bones and each other; false is for speed where touch is all that counts
+  std::optional<TetherSettings> tether = {};  // then nothing else is felt
 };
 
 /// Joint stiffness K = -d(net torque)/dq at held activations, and what it is made of. All about the joint's axis.
@@ -104,6 +106,7 @@ class Simulation {
   double volume_ratio(int muscle) const;  // volume of the whole muscle over that at rest
   /// Largest out-of-balance share of a muscle after the last step: forces that nothing balances over the size of all.
   double residual_share() const;
+  bool particle_lost() const;  // it flew away (Tether::lost)
   std::uint64_t state_hash() const;
   int failed_steps() const;  // that had to be repeated in shorter parts, since construction
 

@@ -30,6 +30,7 @@ struct Simulation::Impl {
   Limb limb;
   WorkerPool workers;
   Surfaces surfaces;
+  std::optional<Tether> tether;
   std::vector<double> excitations;
   std::vector<LineRest> lines;  // one a muscle
   std::uint64_t steps = 0;
@@ -41,6 +42,7 @@ struct Simulation::Impl {
 
   double time_s() const { return static_cast<double>(steps) * settings.dt_s; }
   bool advance_in_parts(double dt_s, int halvings);
+  Pose body_pose(int body) const;
   LineGeometry line_geometry_of(int muscle) const;
   LineForce line_force_of(int muscle, const LineGeometry& geometry) const;
   /// All muscles' lines as they are now.

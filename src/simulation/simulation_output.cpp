@@ -13,6 +13,17 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
+/// With nothing to touch or to grab.
+void write_tether_alone(const messages::LocalTether& tether, messages::LocalModel& model) {
+  model.coverage_radius_m = 0.0;
+  model.vertex_count = model.triangle_count = 0;
+  model.contact = {};
+  model.line = {};
+  model.grip = {};
+  model.joint = {};
+  model.tether = tether;
+}
+
 }  // namespace
 
 void Simulation::Impl::write_contact(const messages::ToolContact& contact, int index,
@@ -80,6 +91,8 @@ void Simulation::write_local_model(const messages::ToolState& tool, messages::Lo
   model.published_at_ns = static_cast<std::uint64_t>(std::llround(in.time_s() * 1e9));
   model.dt_ns = static_cast<std::uint64_t>(std::llround(in.settings.dt_s * 1e9));
   model.tool_sequence = tool.sequence;
+  if (in.tether) return write_tether_alone(in.tether->local(), model);
+  model.tether = {};
   in.surfaces.patch().write(to_vec3(tool.proxy_position_world_m), model);
   in.write_contact(tool.contact, index, model);
   model.line = in.line_at(tool, index);
@@ -103,7 +116,7 @@ void Simulation::write_frame(messages::SceneFrame& frame) const {
   const std::size_t muscles = in.limb.muscles.size();
   frame.body_poses.resize(in.specimen.bodies.size());
   for (std::size_t b = 0; b < frame.body_poses.size(); ++b) {
-    const Pose& pose = in.limb.skeleton.body_pose(static_cast<int>(b));
+    const Pose pose = in.body_pose(static_cast<int>(b));
     for (int k = 0; k < 12; ++k) {
       const int row = k / 4, column = k % 4;
       frame.body_poses[b][at(k)] = column < 3 ? pose.rotation(row, column) : pose.translation_m[row];
@@ -133,6 +146,7 @@ void Simulation::write_frame(messages::SceneFrame& frame) const {
     frame.lines_world_m[m].resize(line.size());
     std::transform(line.begin(), line.end(), frame.lines_world_m[m].begin(), to_array);
   }
+  if (in.tether) frame.springs_world_m = in.tether->springs_world_m();
   frame.joints.resize(in.specimen.joints.size());
   for (std::size_t j = 0; j < frame.joints.size(); ++j) in.write_joint(static_cast<int>(j), lines, frame.joints[j]);
 }

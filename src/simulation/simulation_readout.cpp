@@ -112,8 +112,16 @@ int Simulation::muscle_count() const {
   return static_cast<int>(impl_->limb.muscles.size());
 }
 
+Pose Simulation::Impl::body_pose(int body) const {
+  return tether ? tether->body_pose(body) : limb.skeleton.body_pose(body);
+}
+
 Pose Simulation::body_pose(int body) const {
-  return impl_->limb.skeleton.body_pose(body);
+  return impl_->body_pose(body);
+}
+
+bool Simulation::particle_lost() const {
+  return impl_->tether && impl_->tether->lost();
 }
 
 std::span<const Vec3> Simulation::skin_world_m(int muscle) const {
@@ -155,7 +163,9 @@ double Simulation::smallest_volume_ratio(int muscle) const {
 }
 
 std::uint64_t Simulation::state_hash() const {
-  return hash_of_state(impl_->limb);
+  std::uint64_t hash = hash_of_state(impl_->limb);
+  if (impl_->tether) add_to_hash(impl_->tether->state(), hash);
+  return hash;
 }
 
 }  // namespace myotact::simulation

@@ -47,6 +47,7 @@ std::size_t FrameHistory::bytes_of(const Kept& kept) {
   }
   for (const auto& line : rest.lines_world_m)
     bytes += sizeof(std::vector<std::array<double, 3>>) + line.size() * sizeof(std::array<double, 3>);
+  bytes += rest.springs_world_m.size() * sizeof(rest.springs_world_m[0]);
   for (const messages::JointFrame& joint : rest.joints) {
     bytes += sizeof(joint) + joint.muscles.size() * sizeof(messages::MuscleJointFrame);
   }
@@ -83,6 +84,7 @@ void FrameHistory::add(const messages::SceneFrame& frame) {
   rest.volume_ratios = frame.volume_ratios;
   rest.smallest_volume_ratios = frame.smallest_volume_ratios;
   rest.lines_world_m = frame.lines_world_m;
+  rest.springs_world_m = frame.springs_world_m;
   rest.joints = frame.joints;
   rest.tools = frame.tools;
   rest.rates = frame.rates;

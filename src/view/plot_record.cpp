@@ -34,8 +34,8 @@ std::vector<double> row_of(const anatomy::Specimen& specimen, const messages::Sc
     row[PlotRecord::Force_N] += size_of(tool.force_world_N);
     const messages::ForceParts& parts = tool.parts;
     const std::array sizes_N = {size_of(parts.contact), size_of(parts.friction), size_of(parts.texture),
-                                size_of(parts.line),    size_of(parts.bone),     size_of(parts.damping),
-                                size_of(parts.limits)};
+                                size_of(parts.line),    size_of(parts.bone),     size_of(parts.tether),
+                                size_of(parts.damping), size_of(parts.limits)};
     static_assert(sizes_N.size() == PlotRecord::kForceParts);
     for (std::size_t p = 0; p < sizes_N.size(); ++p) row[PlotRecord::FirstPart_N + p] += sizes_N[p];
   }

@@ -15,7 +15,7 @@ class PlotRecord {
  public:
   static constexpr double kKept_s = 60.0;
   /// Of messages::ForceParts, in their order.
-  static constexpr std::size_t kForceParts = 7;
+  static constexpr std::size_t kForceParts = 8;
   /// Columns before the muscles' tensions.
   enum Column : std::size_t {
     Angle_deg,

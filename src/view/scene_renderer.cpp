@@ -9,6 +9,7 @@
 
 #include "view/colour_map.h"
 #include "view/posing.h"
+#include "view/spring_drawing.h"
 #include "view/tool_drawing.h"
 #include "view/visibility.h"
 
@@ -288,6 +289,7 @@ void SceneRenderer::draw_lines_and_tools(const Picture& picture) {
       add_thread(scratch_, to_glm(line[i]), to_glm(line[i + 1]), kLineRadius_m, kLine);
     }
   }
+  for (const auto& spring : picture.frame.springs_world_m) add_spring(scratch_, to_glm(spring[0]), to_glm(spring[1]));
   upload_and_draw(lines_, GL_TRIANGLES);
   scratch_.vertices.clear();
   scratch_.indices.clear();

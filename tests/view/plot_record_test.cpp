@@ -63,7 +63,7 @@ TEST(PlotRecord, ARowSaysWhatTheFrameSaid) {
   EXPECT_EQ(record.column(PlotRecord::FirstPart_N)[0], 6.0);      // contact: 5 N and 1 N
   EXPECT_EQ(record.column(PlotRecord::FirstPart_N + 1)[0], 0.0);  // friction
   EXPECT_EQ(record.column(PlotRecord::FirstPart_N + 3)[0], 0.5);  // line
-  EXPECT_EQ(record.column(PlotRecord::FirstPart_N + 6)[0], 0.25);
+  EXPECT_EQ(record.column(PlotRecord::FirstPart_N + 7)[0], 0.25);  // limits
   EXPECT_EQ(record.column(PlotRecord::tension_column(2))[0], 1.0);
 }
 

@@ -109,6 +109,34 @@ anatomy::Specimen pad() {
   return specimen;
 }
 
+/// Under a scene of which nothing is touched: it shows where down is and how large things are.
+void add_table(anatomy::Specimen& specimen) {
+  add_box(specimen, {"table", {0.16, 0.16, 0.004}, {0.0, 0.0, -0.06}, 1.0});  // fixed: its mass is without effect
+}
+
+/// The scene says where cube and particle are, and what the particle's mass is.
+anatomy::Specimen particle() {
+  constexpr double kRadius_m = 5e-3, kMass_kg = 0.2;
+  anatomy::Specimen specimen = empty_specimen("particle");
+  add_table(specimen);
+  add_box(specimen, {"cube", Vec3::Constant(0.012), Vec3::Zero(), 1.0});
+  const Vec3 middle_m{0.0, 0.0, 0.04};  // clear of the cube, as light falls on it
+  const double inertia_kg_m2 = 0.4 * kMass_kg * kRadius_m * kRadius_m;
+  specimen.bodies.push_back(
+      {"particle", kMass_kg, middle_m, {inertia_kg_m2, inertia_kg_m2, inertia_kg_m2, 0.0, 0.0, 0.0}, false});
+  anatomy::Bone ball{"particle", "particle", "particle", 2, geometry::make_ball(kRadius_m, 3)};
+  for (Vec3& x : ball.surface.positions_m) x += middle_m;
+  specimen.bones.push_back(std::move(ball));
+  return specimen;
+}
+
+anatomy::Specimen spring() {
+  anatomy::Specimen specimen = empty_specimen("spring");
+  add_table(specimen);
+  add_box(specimen, {"anchor", Vec3::Constant(0.008), Vec3::Zero(), 1.0});
+  return specimen;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -116,7 +144,7 @@ int main(int argc, char** argv) {
     start_log("info");
     if (argc != 2) throw Error(ExitStatus::Usage, "give the folder to write into, such as meshes");
     const std::filesystem::path folder = argv[1];
-    for (const anatomy::Specimen& specimen : {plane(), plate(), pad()}) {
+    for (const anatomy::Specimen& specimen : {plane(), plate(), pad(), particle(), spring()}) {
       anatomy::save_specimen(specimen, folder / specimen.name);
     }
     return 0;

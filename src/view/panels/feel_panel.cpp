@@ -64,12 +64,12 @@ struct PartOfForce {
 };
 
 /// The parts, the largest first.
-std::array<PartOfForce, 7> parts_of(const messages::ForceParts& parts) {
+std::array<PartOfForce, 8> parts_of(const messages::ForceParts& parts) {
   std::array all = {
       PartOfForce{"feel.part.contact", norm(parts.contact)}, PartOfForce{"feel.part.friction", norm(parts.friction)},
       PartOfForce{"feel.part.texture", norm(parts.texture)}, PartOfForce{"feel.part.line", norm(parts.line)},
-      PartOfForce{"feel.part.bone", norm(parts.bone)},       PartOfForce{"feel.part.damping", norm(parts.damping)},
-      PartOfForce{"feel.part.limits", norm(parts.limits)}};
+      PartOfForce{"feel.part.bone", norm(parts.bone)},       PartOfForce{"feel.part.tether", norm(parts.tether)},
+      PartOfForce{"feel.part.damping", norm(parts.damping)}, PartOfForce{"feel.part.limits", norm(parts.limits)}};
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.force_N > b.force_N; });
   return all;
 }

@@ -27,6 +27,7 @@ constexpr std::array<NamedPart, PlotRecord::kForceParts> kParts = {{{"feel.part.
                                                                     {"feel.part.texture", "texture"},
                                                                     {"feel.part.line", "line"},
                                                                     {"feel.part.bone", "bone"},
+                                                                    {"feel.part.tether", "tether"},
                                                                     {"feel.part.damping", "damping"},
                                                                     {"feel.part.limits", "limits"}}};
 
