@@ -31,7 +31,11 @@ std::uint64_t nanoseconds(double seconds) {
 }  // namespace
 
 FreeSession::Tool::Tool(const ToolSettings& settings, const ToolDevice& given)
-    : scripted(given.scripted), loop(*given.device, haptic_settings(settings)) {}
+    : scripted(given.scripted), hand(given.remote) {
+  if (given.device == nullptr) return;
+  loop = std::make_unique<haptics::HapticLoop>(*given.device, haptic_settings(settings));
+  hand = {&loop->tool_states(), &loop->models(), nullptr};
+}
 
 FreeSession::FreeSession(const Scene& scene, simulation::Simulation& simulation, std::span<const ToolDevice> devices,
                          RecordingWriter* recorder, realtime::Watchdog* watchdog)
@@ -44,10 +48,10 @@ FreeSession::FreeSession(const Scene& scene, simulation::Simulation& simulation,
       extremes_(devices.size()) {
   for (std::size_t t = 0; t < devices.size(); ++t) {
     tools_.push_back(std::make_unique<Tool>(scene.tools[t], devices[t]));
-    loops_.push_back(&tools_.back()->loop);
+    if (tools_.back()->loop) loops_.push_back(tools_.back()->loop.get());
   }
   notice_ = stiffness_notices(loops_, scene);
-  haptic_thread_.emplace(loops_, watchdog);
+  if (!loops_.empty()) haptic_thread_.emplace(loops_, watchdog);
   obeyed_.gravity = scene.settings.gravity_m_s2.norm() > 0.0;
   obeyed_.hold_posture = scene.co_contraction && scene.co_contraction->hold_posture;
 }
@@ -55,7 +59,7 @@ FreeSession::FreeSession(const Scene& scene, simulation::Simulation& simulation,
 FreeSession::~FreeSession() {
   running_ = false;
   if (thread_.joinable()) thread_.join();
-  haptic_thread_->stop();
+  if (haptic_thread_) haptic_thread_->stop();
 }
 
 void FreeSession::start() {
@@ -67,7 +71,7 @@ void FreeSession::start() {
   publish_models();
   publish_frame();
   running_ = true;
-  haptic_thread_->start();
+  if (haptic_thread_) haptic_thread_->start();
   thread_ = std::thread([this] {
     realtime::name_this_thread("simulation");
     try {
@@ -83,21 +87,22 @@ FreeTiming FreeSession::stop() {
   haptics::stop_forces(loops_, true);  // now, not after the step that is under way
   running_ = false;
   if (thread_.joinable()) thread_.join();
-  haptic_thread_->stop();
+  if (haptic_thread_) haptic_thread_->stop();
   end_recording();
   if (failure_) std::rethrow_exception(failure_);
   FreeTiming timing;
   timing.wall_s = static_cast<double>(realtime::steady_now_ns() - started_ns_) * 1e-9;
   timing.simulated_s = simulation_->time_s();
   timing.steps = step_count_;
+  timing.step = steps_.summary();
+  timing.extremes = extremes_;
+  if (!haptic_thread_) return timing;
   timing.ticks = haptic_thread_->tick_count();
   timing.missed_ticks = haptic_thread_->missed_count();
   timing.tick = haptic_thread_->ticks().summary();
-  for (std::size_t t = 0; t < tools_.size(); ++t) timing.tool_ticks.push_back(haptic_thread_->ticks(t).summary());
+  for (std::size_t t = 0; t < loops_.size(); ++t) timing.tool_ticks.push_back(haptic_thread_->ticks(t).summary());
   timing.tick_period = haptic_thread_->periods().summary();
-  timing.step = steps_.summary();
   timing.refused = haptic_thread_->refused();
-  timing.extremes = extremes_;
   return timing;
 }
 
@@ -191,14 +196,24 @@ void FreeSession::move_scripted_hands(double time_s) {
   }
 }
 
+/// The newest that it said. A remote hand that falls silent lets go, or its last spring would pull for ever.
+messages::ToolState FreeSession::state_of(Tool& tool) {
+  constexpr std::uint64_t kSilent_ns = 100'000'000;  // the same after which a haptic loop without models gives no force
+  const bool is_new = tool.hand.states->update();
+  const messages::ToolState& state = tool.hand.states->front();
+  if (tool.loop) return state;
+  const std::uint64_t now_ns = realtime::steady_now_ns();
+  if (is_new) tool.heard_ns = now_ns;
+  return now_ns - tool.heard_ns > kSilent_ns ? messages::let_go(state) : state;
+}
+
 void FreeSession::step() {
   const double time_s = simulation_->time_s();
   conductor_.prepare_step(time_s, input_);
   move_scripted_hands(time_s);
   input_.tools.clear();
-  for (haptics::HapticLoop* loop : loops_) {
-    loop->tool_states().update();
-    input_.tools.push_back(loop->tool_states().front());
+  for (const auto& tool : tools_) {
+    input_.tools.push_back(state_of(*tool));
     layer::name_touched_triangle(*simulation_, input_.tools.back());
   }
   apply(input_, *simulation_);
@@ -213,8 +228,9 @@ void FreeSession::step() {
 
 void FreeSession::take_ticks() {
   for (std::size_t t = 0; t < tools_.size(); ++t) {
+    if (!tools_[t]->loop) continue;
     std::vector<TickRecord> ticks;
-    for (haptics::HapticTick tick; tools_[t]->loop.ticks().pop(tick);) {
+    for (haptics::HapticTick tick; tools_[t]->loop->ticks().pop(tick);) {
       if (!running_) tick.tool.faults &= ~haptics::bit(haptics::Fault::Stopped);  // the run's end is no fault
       extremes_.add_tick(t, tick);
       tools_[t]->faults.add(tick.tool.faults, realtime::steady_now_ns());
@@ -227,15 +243,29 @@ void FreeSession::take_ticks() {
 void FreeSession::publish_models() {
   const std::uint64_t step_ns = nanoseconds(scene_->settings.dt_s);
   for (std::size_t t = 0; t < tools_.size(); ++t) {
-    haptics::HapticLoop& loop = tools_[t]->loop;
-    const messages::ToolState& state = loop.tool_states().front();
+    RemoteHand& hand = tools_[t]->hand;
+    const messages::ToolState& state = hand.states->front();
     const ModelRecord model{++tools_[t]->model_sequence, realtime::steady_now_ns(), obeyed_.paused,
                             state.tool_position_world_m, 0};
     write_model(*simulation_, {state, static_cast<int>(t), model, step_ns, report_radius_m(scene_->tools[t])},
-                loop.models().back());
-    loop.models().publish();
+                hand.models->back());
+    if (hand.forces != nullptr) hand.forces->publish({step_count_, force_on_hand_N(hand.models->back(), state)});
+    hand.models->publish();
     record(t, model);
   }
+  if (on_models_) on_models_();
+}
+
+/// Of a remote hand only the force is known, not what it is made of.
+messages::FeltTool FreeSession::felt_by(const Tool& tool) {
+  if (tool.loop) {
+    tool.loop->felt().update();
+    return tool.loop->felt().front();
+  }
+  messages::FeltTool felt;
+  felt.tool = tool.hand.states->front();
+  felt.parts.contact = felt.tool.force_world_N;
+  return felt;
 }
 
 std::string FreeSession::fault_text() const {
@@ -252,11 +282,15 @@ void FreeSession::publish_frame() {
   simulation_->write_frame(frame);
   frame.tools.clear();
   for (std::size_t t = 0; t < tools_.size(); ++t) {
-    loops_[t]->felt().update();
-    frame.tools.push_back(tool_frame(loops_[t]->felt().front(), *scene_, t, *simulation_));
+    const messages::FeltTool felt = felt_by(*tools_[t]);
+    if (felt.tool.sequence > 0 || tools_[t]->loop) frame.tools.push_back(tool_frame(felt, *scene_, t, *simulation_));
   }
-  frame.rates = rates_.add(
-      {realtime::steady_now_ns(), step_count_, haptic_thread_->tick_count(), haptic_thread_->missed_count()});
+  RateMeter::Count count{realtime::steady_now_ns(), step_count_, 0, 0};
+  if (haptic_thread_) {
+    count.ticks = haptic_thread_->tick_count();
+    count.missed_ticks = haptic_thread_->missed_count();
+  }
+  frame.rates = rates_.add(count);
   frame.notice = recording_fault_.empty() ? fault_text() : recording_fault_;
   if (frame.notice.empty()) frame.notice = conductor_.notice();
   ++frame.sequence;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -23,6 +24,7 @@
 #include "scene/fault_notice.h"
 #include "scene/rate_meter.h"
 #include "scene/recording.h"
+#include "scene/remote_hand.h"
 #include "scene/scene_file.h"
 #include "simulation/simulation.h"
 
@@ -57,14 +59,16 @@ struct FreeTiming {
   Extremes extremes;
 };
 
-/// The device of one tool.
+/// The device of one tool, or the hand that it has elsewhere.
 struct ToolDevice {
   device::Device* device = nullptr;
   device::SimulatedDevice* scripted = nullptr;  // the same one when the script moves its hand, else null
+  RemoteHand remote = {};                       // in place of a device
 };
 
 /// Runs a scene on the wall clock: the haptic thread at 1 kHz, the simulation thread at its own step, the caller draws.
-/// Every tool has a device, a haptic loop and channels of its own; no lock is shared between them.
+/// Every tool has a device, a haptic loop and channels of its own; no lock is shared between them. A remote hand has
+/// its loop and device elsewhere, and here the channels alone.
 class FreeSession {
  public:
   /// `devices`: one a tool of the scene. All references must outlive the session. Throws Error.
@@ -74,6 +78,8 @@ class FreeSession {
   ~FreeSession();
 
   void start();
+  /// Before start(): what the simulation's thread calls when the models of the hands are new.
+  void on_models(std::function<void()> call) { on_models_ = std::move(call); }
   /// Forces to zero, threads joined. Rethrows what ended the simulation thread, if anything did.
   FreeTiming stop();
 
@@ -99,13 +105,17 @@ class FreeSession {
   struct Tool {
     Tool(const ToolSettings& settings, const ToolDevice& given);
     device::SimulatedDevice* scripted;
-    haptics::HapticLoop loop;
+    std::unique_ptr<haptics::HapticLoop> loop;  // none: it runs elsewhere
+    RemoteHand hand;                            // the channels of either
+    std::uint64_t heard_ns = 0;                 // when the newest state of a remote hand was taken
     std::uint64_t model_sequence = 0;
     FaultNotice faults;
   };
 
   void simulate();
   void move_scripted_hands(double time_s);
+  messages::ToolState state_of(Tool& tool);
+  static messages::FeltTool felt_by(const Tool& tool);
   void obey(const Requests& requests);
   void step();
   void publish_models();
@@ -124,9 +134,10 @@ class FreeSession {
   std::string recording_fault_;  // why it ended, if it had to
   Conductor conductor_;
   std::vector<std::unique_ptr<Tool>> tools_;  // as in the scene
-  std::vector<haptics::HapticLoop*> loops_;   // theirs
+  std::vector<haptics::HapticLoop*> loops_;   // those that run here
   std::string notice_;
-  std::optional<haptics::HapticThread> haptic_thread_;  // from the constructor on
+  std::function<void()> on_models_;
+  std::optional<haptics::HapticThread> haptic_thread_;  // from the constructor on, where loops run here
   std::thread thread_;
   std::atomic<bool> running_{false};
   std::exception_ptr failure_;

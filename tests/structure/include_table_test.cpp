@@ -32,10 +32,12 @@ const std::map<std::string, Folders> kMayInclude = {
     {"view", {"messages", "geometry", "anatomy", "learn"}},
     {"layer", {"simulation", "haptics", "device", "anatomy", "realtime", "messages", "geometry"}},
     {"scene", {"layer", "simulation", "haptics", "device", "anatomy", "realtime", "messages", "geometry"}},
+    {"remote",
+     {"net", "scene", "layer", "simulation", "haptics", "device", "anatomy", "realtime", "messages", "geometry"}},
     {"measure", {"scene", "layer", "simulation", "haptics", "device", "anatomy", "realtime", "messages", "geometry"}},
     {"app",
      {"measure", "scene", "layer", "simulation", "haptics", "device", "anatomy", "realtime", "messages", "geometry",
-      "view", "learn", "net"}},
+      "view", "learn", "net", "remote"}},
 };
 
 /// The paths between quotes after #include; system headers stand between angle brackets.

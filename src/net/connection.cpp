@@ -1,0 +1,207 @@
+#include "net/connection.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "realtime/periodic_loop.h"
+#include "realtime/real_time_thread.h"
+
+namespace myotact::net {
+
+Connection::Connection(Socket socket, std::string peer, ServerState& server)
+    : socket_(std::move(socket)),
+      peer_(std::move(peer)),
+      server_(server),
+      frames_(server.settings.most_frames_per_s),
+      controls_(server.settings.most_controls_per_s),
+      receiver_([this] { receive_all(); }) {}
+
+Connection::~Connection() {
+  shut_down();
+  receiver_.join();
+}
+
+void Connection::receive_all() {
+  realtime::name_this_thread("net receive");
+  set_patience(socket_, server_.settings.hello_wait);
+  if (admit()) {
+    set_patience(socket_, server_.settings.silence);
+    sender_ = std::thread([this] { send_all(); });
+    for (std::optional<Frame> frame = next_frame(); frame && obey(*frame);) frame = next_frame();
+    closing_ = true;
+    shut_down();
+    server_.bell.ring();
+    sender_.join();
+    spdlog::info("Client {} left.", id_.load());
+  }
+  if (hand_ >= 0) server_.hands.leave(hand_);
+  shut_down();
+  finished_ = true;
+}
+
+/// The next whole frame; nothing when the connection is at its end.
+std::optional<Frame> Connection::next_frame() {
+  for (;;) {
+    if (std::optional<Frame> frame = reader_.next()) {
+      const auto wait = frames_.take(std::chrono::steady_clock::now());
+      if (wait.count() > 0) std::this_thread::sleep_for(wait);
+      return frame;
+    }
+    if (reader_.fault() != WireFault::None) {
+      server_.count(reader_.fault());
+      refuse(ByeReason::BadFrame, describe(reader_.fault()));
+      return std::nullopt;
+    }
+    std::size_t count = 0;
+    switch (receive(socket_, reader_.room(), count)) {
+      case Received::Some:
+        reader_.filled(count);
+        break;
+      case Received::Closed:
+        return std::nullopt;
+      case Received::TimedOut:
+        server_.count(&ServerCounters::closed_silent);
+        refuse(ByeReason::Silent, "nothing came for too long; ping ten times a second");
+        return std::nullopt;
+    }
+  }
+}
+
+bool Connection::admit() {
+  const std::optional<Frame> frame = next_frame();
+  if (!frame) return false;
+  Hello hello;
+  if (frame->header.type != FrameType::Hello || !decode(frame->payload, hello)) {
+    refuse(ByeReason::BadFrame, "the first frame is to be a sound Hello");
+    return false;
+  }
+  if (hello.version != kProtocolVersion) {
+    refuse(ByeReason::Version, fmt::format("this server speaks version {} of the protocol", kProtocolVersion));
+    return false;
+  }
+  const bool teaches = server_.settings.instructor_token && is_same(*server_.settings.instructor_token, hello.token);
+  if (server_.settings.token && !teaches && !is_same(*server_.settings.token, hello.token)) {
+    refuse(ByeReason::Token, "wrong token; the server printed the right one when it started");
+    return false;
+  }
+  if (hello.role == Role::Instructor && server_.settings.instructor_token && !teaches) {
+    refuse(ByeReason::Token, "wrong token for an instructor; join as a student or with the instructor's token");
+    return false;
+  }
+  return welcome(hello);
+}
+
+bool Connection::welcome(const Hello& hello) {
+  id_ = server_.next_client++;
+  role_ = hello.role;
+  wants_ = hello.wants;
+  Welcome answer;
+  answer.client = id_;
+  answer.resume_id = hello.resume_id != 0 ? hello.resume_id : realtime::steady_now_ns();
+  if (wants_.hand && role_ != Role::Viewer) hand_ = server_.hands.take(hello.hand, answer.resume_id);
+  answer.hand = static_cast<std::int8_t>(hand_);
+  answer.role = role_;
+  answer.step_ns = server_.settings.step_ns;
+  answer.server_time_ns = realtime::steady_now_ns();
+  admitted_ = true;
+  stops_ = server_.stops;  // before the Welcome: no stop after it is missed
+  const std::string& scene = server_.settings.scene_json;
+  spdlog::info("Client connected! {} as {}{}", peer_, describe(role_),
+               hand_ >= 0 ? fmt::format(", hand {}", hand_) : std::string());
+  bool sent = write(encode(answer)) &&
+              write(FrameType::Control, 0, {reinterpret_cast<const std::uint8_t*>(scene.data()), scene.size()});
+  for (const Bytes& mesh : server_.settings.meshes) sent = sent && (!wants_.meshes || write(FrameType::Mesh, 0, mesh));
+  return sent;
+}
+
+bool Connection::obey(const Frame& frame) {
+  switch (frame.header.type) {
+    case FrameType::ToolState:
+    case FrameType::ToolContact:
+    case FrameType::ToolGrip:
+      return take_tool_frame(frame);
+    case FrameType::Ping: {
+      Pong pong;
+      pong.arrived_ns = realtime::steady_now_ns();
+      Ping ping;
+      if (!decode(frame.payload, ping)) break;
+      pong.ping_ns = ping.sent_ns;
+      pong.left_ns = realtime::steady_now_ns();
+      return write(encode(pong), true) || !closing_;
+    }
+    case FrameType::Event:
+      return take_event(frame);
+    case FrameType::Control:
+      return take_control(frame);
+    case FrameType::Bye:
+      return false;
+    default:
+      break;
+  }
+  server_.count(WireFault::Value);
+  refuse(ByeReason::BadFrame,
+         fmt::format("a frame of type {} with this content is not for a server", static_cast<int>(frame.header.type)));
+  return false;
+}
+
+bool Connection::take_tool_frame(const Frame& frame) {
+  if (!joiner_.take(frame)) {
+    server_.count(WireFault::Value);
+    refuse(ByeReason::BadFrame, "a tool state with a number out of its range");
+    return false;
+  }
+  if (frame.header.type != FrameType::ToolState) return true;
+  if (hand_ < 0) {
+    refuse(ByeReason::NoHand, "no hand of the scene is free for this client; it may watch");
+    return false;
+  }
+  const messages::ToolState& state = joiner_.state();
+  HandChannels& channels = server_.hands.channels(hand_);
+  channels.states.publish(state);
+  channels.forces.update();
+  const messages::HandForce& force = channels.forces.front();
+  spdlog::debug("force send: {} {} {}", force.force_world_N[0], force.force_world_N[1], force.force_world_N[2]);
+  write(encode(ForceAnswer{state.sequence, force.step, force.force_world_N}), true);
+  return true;
+}
+
+bool Connection::take_event(const Frame& frame) {
+  Event event;
+  if (!decode(frame.payload, event)) {
+    server_.count(WireFault::Text);
+    refuse(ByeReason::BadFrame, "an event that cannot be read");
+    return false;
+  }
+  if (event.code == EventCode::Stop) {
+    spdlog::warn("Client {} stopped all forces.", id_.load());
+    ++server_.stops;
+    server_.bell.ring();
+  }
+  return true;
+}
+
+bool Connection::take_control(const Frame& frame) {
+  const std::string text(frame.payload.begin(), frame.payload.end());
+  const auto wait = controls_.take(std::chrono::steady_clock::now());
+  if (wait.count() > 0) std::this_thread::sleep_for(wait);
+  if (role_ != Role::Instructor) {
+    return write(encode(Event{EventCode::Refused, 0, "only an instructor may change the scene"}));
+  }
+  if (!server_.ask({id_, role_, text}))
+    return write(encode(Event{EventCode::Refused, 0, "too much is asked for at once"}));
+  return true;
+}
+
+void Connection::refuse(ByeReason reason, const std::string& text) {
+  server_.count(&ServerCounters::refused);
+  complain(text);
+  write(encode(Bye{reason, text}), true);
+}
+
+void Connection::complain(const std::string& what) {
+  if (server_.is_new_complaint(what)) spdlog::warn("{}: closed: {} (told once)", peer_, what);
+}
+
+}  // namespace myotact::net

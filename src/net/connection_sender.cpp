@@ -1,0 +1,76 @@
+#include <mutex>
+#include <vector>
+
+#include <spdlog/spdlog.h>
+
+#include "net/connection.h"
+#include "net/local_model_codec.h"
+#include "realtime/periodic_loop.h"
+#include "realtime/real_time_thread.h"
+
+// The thread of a connection that sends what is new, and the one place where bytes leave.
+
+namespace myotact::net {
+
+void Connection::send_all() {
+  realtime::name_this_thread("net send");
+  constexpr std::chrono::milliseconds kLook(100);
+  std::uint64_t heard = 0;
+  while (!closing_) {
+    heard = server_.bell.wait(heard, kLook);
+    if (closing_ || send_news()) continue;
+    if (!closing_.exchange(true)) {
+      server_.count(&ServerCounters::closed_slow);
+      complain("it takes nothing of what is sent to it");
+    }
+    shut_down();
+  }
+}
+
+bool Connection::send_news() {
+  if (const std::uint32_t now = server_.stops; now != stops_) {
+    stops_ = now;
+    if (!write(encode(Event{EventCode::Stop, 0, "somebody stopped all forces"}))) return false;
+  }
+  return send_model() && send_scene();
+}
+
+bool Connection::send_model() {
+  if (hand_ < 0) return true;
+  HandChannels& channels = server_.hands.channels(hand_);
+  if (!channels.models.update()) return true;
+  encode(channels.models.front(), model_bytes_);
+  return write(FrameType::LocalModel, 0, model_bytes_);
+}
+
+bool Connection::send_scene() {
+  if (!wants_.frames) return true;
+  const std::shared_ptr<const EncodedScene> scene = server_.scene();
+  if (!scene || scene == shown_) return true;
+  const std::vector<const EncodedFrame*> frames = frames_to_send(*scene, shown_.get(), wants_);
+  for (const EncodedFrame* frame : frames) {
+    const std::uint8_t flags = frame == frames.back() ? kLastOfScene : 0;
+    if (!write(frame->type, flags, frame->payload)) return false;
+  }
+  shown_ = scene;
+  return true;
+}
+
+bool Connection::write(const SmallFrame& frame, bool may_drop) {
+  return write(frame.type, frame.flags, frame.payload(), may_drop);
+}
+
+/// Either thread. False: not sent.
+bool Connection::write(FrameType type, std::uint8_t flags, std::span<const std::uint8_t> payload, bool may_drop) {
+  const std::lock_guard lock(writing_);
+  FrameHeader header;
+  header.type = type;
+  header.flags = flags;
+  header.sequence = sequence_;
+  header.time_ns = realtime::steady_now_ns();
+  const Sent sent = send(socket_, header_bytes(header, payload), payload, may_drop, server_.settings.slow_wait);
+  if (sent == Sent::All) ++sequence_;
+  return sent == Sent::All;
+}
+
+}  // namespace myotact::net

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "net/doorbell.h"
+#include "net/hand_table.h"
+#include "net/scene_encoder.h"
+#include "net/small_frames.h"
+#include "net/token.h"
+
+namespace myotact::net {
+
+struct ServerSettings {
+  std::string scene_json;                 // told every client after its Welcome
+  std::vector<Bytes> meshes;              // payloads of Mesh frames, told after it to clients that want them
+  std::uint64_t step_ns = 0;              // of the simulation
+  std::optional<Token> token;             // admits a client; none: everybody who can reach the port
+  std::optional<Token> instructor_token;  // admits one as instructor; none: whoever is admitted may be one
+  std::size_t most_connections = 64;      // a class, its instructors and some mirrors
+  std::size_t most_waiting = 16;          // that have not said Hello yet; a new one takes the place of the oldest
+  std::chrono::milliseconds hello_wait{3000};
+  std::chrono::milliseconds silence{3000};    // clients ping ten times a second; one that is silent so long is gone
+  std::chrono::milliseconds slow_wait{2000};  // a reader that takes nothing for so long is closed
+  double most_frames_per_s = 100e3;           // of one client; what comes faster waits in its own socket
+  double most_controls_per_s = 50.0;
+};
+
+/// What a client asked for by a Control frame.
+struct ControlRequest {
+  std::uint32_t client = 0;
+  Role role = Role::Viewer;
+  std::string text;  // UTF-8
+};
+
+struct ServerCounters {
+  std::uint64_t accepted = 0, refused = 0, closed_slow = 0, closed_silent = 0, dropped_controls = 0;
+  std::array<std::uint64_t, kWireFaults> faults{};  // bad frames by kind
+};
+
+/// What the connections of a server share. Any thread but a haptic one.
+class ServerState {
+ public:
+  ServerState(const ServerSettings& settings, HandTable& hands) : settings(settings), hands(hands) {}
+
+  const ServerSettings settings;
+  HandTable& hands;
+  Doorbell bell;  // models, scene frames or a stop are new
+  std::atomic<std::uint32_t> stops{0};
+  std::atomic<std::uint32_t> next_client{1};
+
+  void show(std::shared_ptr<const EncodedScene> scene);
+  std::shared_ptr<const EncodedScene> scene() const;
+
+  /// False: too many wait to be obeyed.
+  bool ask(ControlRequest request);
+  std::optional<ControlRequest> take_request();
+
+  void count(std::uint64_t ServerCounters::*counter);
+  void count(WireFault fault);
+  ServerCounters counters() const;
+  /// True the first time that it is asked for this text: a log that thousands of bad clients cannot fill.
+  bool is_new_complaint(const std::string& text);
+
+ private:
+  mutable std::mutex mutex_;
+  std::shared_ptr<const EncodedScene> scene_;
+  std::deque<ControlRequest> requests_;
+  ServerCounters counters_;
+  std::set<std::string> complaints_;
+};
+
+}  // namespace myotact::net

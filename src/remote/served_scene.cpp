@@ -1,0 +1,120 @@
+#include "remote/served_scene.h"
+
+#include <chrono>
+#include <cmath>
+
+#include <spdlog/spdlog.h>
+
+#include "core/error.h"
+#include "realtime/real_time_thread.h"
+#include "remote/controls.h"
+#include "remote/scene_message.h"
+
+namespace myotact::remote {
+
+namespace {
+
+std::vector<std::unique_ptr<net::HandChannels>> make_channels(std::size_t count) {
+  std::vector<std::unique_ptr<net::HandChannels>> channels;
+  for (std::size_t i = 0; i < count; ++i) channels.push_back(std::make_unique<net::HandChannels>());
+  return channels;
+}
+
+std::vector<net::HandPlace> places_of(const std::vector<std::unique_ptr<net::HandChannels>>& channels,
+                                      const scene::Scene& scene) {
+  std::vector<net::HandPlace> places;
+  for (std::size_t t = 0; t < channels.size(); ++t)
+    places.push_back({channels[t].get(), scene.tools[t].hand == "left"});
+  return places;
+}
+
+std::vector<scene::ToolDevice> remote_tools(const std::vector<std::unique_ptr<net::HandChannels>>& channels) {
+  std::vector<scene::ToolDevice> tools;
+  for (const auto& hand : channels) tools.push_back({nullptr, nullptr, {&hand->states, &hand->models, &hand->forces}});
+  return tools;
+}
+
+net::ServerSettings server_settings(const scene::Scene& scene, const ServeSettings& given) {
+  net::ServerSettings settings = given.server;
+  settings.scene_json = scene_message(scene, given.seed);
+  settings.step_ns = static_cast<std::uint64_t>(std::llround(scene.settings.dt_s * 1e9));
+  return settings;
+}
+
+scene::Requests start_of(const scene::Scene& scene) {
+  scene::Requests requests;
+  requests.gravity = scene.settings.gravity_m_s2.norm() > 0.0;
+  requests.hold_posture = scene.co_contraction && scene.co_contraction->hold_posture;
+  return requests;
+}
+
+}  // namespace
+
+scene::Scene with_hands(scene::Scene scene, std::size_t hands) {
+  const std::vector<scene::ToolSettings> given = scene.tools;
+  scene.tools.resize(std::min(given.size(), hands));
+  while (scene.tools.size() < hands) {
+    scene::ToolSettings tool = given[scene.tools.size() % given.size()];
+    tool.hand = scene.tools.back().hand == "right" ? "left" : "right";
+    scene.tools.push_back(tool);
+  }
+  return scene;
+}
+
+ServedScene::ServedScene(const scene::Scene& scene, simulation::Simulation& simulation, const ServeSettings& settings,
+                         scene::RecordingWriter* recorder)
+    : channels_(make_channels(scene.tools.size())),
+      hands_(places_of(channels_, scene)),
+      session_(scene, simulation, remote_tools(channels_), recorder),
+      server_(std::make_unique<net::Server>(settings.endpoint, server_settings(scene, settings), hands_)),
+      requests_(start_of(scene)) {
+  session_.on_models([this] { server_->ring(); });
+}
+
+ServedScene::~ServedScene() {
+  closing_ = true;
+  if (encoder_.joinable()) encoder_.join();
+}
+
+void ServedScene::start() {
+  session_.start();
+  encoder_ = std::thread([this] { encode_frames(); });
+}
+
+scene::FreeTiming ServedScene::stop() {
+  closing_ = true;
+  if (encoder_.joinable()) encoder_.join();
+  return session_.stop();
+}
+
+/// As often as a screen shows them; what is between two is never encoded.
+void ServedScene::encode_frames() {
+  realtime::name_this_thread("frame encoder");
+  constexpr std::chrono::milliseconds kPeriod(33);
+  messages::SceneFrame frame;
+  while (!closing_) {
+    std::this_thread::sleep_for(kPeriod);
+    if (!session_.fetch_frame(frame)) continue;
+    time_s_ = frame.time_s;
+    server_->show(frame);
+  }
+}
+
+void ServedScene::obey() {
+  bool changed = false;
+  while (const auto request = server_->take_request()) {
+    try {
+      const std::uint32_t stops = requests_.stops;
+      add_control(request->text, requests_);
+      if (requests_.stops != stops) server_->stop_forces();
+      changed = true;
+    } catch (const Error& failure) {
+      server_->refuse(request->client, failure.what());
+    }
+  }
+  if (!changed) return;
+  session_.request(requests_);
+  requests_.levels_changed = requests_.balance_changed = false;
+}
+
+}  // namespace myotact::remote

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "net/hand_table.h"
+#include "net/server.h"
+#include "scene/free_session.h"
+#include "scene/scene_file.h"
+
+namespace myotact::remote {
+
+inline constexpr std::size_t kMostHands = 8;
+
+struct ServeSettings {
+  net::Endpoint endpoint;
+  net::ServerSettings server;  // its scene and step are filled in here
+  std::uint64_t seed = 1;
+};
+
+/// The scene with `hands` tools: those of the file, again and again, right and left hands in turn.
+scene::Scene with_hands(scene::Scene scene, std::size_t hands);
+
+/// A scene on the wall clock whose hands are clients of a server; nothing is felt here.
+///
+///   clients --ToolState--> FreeSession's simulation thread --LocalModel--> clients
+///                               '--newest frame--> [encoder thread] --> all who watch
+class ServedScene {
+ public:
+  /// Listens from now on. All references outlive it; `recorder` may be null. Throws Error.
+  ServedScene(const scene::Scene& scene, simulation::Simulation& simulation, const ServeSettings& settings,
+              scene::RecordingWriter* recorder);
+  ~ServedScene();
+
+  void start();
+  /// Rethrows what ended the simulation, if anything did.
+  scene::FreeTiming stop();
+  bool running() const { return session_.running(); }
+
+  /// One thread, many times a second: what instructors asked for goes to the simulation.
+  void obey();
+
+  net::Server& server() { return *server_; }
+  double time_s() const { return time_s_; }  // simulated
+
+ private:
+  void encode_frames();
+
+  std::vector<std::unique_ptr<net::HandChannels>> channels_;
+  net::HandTable hands_;
+  scene::FreeSession session_;
+  std::unique_ptr<net::Server> server_;
+  scene::Requests requests_;
+  std::atomic<double> time_s_{0.0};
+  std::atomic<bool> closing_{false};
+  std::thread encoder_;
+};
+
+}  // namespace myotact::remote

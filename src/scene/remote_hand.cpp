@@ -1,0 +1,30 @@
+#include "scene/remote_hand.h"
+
+#include "core/vector.h"
+
+namespace myotact::scene {
+
+namespace {
+
+/// Of the line in hand, pulled to a corner at the hand.
+Vec3 line_force_N(const messages::LocalLine& line, const Vec3& hand_m) {
+  Vec3 force_N = Vec3::Zero();
+  for (const auto& end : {line.proximal_point_world_m, line.distal_point_world_m}) {
+    const Vec3 way_m = to_vec3(end) - hand_m;
+    if (way_m.norm() > 0.0) force_N += line.tension_N / way_m.norm() * way_m;
+  }
+  return force_N;
+}
+
+}  // namespace
+
+std::array<double, 3> force_on_hand_N(const messages::LocalModel& model, const messages::ToolState& tool) {
+  const Vec3 hand_m = to_vec3(tool.tool_position_world_m);
+  Vec3 force_N = Vec3::Zero();
+  if (tool.contact.stiffness_N_m > 0.0) force_N -= to_vec3(model.contact.force_world_N);
+  if (tool.grabbed_body >= 0) force_N -= to_vec3(model.grip.force_world_N);
+  if (tool.grabbed_line >= 0 && model.line.muscle == tool.grabbed_line) force_N += line_force_N(model.line, hand_m);
+  return to_array(force_N);
+}
+
+}  // namespace myotact::scene
