@@ -220,6 +220,12 @@ void Pointer::pull(PanelContext& context, const Area& scene, const std::optional
   arrived_ = glm::distance(before_m, to_dvec3(context.controls.hand_world_m)) < 0.1 * kArrived_m;
 }
 
+void Pointer::draw_spring_out(PanelContext& context, const Area& scene) const {
+  if (camera_press_) return;
+  if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) return move_freely(scene, context.view.camera, true, context.controls);
+  if (ImGui::GetIO().MouseWheel != 0.0f) zoom_to_pointer(scene, context.view.camera);
+}
+
 void Pointer::update(PanelContext& context, const Area& scene, const std::vector<bool>& superficial) {
   const ImGuiIO& io = ImGui::GetIO();
   hovered_ = {};
@@ -236,6 +242,7 @@ void Pointer::update(PanelContext& context, const Area& scene, const std::vector
     move_freely(scene, context.view.camera, true, context.controls);
     return;
   }
+  if (mode_ != PointerMode::Look && !context.frame.springs_world_m.empty()) return draw_spring_out(context, scene);
   const std::optional<PickHit> hit = look_through(context, scene, superficial);
   if (hit) hovered_ = hit->part;
   if (hovered_ && mode_ == PointerMode::Look) {

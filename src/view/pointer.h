@@ -17,6 +17,8 @@ namespace myotact::view {
 ///   Touch  the tool follows over the limb; the left button presses it in, the wheel how deep; a drag slides
 ///   Pull   the left button takes the muscle line under the tool, a drag pulls it
 ///
+/// In a scene of springs, where nothing can be touched, a drag moves the tool in both.
+///
 /// Call between ImGui's NewFrame and Render, after the panels.
 class Pointer {
  public:
@@ -38,6 +40,7 @@ class Pointer {
   void look(PanelContext& context, const Area& scene);
   void touch(PanelContext& context, const std::optional<PickHit>& hit);
   void pull(PanelContext& context, const Area& scene, const std::optional<PickHit>& hit);
+  void draw_spring_out(PanelContext& context, const Area& scene) const;
   /// A drag that moves the camera, from its press to its release.
   struct CameraPress {
     int button = 0;

@@ -54,6 +54,7 @@ void draw_touched(const PanelContext& context, const messages::ToolFrame& tool) 
   if (tool.grabbed_body >= 0) return ui::paragraph(ui::tr("feel.holds_bone"));
   if (tool.touched_muscle >= 0)
     return ui::paragraph(ui::tr("feel.touches", name(PartKind::Muscle, tool.touched_muscle)));
+  if (!context.frame.springs_world_m.empty()) return ui::paragraph(ui::tr("feel.on_spring"));
   if (!tool.in_contact) return ui::paragraph(ui::tr("feel.touches_nothing"));
   ui::paragraph(ui::tr("feel.touches_bone", bones_of(context, tool.touched_body)));
 }
