@@ -14,8 +14,9 @@ struct HandForce {
   std::array<double, 3> force_world_N{};
 };
 
-/// The same state of a hand that touches and holds nothing.
+/// The same state of a hand that touches and holds nothing, and that nobody moves.
 inline ToolState let_go(ToolState state) noexcept {
+  state.sequence = 0;
   state.contact = {};
   state.touched_world_m = {};
   state.force_world_N = {};

@@ -114,8 +114,8 @@ void visit_tool(Cursor& cursor, Tool& tool, std::uint8_t& shape) {
   cursor.number(tool.touched_muscle);
   cursor.number(tool.touched_body);
   auto& parts = tool.parts;
-  for (auto* part :
-       {&parts.contact, &parts.friction, &parts.texture, &parts.line, &parts.bone, &parts.damping, &parts.limits}) {
+  for (auto* part : {&parts.contact, &parts.friction, &parts.texture, &parts.line, &parts.bone, &parts.tether,
+                     &parts.damping, &parts.limits}) {
     cursor.number(*part);
   }
   cursor.number(tool.line_tension_N);
@@ -136,6 +136,7 @@ void visit_frame(Cursor& cursor, Frame& frame) {
     cursor.list(*values, kNumber, number);
   }
   cursor.list(frame.lines_world_m, kLineBytes, [&](auto& line) { cursor.list(line, kPoint, number); });
+  cursor.list(frame.springs_world_m, 2 * kPoint, number);
   cursor.list(frame.joints, kJointBytes, [&](auto& joint) { visit_joint(cursor, joint); });
   cursor.number(frame.rates.simulation_hz);
   cursor.number(frame.rates.haptic_hz);

@@ -20,7 +20,7 @@ Vec3 line_force_N(const messages::LocalLine& line, const Vec3& hand_m) {
 
 std::array<double, 3> force_on_hand_N(const messages::LocalModel& model, const messages::ToolState& tool) {
   const Vec3 hand_m = to_vec3(tool.tool_position_world_m);
-  Vec3 force_N = Vec3::Zero();
+  Vec3 force_N = model.tether.stiffness_N_m * (to_vec3(model.tether.anchor_world_m) - hand_m);
   if (tool.contact.stiffness_N_m > 0.0) force_N -= to_vec3(model.contact.force_world_N);
   if (tool.grabbed_body >= 0) force_N -= to_vec3(model.grip.force_world_N);
   if (tool.grabbed_line >= 0 && model.line.muscle == tool.grabbed_line) force_N += line_force_N(model.line, hand_m);

@@ -292,10 +292,7 @@ void read_parts(JsonObject& root, Scene& scene) {
   if (const auto set = root.find("co_contraction")) scene.co_contraction = read_co_contraction(*set, scene);
   if (const auto tools = root.find("tools")) read_tools(*tools, scene);
   if (scene.tools.empty()) scene.tools.emplace_back();
-  if (const auto original = root.find("original")) {
-    scene.settings.tether = read_tether(*original);
-    if (scene.tools.size() > 1) throw original->error("is a scene for one hand; leave one of the tools out");
-  }
+  if (const auto original = root.find("original")) scene.settings.tether = read_tether(*original);
   if (const auto script = root.find("script")) scene.script = read_script(*script, scene.specimen, hands_of(scene));
 }
 

@@ -151,7 +151,7 @@ void Simulation::step(std::span<const messages::ToolState> tools) {
     if (task == 0 && refreshes) refresh_muscle_stiffness(in.limb, in.limb.muscles[at(in.next_refresh)]);
   });
   if (refreshes) in.next_refresh = (in.next_refresh + 1) % static_cast<int>(in.limb.muscles.size());
-  if (in.tether) in.tether->step(tools.empty() ? nullptr : &tools.front(), dt_s);
+  if (in.tether) in.tether->step(tools, dt_s);
   ++in.steps;
   std::vector<int> offered;
   for (std::size_t t = 0; t < tools.size(); ++t) {

@@ -53,7 +53,7 @@ Tether::Tether(const TetherSettings& settings, const anatomy::Specimen& specimen
 void Tether::restart() {
   time_s_ = 0.0;
   lost_ = false;
-  hand_m_.reset();
+  hands_m_.clear();
   state_ = {tether_start_m(settings_), Vec3::Zero()};
 }
 
@@ -62,18 +62,24 @@ Vec3 Tether::cube_m() const {
   return cube_centre_m(*settings_.particle, time_s_);
 }
 
-void Tether::step(const messages::ToolState* hand, double dt_s) {
-  hand_m_.reset();
-  if (hand != nullptr && hand->sequence > 0) hand_m_ = to_vec3(hand->tool_position_world_m);
-  if (hand_m_ && !hand_m_->allFinite()) hand_m_.reset();
+/// Equal springs to several places pull as one to their middle that is as stiff as all together.
+ParticleSprings Tether::springs() const {
+  ParticleSprings springs{settings_.particle->mass_kg, settings_.particle->cube_stiffness_N_m, 0.0, cube_m()};
+  for (const Vec3& hand_m : hands_m_) {
+    springs.second_N_m += settings_.stiffness_N_m;
+    springs.second_end_m += hand_m / static_cast<double>(hands_m_.size());
+  }
+  return springs;
+}
+
+void Tether::step(std::span<const messages::ToolState> tools, double dt_s) {
+  hands_m_.clear();
+  for (const messages::ToolState& tool : tools) {
+    const Vec3 hand_m = to_vec3(tool.tool_position_world_m);
+    if (tool.sequence > 0 && hand_m.allFinite()) hands_m_.push_back(hand_m);
+  }
   if (settings_.particle && !lost_) {
-    const ParticleSettings& particle = *settings_.particle;
-    ParticleSprings springs{particle.mass_kg, particle.cube_stiffness_N_m, 0.0, cube_m()};
-    if (hand_m_) {
-      springs.second_N_m = settings_.stiffness_N_m;
-      springs.second_end_m = *hand_m_;
-    }
-    state_ = step_particle(state_, springs, particle.integration, dt_s);
+    state_ = step_particle(state_, springs(), settings_.particle->integration, dt_s);
     lost_ = !(state_.position_m.norm() < kFarthest_m);
   }
   time_s_ += dt_s;
@@ -94,7 +100,7 @@ std::vector<std::array<std::array<double, 3>, 2>> Tether::springs_world_m() cons
   std::vector<std::array<std::array<double, 3>, 2>> springs;
   if (lost_) return springs;
   if (settings_.particle) springs.push_back({to_array(cube_m()), to_array(state_.position_m)});
-  if (hand_m_) springs.push_back({to_array(state_.position_m), to_array(*hand_m_)});
+  for (const Vec3& hand_m : hands_m_) springs.push_back({to_array(state_.position_m), to_array(hand_m)});
   return springs;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "anatomy/specimen.h"
@@ -12,9 +13,10 @@
 
 namespace myotact::simulation {
 
-/// A particle between a cube at x1 and the hand at x2 (particle.h). Mass, stiffness and scale were not published. With
-/// the hand's spring as stiff as the cube's the particle swings at w = sqrt(100 N/m / 0.2 kg) = 22 rad/s, 3.6 Hz: at
-/// h = 0.01 s an explicit step then gains 2.5 % of amplitude, a factor 11 a second, an implicit one loses as much.
+/// A particle between a cube at x1 and the hand at x2 (particle.h); several hands have a spring each. Mass, stiffness
+/// and scale were not published. With the hand's spring as stiff as the cube's the particle swings at w = sqrt(100 N/m
+/// / 0.2 kg) = 22 rad/s, 3.6 Hz: at h = 0.01 s an explicit step then gains 2.5 % of amplitude, a factor 11 a second, an
+/// implicit one loses as much.
 struct ParticleSettings {
   double mass_kg = 0.2;
   double cube_stiffness_N_m = 50.0;  // k1
@@ -51,8 +53,8 @@ class Tether {
 
   /// The particle at rest in the cube's centre, the cube at its start.
   void restart();
-  /// `hand`: the newest state of the tool; a tool that has not felt yet (sequence 0), or is nowhere, does not pull.
-  void step(const messages::ToolState* hand, double dt_s);
+  /// `tools`: their newest states; one that nobody has in hand (sequence 0), or is nowhere, does not pull.
+  void step(std::span<const messages::ToolState> tools, double dt_s);
 
   messages::LocalTether local() const;
   Pose body_pose(int body) const;  // X_WL
@@ -64,13 +66,14 @@ class Tether {
 
  private:
   Vec3 cube_m() const;
+  ParticleSprings springs() const;
 
   TetherSettings settings_;
   Vec3 cube_rest_m_ = Vec3::Zero(), particle_rest_m_ = Vec3::Zero();  // centres at the file pose
   int cube_body_ = -1, particle_body_ = -1;
   double time_s_ = 0.0;  // since restart()
   ParticleState state_;
-  std::optional<Vec3> hand_m_;  // of the last step
+  std::vector<Vec3> hands_m_;  // of the last step
   bool lost_ = false;
 };
 

@@ -158,6 +158,7 @@ messages::SceneFrame some_scene(float moved_m) {
   frame.skins_world_m = {{{0.1f, 0.2f, 0.3f + moved_m}, {-0.1f, 0.0f, 0.05f}}, {}, {{1.0f, 2.0f, 3.0f - moved_m}}};
   frame.activations = {0.1, 0.2, 0.3};
   frame.lines_world_m = {{{0.0, 0.1, 0.2}, {0.3, 0.4, 0.5}}, {}, {{1.0, 1.0, 1.0}}};
+  frame.springs_world_m = {{{{0.5, 0.6, 0.7}, {0.8, 0.9, 1.0}}}};
   frame.joints.resize(2);
   frame.joints[1].stiffness_Nm_rad = 1.5;
   frame.joints[1].muscles = {{0.1, 0.2, 0.3, 0.4, 0.5}, {}};
@@ -204,6 +205,7 @@ TEST(Codec, ScenesComeThroughWithinTheGrid) {
     }
     EXPECT_EQ(read.body_poses, frame.body_poses);
     EXPECT_EQ(read.lines_world_m, frame.lines_world_m);
+    EXPECT_EQ(read.springs_world_m, frame.springs_world_m);
     EXPECT_EQ(read.joints[1].muscles[0].lever_m, 0.5);
     EXPECT_EQ(read.tools[0].parts.friction, frame.tools[0].parts.friction);
     EXPECT_EQ(read.notice, frame.notice);

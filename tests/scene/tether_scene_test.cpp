@@ -196,8 +196,6 @@ TEST(TetherScenes, ErrorsNamePlaceRangeAndRemedy) {
   EXPECT_THAT(problem_with("particle", {{"original.spring.stiffness_N_m", "3"}}), HasSubstr("either"));
   EXPECT_THAT(problem_with("particle", {{"specimen", "spring"}}), HasSubstr("no body \"cube\""));
   EXPECT_THAT(problem_with("spring", {{"specimen", "plate"}}), HasSubstr("muscles or joints"));
-  const char* two = R"([{"device": "simulated", "hand": "left"}, {"device": "simulated", "hand": "right"}])";
-  EXPECT_THAT(problem_with("spring", {{"tools", two}}), HasSubstr("one hand"));
 }
 
 }  // namespace

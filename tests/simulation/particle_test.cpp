@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "simulation/tether.h"
+
 namespace myotact::simulation {
 namespace {
 
@@ -78,6 +80,32 @@ TEST(Particle, WithoutSpringsItKeepsItsVelocity) {
     EXPECT_NEAR((state.velocity_m_s - kStart.velocity_m_s).norm(), 0.0, 1e-15);
     EXPECT_NEAR((state.position_m - kStart.position_m - 0.5 * kStart.velocity_m_s).norm(), 0.0, 1e-15);
   }
+}
+
+messages::ToolState hand_at(const Vec3& place_m, std::uint64_t sequence) {
+  messages::ToolState state;
+  state.sequence = sequence;
+  state.tool_position_world_m = to_array(place_m);
+  return state;
+}
+
+/// At rest every spring's force is balanced; a tool that nobody has in hand has no spring.
+TEST(Tether, EveryHandHasASpringOfItsOwn) {
+  anatomy::Specimen specimen;
+  specimen.bodies = {{"cube", 1.0, Vec3::Zero(), {}, false}, {"particle", 1.0, {0.0, 0.0, 0.04}, {}, false}};
+  TetherSettings settings{50.0, ParticleSettings{}};
+  settings.particle->cube_stiffness_N_m = 20.0;
+  Tether tether(settings, specimen);
+  const double nan = std::nan("");
+  const std::vector<messages::ToolState> tools = {hand_at({0.06, 0.0, 0.0}, 7), hand_at({0.9, 0.9, 0.9}, 0),
+                                                  hand_at({0.0, 0.03, 0.0}, 1), hand_at({nan, 0.0, 0.0}, 3)};
+  for (int i = 0; i < 1000; ++i) tether.step(tools, 0.01);
+  const Vec3 rest_m = 50.0 * Vec3(0.06, 0.03, 0.0) / (20.0 + 2 * 50.0);
+  EXPECT_NEAR((to_vec3(tether.local().anchor_world_m) - rest_m).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((tether.body_pose(1) * Vec3(0.0, 0.0, 0.04) - rest_m).norm(), 0.0, 1e-12);
+  EXPECT_EQ(tether.springs_world_m().size(), 3u);
+  tether.step({}, 0.01);
+  EXPECT_EQ(tether.springs_world_m().size(), 1u);
 }
 
 }  // namespace
