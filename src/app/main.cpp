@@ -11,6 +11,7 @@
 #include "app/options.h"
 #include "core/error.h"
 #include "core/log.h"
+#include "remote/served_scene.h"
 
 namespace {
 
@@ -135,6 +136,28 @@ CLI::App* add_lesson(CLI::App& program, Options& options) {
   return lesson;
 }
 
+CLI::App* add_serve(CLI::App& program, Options& options) {
+  CLI::App* serve =
+      add_scene_command(program, options, "serve", "simulation server: hands and viewers join over the network");
+  serve->add_option("--bind", options.bind, "address to listen at; beyond this machine a token is asked for")
+      ->capture_default_str();
+  serve->add_option("--port", options.port, "TCP port; 0: a free one")->capture_default_str();
+  serve->add_option("--hands", options.hands, "how many hands the scene has; without: those of the scene")
+      ->check(CLI::Range(std::size_t{1}, myotact::remote::kMostHands));
+  serve->add_flag("--lockstep", options.lockstep,
+                  "virtual clock, one client at a time: a step whenever its hand has told its state; for tests");
+  return serve;
+}
+
+CLI::App* add_feel(CLI::App& program, Options& options) {
+  CLI::App* feel = program.add_subcommand(
+      "feel", "haptic client: owns the device and closes the loop here; the scene is the server's");
+  feel->add_option("--connect", options.connect, "HOST:PORT of the server; its token is in MYOTACT_TOKEN")->required();
+  feel->add_option("--every", options.every, "keep every n-th tick in samples.csv")->check(CLI::Range(1, 1000000));
+  add_common(*feel, options);
+  return feel;
+}
+
 /// Declares all subcommands; returns what the one that was given does.
 void declare(CLI::App& program, Options& options, std::function<int(const Options&)>& action) {
   program.set_version_flag("--version", MYOTACT_VERSION);
@@ -170,6 +193,8 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
   bind(add_fidelity(program, options), myotact::app::fidelity);
   bind(add_probe(program, options), myotact::app::probe);
   bind(add_lesson(program, options), myotact::app::lesson);
+  bind(add_serve(program, options), myotact::app::serve);
+  bind(add_feel(program, options), myotact::app::feel);
   CLI::App* devices = program.add_subcommand("devices", "which devices there are");
   add_common(*devices, options);
   bind(devices, myotact::app::devices);

@@ -55,6 +55,11 @@ struct Options {
   double stiffness_N_m = 800.0;
   double friction = 0.3;
   double rate_hz = 1000.0;
+  std::string bind = "127.0.0.1";  // serve, as the four below
+  std::uint16_t port = 7480;
+  std::optional<std::size_t> hands;  // without: those of the scene
+  bool lockstep = false;
+  std::optional<std::string> connect;  // feel, view: HOST:PORT of a server
 };
 
 /// --set and --device as overrides of the scene. Throws Error Usage for a --set without "=".
@@ -83,5 +88,7 @@ std::optional<int> layer_fidelity(const Options& options);
 int probe(const Options& options);
 int devices(const Options& options);
 int lesson(const Options& options);
+int serve(const Options& options);
+int feel(const Options& options);
 
 }  // namespace myotact::app

@@ -133,7 +133,10 @@ bool Client::take(const Frame& frame) {
     case FrameType::Event: {
       Event event;
       sound = decode(frame.payload, event);
-      if (sound && event.code == EventCode::Stop) ++stops_;
+      if (sound && event.code == EventCode::Stop) {
+        if (on_stop_) on_stop_();
+        ++stops_;
+      }
       if (sound) spdlog::warn("server: {}", event.text);
       break;
     }

@@ -2,11 +2,12 @@
 
 #include <atomic>
 #include <cstdint>
-#include <memory>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "messages/local_model.h"
 #include "messages/scene_frame.h"
@@ -59,6 +60,8 @@ class Client {
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;
 
+  /// Before start(): what the receiving thread calls when somebody stopped all forces.
+  void on_stop(std::function<void()> call) { on_stop_ = std::move(call); }
   /// Connects for the first time, so that a wrong address, port or token is told at once. Throws Error Unavailable.
   void start();
   /// Says good-bye; threads joined. Any number of times.
@@ -100,6 +103,7 @@ class Client {
   realtime::LatestValue<messages::SceneFrame> frames_;
   mutable std::mutex telling_;
   LinkStatus status_;
+  std::function<void()> on_stop_;
   std::atomic<std::uint32_t> stops_{0};
   std::atomic<bool> connected_{false};
   std::atomic<bool> has_hand_{false};

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "net/admission.h"
 #include "realtime/periodic_loop.h"
 #include "realtime/real_time_thread.h"
 
@@ -73,21 +74,8 @@ bool Connection::admit() {
   const std::optional<Frame> frame = next_frame();
   if (!frame) return false;
   Hello hello;
-  if (frame->header.type != FrameType::Hello || !decode(frame->payload, hello)) {
-    refuse(ByeReason::BadFrame, "the first frame is to be a sound Hello");
-    return false;
-  }
-  if (hello.version != kProtocolVersion) {
-    refuse(ByeReason::Version, fmt::format("this server speaks version {} of the protocol", kProtocolVersion));
-    return false;
-  }
-  const bool teaches = server_.settings.instructor_token && is_same(*server_.settings.instructor_token, hello.token);
-  if (server_.settings.token && !teaches && !is_same(*server_.settings.token, hello.token)) {
-    refuse(ByeReason::Token, "wrong token; the server printed the right one when it started");
-    return false;
-  }
-  if (hello.role == Role::Instructor && server_.settings.instructor_token && !teaches) {
-    refuse(ByeReason::Token, "wrong token for an instructor; join as a student or with the instructor's token");
+  if (const auto refusal = refusal_of(*frame, server_.settings.door, hello)) {
+    refuse(refusal->reason, refusal->text);
     return false;
   }
   return welcome(hello);

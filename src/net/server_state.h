@@ -12,22 +12,21 @@
 #include <string>
 #include <vector>
 
+#include "net/admission.h"
 #include "net/doorbell.h"
 #include "net/hand_table.h"
 #include "net/scene_encoder.h"
 #include "net/small_frames.h"
-#include "net/token.h"
 
 namespace myotact::net {
 
 struct ServerSettings {
-  std::string scene_json;                 // told every client after its Welcome
-  std::vector<Bytes> meshes;              // payloads of Mesh frames, told after it to clients that want them
-  std::uint64_t step_ns = 0;              // of the simulation
-  std::optional<Token> token;             // admits a client; none: everybody who can reach the port
-  std::optional<Token> instructor_token;  // admits one as instructor; none: whoever is admitted may be one
-  std::size_t most_connections = 64;      // a class, its instructors and some mirrors
-  std::size_t most_waiting = 16;          // that have not said Hello yet; a new one takes the place of the oldest
+  std::string scene_json;     // told every client after its Welcome
+  std::vector<Bytes> meshes;  // payloads of Mesh frames, told after it to clients that want them
+  std::uint64_t step_ns = 0;  // of the simulation
+  DoorRules door;
+  std::size_t most_connections = 64;  // a class, its instructors and some mirrors
+  std::size_t most_waiting = 16;      // that have not said Hello yet; a new one takes the place of the oldest
   std::chrono::milliseconds hello_wait{3000};
   std::chrono::milliseconds silence{3000};    // clients ping ten times a second; one that is silent so long is gone
   std::chrono::milliseconds slow_wait{2000};  // a reader that takes nothing for so long is closed

@@ -9,6 +9,7 @@ namespace myotact::net {
 
 namespace {
 
+constexpr double kRounding = 1e-6;                                            // of what is 1 at most
 constexpr double kFarthest_m = 1e3, kMostForce_N = 1e6, kStiffest_N_m = 1e7;  // beyond all that a hand can be about
 
 template <std::size_t N>
@@ -51,7 +52,7 @@ ToolStateFrames encode(const messages::ToolState& state) noexcept {
   }
   out.frames[out.count++] =
       small(FrameType::ToolState, flags, state.tool_position_world_m, state.proxy_position_world_m, state.force_world_N,
-            state.sequence, state.model_sequence, state.buttons, state.faults);
+            state.sequence, state.model_sequence, state.buttons, state.faults, contact.barycentric[2]);
   return out;
 }
 
@@ -91,10 +92,13 @@ bool ToolStateJoiner::take_state(const Frame& frame) noexcept {
   in.get(state.model_sequence);
   in.get(state.buttons);
   in.get(state.faults);
+  double third = 0.0;  // barycentric coordinate: a contact's own frame has no room for it
+  in.get(third);
+  if ((frame.header.flags & kWithContact) != 0) state.contact.barycentric[2] = third;
   state.time_ns = frame.header.time_ns;
   state_ = state;
   parts_ = {};
-  return in.done() && (frame.header.flags & ~(kWithContact | kWithGrip)) == 0 &&
+  return in.done() && (frame.header.flags & ~(kWithContact | kWithGrip)) == 0 && std::abs(third) <= 1.0 + kRounding &&
          within(state.tool_position_world_m, kFarthest_m) && within(state.proxy_position_world_m, kFarthest_m) &&
          within(state.force_world_N, kMostForce_N);
 }
@@ -110,8 +114,6 @@ bool ToolStateJoiner::take_contact(std::span<const std::uint8_t> payload) noexce
   in.get(contact.target_world_m);
   in.get(contact.stiffness_N_m);
   in.get(parts_.touched_world_m);
-  contact.barycentric[2] = 1.0 - contact.barycentric[0] - contact.barycentric[1];
-  constexpr double kRounding = 1e-6;
   return in.done() && contact.surface >= -1 && contact.triangle >= -1 && within(contact.barycentric, 1.0 + kRounding) &&
          within(contact.normal_world, 1.0 + kRounding) && within(contact.target_world_m, kFarthest_m) &&
          within(parts_.touched_world_m, kFarthest_m) && contact.stiffness_N_m >= 0.0 &&

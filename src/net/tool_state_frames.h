@@ -20,8 +20,7 @@ struct ToolStateFrames {
 };
 ToolStateFrames encode(const messages::ToolState& state) noexcept;
 
-/// Puts the frames of tool states together again, without loss but for the third barycentric coordinate, which is what
-/// the other two leave of 1.
+/// Puts the frames of tool states together again, without loss.
 class ToolStateJoiner {
  public:
   /// False: a number out of its range. After a ToolState frame state() is whole.

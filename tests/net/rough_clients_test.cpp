@@ -138,10 +138,10 @@ TEST(RoughClients, WhoSaysNothingIsClosed) {
 
 TEST(RoughClients, AWrongTokenAThousandTimesChangesNothing) {
   ServerSettings settings;
-  settings.token = new_token();
+  settings.door.token = new_token();
   LoopbackServer host(settings);
   ClientSettings given = host.client(false, Role::Viewer);
-  given.hello.token = *settings.token;
+  given.hello.token = *settings.door.token;
   Client witness(given);
   witness.start();
   for (int i = 0; i < 1000; ++i) {

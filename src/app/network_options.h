@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+
+#include "app/options.h"
+#include "net/small_frames.h"
+#include "net/socket.h"
+
+namespace myotact::app {
+
+/// The token in a variable of the environment, where no list of processes shows it. Throws Error Usage for a text that
+/// is none.
+std::optional<net::Token> token_of(const char* variable);
+
+/// --connect. Throws Error Usage when it is missing.
+net::Endpoint server_of(const Options& options);
+
+/// MYOTACT_TOKEN, or no token at all.
+net::Token own_token();
+
+}  // namespace myotact::app

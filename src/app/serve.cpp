@@ -1,0 +1,100 @@
+#include <chrono>
+#include <cstdlib>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
+
+#include "app/interruption.h"
+#include "app/network_options.h"
+#include "app/options.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "remote/lockstep_server.h"
+#include "remote/served_scene.h"
+
+namespace myotact::app {
+
+namespace {
+
+/// On this machine alone everybody may join; from elsewhere only who was given a token.
+net::DoorRules door_of(const Options& options) {
+  net::DoorRules door = {token_of("MYOTACT_TOKEN"), token_of("MYOTACT_INSTRUCTOR_TOKEN")};
+  if (net::is_loopback(options.bind)) return door;
+  if (!door.token) door.token = net::new_token();
+  if (!door.instructor_token) door.instructor_token = net::new_token();
+  return door;
+}
+
+/// What clients need to know, one line each on standard output, where no log keeps it.
+void tell(const Options& options, std::uint16_t port, const net::DoorRules& door) {
+  std::cout << "tcp " << options.bind << ':' << port << '\n';
+  if (door.token) std::cout << "token " << net::to_text(*door.token) << '\n';
+  if (door.instructor_token) std::cout << "instructor_token " << net::to_text(*door.instructor_token) << '\n';
+  std::cout.flush();
+}
+
+nlohmann::json counters_json(const net::ServerCounters& counters) {
+  nlohmann::json faults = nlohmann::json::object();
+  for (std::size_t i = 1; i < net::kWireFaults; ++i) {
+    if (counters.faults[i] > 0) faults[net::describe(static_cast<net::WireFault>(i))] = counters.faults[i];
+  }
+  return {{"accepted", counters.accepted},
+          {"refused", counters.refused},
+          {"closed_slow", counters.closed_slow},
+          {"closed_silent", counters.closed_silent},
+          {"bad_frames", faults},
+          {"dropped_controls", counters.dropped_controls}};
+}
+
+int serve_lockstep(const Options& options, const scene::Scene& scene, const net::DoorRules& door) {
+  remote::LockstepServer server({options.bind, options.port}, scene, door, options.seed);
+  tell(options, server.port(), door);
+  server.serve([] { return interruption() != 0; });
+  return interruption();
+}
+
+int serve_free(const Options& options, const scene::Scene& scene, const net::DoorRules& door) {
+  const auto recorder = open_recorder(options, scene, std::vector<device::DeviceProfile>(scene.tools.size()));
+  simulation::Simulation simulation(scene.specimen, scene.settings);
+  remote::ServeSettings settings;
+  settings.endpoint = {options.bind, options.port};
+  settings.server.door = door;
+  settings.seed = options.seed;
+  remote::ServedScene served(scene, simulation, settings, recorder.get());
+  served.start();
+  tell(options, served.server().port(), door);
+  while (interruption() == 0 && served.running() && served.time_s() < options.seconds.value_or(1e12)) {
+    served.obey();
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  const scene::FreeTiming timing = served.stop();
+  const nlohmann::json report = {{"simulated_s", timing.simulated_s},
+                                 {"wall_s", timing.wall_s},
+                                 {"steps", timing.steps},
+                                 {"clients", counters_json(served.server().counters())}};
+  if (options.json) std::cout << report.dump(2) << std::endl;
+  return interruption();
+}
+
+}  // namespace
+
+int serve(const Options& options) {
+  scene::Scene scene = scene_of(options);
+  if (options.hands && options.record && *options.hands != scene.tools.size()) {
+    throw Error(
+        ExitStatus::Usage,
+        fmt::format("--record: a recording is of the scene's own {} hands; leave --hands out", scene.tools.size()));
+  }
+  if (options.hands) scene = remote::with_hands(std::move(scene), *options.hands);
+  const net::DoorRules door = door_of(options);
+  watch_for_interruption();
+  return options.lockstep ? serve_lockstep(options, scene, door) : serve_free(options, scene, door);
+}
+
+}  // namespace myotact::app
