@@ -40,4 +40,27 @@ void add_control(const std::string& json, scene::Requests& requests) {
   fields.finish();
 }
 
+std::vector<std::string> controls_between(const scene::Requests& before, const scene::Requests& now) {
+  std::vector<std::string> controls;
+  const auto ask = [&](const nlohmann::json& control) { controls.push_back(control.dump()); };
+  const auto ask_again = [&](const char* deed, std::uint32_t from, std::uint32_t to) {
+    for (; from != to; ++from) ask({{"do", deed}});
+  };
+  const bool new_levels = before.flexors != now.flexors || before.extensors != now.extensors;
+  if (now.levels_changed && (!before.levels_changed || new_levels)) {
+    ask({{"do", "levels"}, {"flexors", now.flexors}, {"extensors", now.extensors}});
+  }
+  const bool new_balance = before.common != now.common || before.difference != now.difference;
+  if (now.balance_changed && (!before.balance_changed || new_balance)) {
+    ask({{"do", "co_contract"}, {"common", now.common}, {"difference", now.difference}});
+  }
+  if (now.hold_posture != before.hold_posture) ask({{"do", "hold_posture"}, {"on", now.hold_posture}});
+  if (now.gravity != before.gravity) ask({{"do", "gravity"}, {"on", now.gravity}});
+  if (now.paused != before.paused) ask({{"do", "pause"}, {"on", now.paused}});
+  ask_again("step", before.steps, now.steps);
+  ask_again("reset", before.resets, now.resets);
+  ask_again("shove", before.shoves, now.shoves);
+  return controls;
+}
+
 }  // namespace myotact::remote

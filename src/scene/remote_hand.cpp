@@ -24,7 +24,6 @@ std::array<double, 3> force_on_hand_N(const messages::LocalModel& model, const m
   if (tool.contact.stiffness_N_m > 0.0) force_N -= to_vec3(model.contact.force_world_N);
   if (tool.grabbed_body >= 0) force_N -= to_vec3(model.grip.force_world_N);
   if (tool.grabbed_line >= 0 && model.line.muscle == tool.grabbed_line) force_N += line_force_N(model.line, hand_m);
-  force_N += model.tether.stiffness_N_m * (to_vec3(model.tether.anchor_world_m) - hand_m);
   return to_array(force_N);
 }
 

@@ -15,7 +15,7 @@
 #include "core/error.h"
 #include "scene/force_replay.h"
 #include "scene/lockstep_session.h"
-#include "scene/recording_header.h"
+#include "scene/remote_hand.h"
 #include "support/complaint.h"
 
 namespace myotact::scene {
@@ -149,6 +149,16 @@ TEST(ParticleScene, ExplicitStepsThrowTheParticleAwayAndSaySo) {
   EXPECT_EQ(ticks.back().force_N.norm(), 0.0);
   run.session.conductor().restart();
   EXPECT_EQ(run.session.conductor().notice(), "");
+}
+
+/// For a client that has no haptic loop: from the very place that it sent.
+TEST(SpringScene, AHandElsewhereIsAnsweredWithMinusKX) {
+  messages::LocalModel model;
+  model.tether.stiffness_N_m = 30.0;
+  messages::ToolState hand;
+  hand.tool_position_world_m = {0.01, -0.02, 0.03};
+  const Vec3 force_N = to_vec3(force_on_hand_N(model, hand));
+  EXPECT_NEAR((force_N + 30.0 * to_vec3(hand.tool_position_world_m)).norm(), 0.0, 1e-15);
 }
 
 TEST(TetherScenes, PlayAgainBitForBit) {

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "messages/scene_frame.h"
+#include "net/client.h"
+#include "scene/free_session.h"
+#include "scene/scene_file.h"
+
+namespace myotact::remote {
+
+/// What a window shows of a scene that runs elsewhere, and what it may ask of it. One thread.
+class Mirror {
+ public:
+  /// `client` wants frames and readings; it and the scene, the server's, outlive this.
+  Mirror(net::Client& client, const scene::Scene& scene) : client_(&client), scene_(&scene) {}
+
+  /// The newest frame that fits the scene. While there is no connection, or the frames do not fit, the last one that
+  /// did, whose notice says why. False: nothing new.
+  bool fetch_frame(messages::SceneFrame& frame);
+  /// Asks the server for what changed since the last call; the first call asks for nothing. Only an instructor's
+  /// requests go out, but anybody's stops.
+  void request(const scene::Requests& requests);
+  /// May change the scene, by the present connection.
+  bool is_instructor() const { return client_->status().welcome.role == net::Role::Instructor; }
+  /// The server was started again with another scene.
+  bool shows_another_scene(const std::string& scene_json) const;
+
+ private:
+  std::string trouble() const;
+
+  net::Client* client_;
+  const scene::Scene* scene_;
+  messages::SceneFrame newest_, fitting_;
+  std::string misfit_;
+  std::string told_;  // notice of the connection in the last frame
+  std::optional<scene::Requests> asked_;
+};
+
+}  // namespace myotact::remote
