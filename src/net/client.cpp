@@ -44,8 +44,8 @@ void Client::start() {
 }
 
 void Client::stop() noexcept {
-  if (connected_) write(encode(Bye{ByeReason::Leaving, ""}));
   closing_ = true;
+  if (connected_) write(encode(Bye{ByeReason::Leaving, ""}));
   connected_ = false;
   {
     const std::lock_guard lock(writing_);
@@ -177,7 +177,7 @@ void Client::take_bye(const Frame& frame) {
 void Client::note_break(const std::string& why) {
   connected_ = false;
   const std::lock_guard lock(telling_);
-  if (status_.connected) spdlog::warn("connection lost: {}; connecting again", why);
+  if (status_.connected && !closing_) spdlog::warn("connection lost: {}; connecting again", why);
   status_.connected = false;
   status_.why = why;
 }

@@ -15,19 +15,20 @@ HandTable::HandTable(const std::vector<HandPlace>& places) {
 int HandTable::take(HandWish wish, std::uint64_t resume_id) {
   const std::lock_guard lock(mutex_);
   const auto now = std::chrono::steady_clock::now();
-  int found = -1;
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    if (places_[i].taken || (wish != HandWish::Any && places_[i].hand.left != (wish == HandWish::Left))) continue;
-    const bool was_ours = resume_id != 0 && places_[i].resume_id == resume_id;
-    const bool is_kept = places_[i].resume_id != 0 && now < places_[i].kept_until;
-    if (was_ours || (!is_kept && found < 0)) found = static_cast<int>(i);
-    if (was_ours) break;
+  Place* best = nullptr;
+  int best_rank = 0;
+  for (Place& place : places_) {
+    if (place.taken || (wish != HandWish::Any && place.hand.left != (wish == HandWish::Left))) continue;
+    const bool was_ours = resume_id != 0 && place.resume_id == resume_id;
+    const int rank = was_ours ? 3 : (now < place.kept_until ? 1 : 2);
+    if (rank > best_rank) {
+      best = &place;
+      best_rank = rank;
+    }
   }
-  if (found >= 0) {
-    Place& place = places_[static_cast<std::size_t>(found)];
-    place = {place.hand, true, resume_id, {}};
-  }
-  return found;
+  if (best == nullptr) return -1;
+  *best = {best->hand, true, resume_id, {}};
+  return static_cast<int>(best - places_.data());
 }
 
 void HandTable::leave(int hand) {

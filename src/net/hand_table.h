@@ -32,8 +32,8 @@ class HandTable {
   /// The channels outlive the table.
   explicit HandTable(const std::vector<HandPlace>& places);
 
-  /// A free hand for a client, or -1. One that left a moment ago gets its own hand again, and until then nobody else
-  /// does.
+  /// A free hand for a client, or -1. One that left a moment ago gets its own hand again; until then others get it only
+  /// when there is no other.
   int take(HandWish wish, std::uint64_t resume_id);
   /// Nobody has the hand from now on: it lets go of everything.
   void leave(int hand);

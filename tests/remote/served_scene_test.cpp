@@ -1,0 +1,113 @@
+#include "remote/served_scene.h"
+
+#include <gtest/gtest.h>
+
+#include "device/simulated_device.h"
+#include "remote/free_hand.h"
+#include "scene/scene_file.h"
+#include "support/loopback_server.h"
+
+// A scene on the wall clock with hands at clients, in one process.
+
+namespace myotact::remote {
+namespace {
+
+using testing::comes_true;
+
+struct Host {
+  explicit Host(const std::string& name, std::size_t hands = 1)
+      : scene(with_hands(scene::load_scene(name), hands)),
+        simulation(scene.specimen, scene.settings),
+        served(scene, simulation, {{"127.0.0.1", 0}, {}, 1}, nullptr) {
+    served.start();
+  }
+  net::ClientSettings client(net::Role role, bool with_hand) {
+    net::ClientSettings settings;
+    settings.server = {"127.0.0.1", served.server().port()};
+    settings.hello.role = role;
+    settings.hello.wants = {with_hand, true, true, false};
+    return settings;
+  }
+
+  scene::Scene scene;
+  simulation::Simulation simulation;
+  ServedScene served;
+};
+
+/// A hand that wants to be 30 mm beside the anchor, once the gate has opened.
+struct Puller {
+  explicit Puller(Host& host)
+      : device("simulated", Vec3::Zero()),
+        hand(host.client(net::Role::Student, true), device, host.scene.tools[0], nullptr) {
+    hand.start();
+    const bool opened = comes_true([&] { return force_N() > 0.0 || ++looks > 1500; });
+    EXPECT_TRUE(opened);
+    device.set_hand_target({{0.03, 0.0, 0.0}, {}, 0, {}});
+  }
+  double force_N() {
+    hand.loop().felt().update();
+    return to_vec3(hand.loop().felt().front().tool.force_world_N).norm();
+  }
+
+  int looks = 0;
+  device::SimulatedDevice device;
+  FreeHand hand;
+};
+
+TEST(ServedScene, AHandFarFromItFeelsTheSpring) {
+  Host host("spring");
+  Puller puller(host);
+  // 30 N/m against a hand of 300 N/m: x = 30 mm 300 / 330, F = 0.82 N.
+  EXPECT_TRUE(comes_true([&] { return std::abs(puller.force_N() - 30.0 * 0.03 * 300.0 / 330.0) < 0.02; }))
+      << puller.force_N();
+}
+
+TEST(ServedScene, AWatcherSeesTheHandAndThatItLeft) {
+  Host host("spring", 2);
+  net::Client watcher(host.client(net::Role::Viewer, false));
+  watcher.start();
+  messages::SceneFrame frame;
+  {
+    Puller puller(host);
+    EXPECT_TRUE(comes_true([&] { return watcher.fetch_frame(frame) && frame.tools.size() == 1; }));
+  }
+  EXPECT_TRUE(comes_true([&] { return watcher.fetch_frame(frame) && frame.tools.empty(); }));
+}
+
+TEST(ServedScene, AStopFromAnyoneTakesTheForceAndOnlyTheOwnerArmsAgain) {
+  Host host("spring");
+  Puller puller(host);
+  ASSERT_TRUE(comes_true([&] { return puller.force_N() > 0.5; }));
+  net::Client watcher(host.client(net::Role::Viewer, false));
+  watcher.start();
+  watcher.ask_stop();
+  EXPECT_TRUE(comes_true([&] { return puller.force_N() == 0.0; }));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  EXPECT_EQ(puller.force_N(), 0.0) << "nothing from outside brings it back";
+  puller.device.set_hand_target({});  // the gate opens where little is wanted
+  puller.hand.loop().stop_forces(false);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  puller.device.set_hand_target({{0.03, 0.0, 0.0}, {}, 0, {}});
+  EXPECT_TRUE(comes_true([&] { return puller.force_N() > 0.5; }));
+}
+
+TEST(ServedScene, AnInstructorPausesAndABadWishIsAnswered) {
+  Host host("particle");
+  net::Client instructor(host.client(net::Role::Instructor, false));
+  instructor.start();
+  messages::SceneFrame frame;
+  ASSERT_TRUE(comes_true([&] { return instructor.fetch_frame(frame); }));
+  instructor.ask(R"({"do": "dance"})");
+  instructor.ask(R"({"do": "pause", "on": true})");
+  double before_s = -1.0;
+  EXPECT_TRUE(comes_true([&] {
+    host.served.obey();
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    while (instructor.fetch_frame(frame)) {
+    }
+    return frame.time_s == std::exchange(before_s, frame.time_s);
+  }));
+}
+
+}  // namespace
+}  // namespace myotact::remote
