@@ -55,8 +55,11 @@ struct Options {
   double stiffness_N_m = 800.0;
   double friction = 0.3;
   double rate_hz = 1000.0;
-  std::string bind = "127.0.0.1";  // serve, as the four below
+  std::string bind = "127.0.0.1";  // serve, as the seven below
   std::uint16_t port = 7480;
+  std::uint16_t websocket_port = 7481;
+  bool no_websocket = false;
+  std::vector<std::string> origins;  // of web pages elsewhere that may connect
   std::optional<std::size_t> hands;  // without: those of the scene
   bool lockstep = false;
   std::optional<std::string> connect;  // feel, view: HOST:PORT of a server

@@ -14,7 +14,7 @@
 #include "app/network_options.h"
 #include "app/options.h"
 #include "core/error.h"
-#include "core/file.h"
+#include "net/websocket_door.h"
 #include "remote/lockstep_server.h"
 #include "remote/served_scene.h"
 
@@ -67,6 +67,11 @@ int serve_free(const Options& options, const scene::Scene& scene, const net::Doo
   settings.server.door = door;
   settings.seed = options.seed;
   remote::ServedScene served(scene, simulation, settings, recorder.get());
+  std::optional<net::WebSocketDoor> websocket;
+  if (!options.no_websocket) {
+    websocket.emplace(net::Endpoint{options.bind, options.websocket_port}, served.server(), options.origins);
+    std::cout << "websocket " << options.bind << ':' << websocket->port() << '\n';
+  }
   served.start();
   tell(options, served.server().port(), door);
   while (interruption() == 0 && served.running() && served.time_s() < options.seconds.value_or(1e12)) {

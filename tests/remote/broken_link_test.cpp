@@ -21,7 +21,7 @@ using testing::comes_true;
 using testing::TemporaryFolder;
 
 std::unique_ptr<Child> serve(const TemporaryFolder& folder, const std::string& port = "0") {
-  return std::make_unique<Child>(std::vector<std::string>{MYOTACT_PROGRAM, "serve", "spring", "--port", port},
+  return std::make_unique<Child>(std::vector<std::string>{MYOTACT_PROGRAM, "serve", "spring", "--port", port, "--no-websocket"},
                                  folder / "served.txt");
 }
 
