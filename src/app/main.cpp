@@ -176,6 +176,14 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
                    "keep this JSON file up to date with what the window shows and where its controls are, for programs "
                    "that assist a person");
   view->add_option("--replay", options.recording, "play this recording in the window; nothing goes to a device");
+  auto* connect = view->add_option("--connect", options.connect,
+                                   "show the scene of the server at HOST:PORT; with --device mouse one of its hands is "
+                                   "here. Its token is in MYOTACT_TOKEN, an instructor's in MYOTACT_INSTRUCTOR_TOKEN");
+  connect->excludes(view->get_option("scene"))->excludes(view->get_option("--session"));
+  connect->excludes(view->get_option("--replay"))->excludes(view->get_option("--record"));
+  view->add_option("--role", options.role, "at the server: a viewer looks on, an instructor changes the scene")
+      ->check(CLI::IsMember({"viewer", "student", "instructor"}))
+      ->needs(connect);
   bind(view, myotact::app::view);
   bind(add_run(program, options), myotact::app::run);
   bind(add_stiffness(program, options), myotact::app::stiffness);

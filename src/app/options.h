@@ -63,6 +63,7 @@ struct Options {
   std::optional<std::size_t> hands;  // without: those of the scene
   bool lockstep = false;
   std::optional<std::string> connect;  // feel, view: HOST:PORT of a server
+  std::string role;                    // view, at that server; empty: a student's with a hand, else a viewer's
 };
 
 /// --set and --device as overrides of the scene. Throws Error Usage for a --set without "=".

@@ -4,20 +4,12 @@
 
 #include <spdlog/spdlog.h>
 
+#include "app/scene_facts.h"
 #include "haptics/stiffness_bound.h"
 
 namespace myotact::app {
 
 namespace {
-
-/// The joint that is co-contracted, else the first that turns.
-int watched_joint(const scene::Scene& scene) {
-  if (scene.co_contraction) return scene.co_contraction->joint;
-  const auto& joints = scene.specimen.joints;
-  const auto turns = [](const anatomy::Joint& joint) { return !joint.axes.empty(); };
-  const auto found = std::find_if(joints.begin(), joints.end(), turns);
-  return found == joints.end() ? 0 : static_cast<int>(found - joints.begin());
-}
 
 /// The tool that the mouse moves. Without devices named the person leads the right hand, or the only one.
 std::size_t led_tool(const Options& options, const scene::Scene& scene) {
@@ -58,17 +50,6 @@ std::string device_notes(const scene::Scene& scene, const Hands& hands) {
   return notes;
 }
 
-view::SceneState start_of(const scene::Scene& scene) {
-  view::SceneState start;
-  start.gravity = scene.settings.gravity_m_s2.norm() > 0.0;
-  if (scene.co_contraction) {
-    start.common = scene.co_contraction->common;
-    start.difference = scene.co_contraction->difference;
-    start.hold_posture = scene.co_contraction->hold_posture;
-  }
-  return start;
-}
-
 Vec3 start_of_led_hand(const scene::Scene& scene, std::size_t led) {
   return scene::start_of_hand(scene, led < scene.tools.size() ? led : 0);
 }
@@ -107,25 +88,17 @@ void Stage::move_hand(const view::ViewControls& controls) {
 
 view::WindowSettings Stage::window_settings(const Options& options) const {
   view::WindowSettings settings;
+  settings.facts = facts_of(scene_);
   settings.facts.file = options.scene;
   const scene::Overrides overrides = overrides_of(options);
   if (const auto tissue = overrides.find("tissue.default"); tissue != overrides.end()) {
     settings.facts.tissue = tissue->second;
   }
-  settings.facts.name = scene_.name;
-  settings.facts.title = "Myotact: " + scene_.title;
   settings.facts.note = device_notes(scene_, hands_) + scene_.note;
   settings.facts.device_peaks_N.clear();
   for (const scene::ToolDevice& tool : hands_.devices) {
     settings.facts.device_peaks_N.push_back(tool.device->profile().peak_force_N);
   }
-  settings.facts.joint = watched_joint(scene_);
-  if (scene_.co_contraction) {
-    for (const auto& preset : scene_.co_contraction->presets) {
-      settings.facts.presets.push_back({preset.name, preset.common, preset.difference});
-    }
-  }
-  settings.facts.scenes = scene::built_in_scenes();
   settings.hand_start_world_m = to_array(start_of_led_hand(scene_, hands_.led));
   settings.start = start_of(scene_);
   return settings;

@@ -12,6 +12,7 @@
 #include <spdlog/spdlog.h>
 
 #include "app/interruption.h"
+#include "app/mirror_stage.h"
 #include "app/options.h"
 #include "app/picture.h"
 #include "app/stage.h"
@@ -87,6 +88,7 @@ Options options_of(const Options& given, const view::SceneWish& wish) {
   options.scene = wish.scene;
   options.record = wish.recording;
   options.recording = wish.replay;
+  options.connect.reset();  // another scene is simulated here
   if (wish.tissue.empty() && !wish.work) return options;
   std::erase_if(options.set, [](const std::string& pair) { return pair.starts_with("tissue.default="); });
   if (!wish.tissue.empty()) options.set.push_back("tissue.default=" + wish.tissue);
@@ -115,10 +117,21 @@ struct ReplayStage {
   scene::ReplaySession session;
 };
 
-/// One of the two.
+/// One of the three.
 struct Built {
   std::unique_ptr<Stage> stage;
   std::unique_ptr<ReplayStage> replay;
+  std::unique_ptr<MirrorStage> mirror;
+
+  explicit operator bool() const { return stage || replay || mirror; }
+  const anatomy::Specimen& specimen() const {
+    if (mirror) return mirror->scene().specimen;
+    return stage ? stage->scene().specimen : replay->loaded.scene.specimen;
+  }
+  view::WindowSettings window_settings(const Options& options) const {
+    if (mirror) return mirror->window_settings();
+    return stage ? stage->window_settings(options) : replay->window_settings(options);
+  }
 };
 
 /// The window and what it shows: one stage that runs and, after a wish for another, the next one being built.
@@ -137,7 +150,8 @@ class Performance {
   /// or when the first scene cannot be opened.
   void run(double end_s) {
     view::on_display_loss([this] {
-      if (stage_) stage_->session().stop();
+      if (shown_.stage) shown_.stage->session().stop();
+      if (shown_.mirror) shown_.mirror->stop();
     });
     while (!window_.should_close() && interruption() == 0 && runs()) {
       if (next_.valid() && next_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) change_stage();
@@ -147,13 +161,16 @@ class Performance {
   }
 
  private:
-  bool runs() const { return (!stage_ || stage_->session().running()) && (!replay_ || replay_->session.running()); }
+  bool runs() const {
+    return (!shown_.stage || shown_.stage->session().running()) && (!shown_.replay || shown_.replay->session.running());
+  }
 
   std::future<Built> build(const Options& options) {
     building_ = options;
     return std::async(std::launch::async, [this, options]() -> Built {
-      if (options.recording) return {nullptr, std::make_unique<ReplayStage>(options)};
-      return {std::make_unique<Stage>(options, guarded_), nullptr};
+      if (options.connect) return {nullptr, nullptr, std::make_unique<MirrorStage>(options)};
+      if (options.recording) return {nullptr, std::make_unique<ReplayStage>(options), nullptr};
+      return {std::make_unique<Stage>(options, guarded_), nullptr, nullptr};
     });
   }
 
@@ -168,29 +185,29 @@ class Performance {
     try {
       built = next_.get();
     } catch (const Error& failure) {
-      if (!stage_ && !replay_) throw;
+      if (!shown_) throw;
       spdlog::warn("{}", failure.what());
       window_.tell(failure.what());
       return;
     }
     end_session();
-    view::WindowSettings settings =
-        built.stage ? built.stage->window_settings(building_) : built.replay->window_settings(building_);
+    view::WindowSettings settings = built.window_settings(building_);
     settings.work = std::exchange(work_, std::nullopt);
-    window_.open(built.stage ? built.stage->scene().specimen : built.replay->loaded.scene.specimen, settings);
-    stage_ = std::move(built.stage);
-    replay_ = std::move(built.replay);
+    window_.open(built.specimen(), settings);
+    shown_ = std::move(built);
     frame_ = {};
     driven_ = false;
-    if (stage_) stage_->session().start();
-    if (replay_) replay_->session.start();
-    heard_ = std::chrono::steady_clock::now();
+    if (shown_.stage) shown_.stage->session().start();
+    if (shown_.replay) shown_.replay->session.start();
+    if (shown_.mirror) shown_.mirror->start();
+    heard_ = opened_ = std::chrono::steady_clock::now();
   }
 
   void end_session() {
-    if (replay_) replay_->session.stop();
-    if (!stage_) return;
-    if (const scene::FreeTiming timing = stage_->session().stop(); !timing.refused.empty()) {
+    if (shown_.replay) shown_.replay->session.stop();
+    if (shown_.mirror) shown_.mirror->stop();
+    if (!shown_.stage) return;
+    if (const scene::FreeTiming timing = shown_.stage->session().stop(); !timing.refused.empty()) {
       spdlog::warn("{}", timing.refused);
     }
   }
@@ -198,25 +215,25 @@ class Performance {
   /// One picture; false when it was the last.
   bool draw(double end_s) {
     const auto since = std::chrono::steady_clock::now();
-    if (stage_ && stage_->session().fetch_frame(frame_)) heard_ = since;
-    if (replay_) replay_->session.fetch_frame(frame_);
-    const bool last = frame_.time_s >= end_s;
+    if (shown_.stage && shown_.stage->session().fetch_frame(frame_)) heard_ = since;
+    if (shown_.replay) shown_.replay->session.fetch_frame(frame_);
+    if (shown_.mirror) shown_.mirror->fetch_frame(frame_);
+    // A server's time began long ago.
+    const double shown_s = shown_.mirror ? std::chrono::duration<double>(since - opened_).count() : frame_.time_s;
+    const bool last = shown_s >= end_s;
     if (last) window_.save_next_picture(options_.out / "window.png");
-    if (stage_) {
+    if (shown_.stage) {
       const double silence_s = std::chrono::duration<double>(since - heard_).count();
-      window_.set_news({stage_->session().recording(), next_.valid(), silence_s});
-      window_.set_readings(stage_->readings(frame_, common_));
+      window_.set_news({shown_.stage->session().recording(), next_.valid(), silence_s});
+      window_.set_readings(shown_.stage->readings(frame_, common_));
+    } else if (shown_) {
+      window_.set_news({false, next_.valid(), 0.0});
     }
-    if (replay_) window_.set_news({false, next_.valid(), 0.0});
     const view::ViewControls& controls = window_.draw(frame_);
-    if (stage_ || replay_) report_.write(window_, frame_);
+    if (shown_) report_.write(window_, frame_);
     leave_time_to_the_simulation(std::chrono::steady_clock::now() - since);
-    if (stage_) lead(controls);
-    if (replay_) replay_->session.play_to(controls.replay_to_s);
-    if (const auto wish = window_.take_wish(); wish && !next_.valid()) {
-      work_ = wish->work;
-      next_ = build(options_of(options_, *wish));
-    }
+    lead(controls);
+    if (const auto wish = window_.take_wish(); wish && !next_.valid()) follow(*wish);
     return !last;
   }
 
@@ -224,8 +241,28 @@ class Performance {
   void lead(const view::ViewControls& controls) {
     common_ = controls.scene.common;
     driven_ = driven_ || controls.scene.drive != view::Drive::Script;
-    stage_->session().request(requests_of(controls, driven_));
-    stage_->move_hand(controls);
+    if (shown_.replay) shown_.replay->session.play_to(controls.replay_to_s);
+    if (shown_.stage) {
+      shown_.stage->session().request(requests_of(controls, driven_));
+      shown_.stage->move_hand(controls);
+    }
+    if (!shown_.mirror) return;
+    const std::string refused = shown_.mirror->lead(controls, requests_of(controls, driven_));
+    if (!refused.empty()) window_.tell(refused);
+    constexpr std::chrono::seconds kPatience(5);  // between two tries, where this machine lacks the files
+    if (!shown_.mirror->is_outdated() || next_.valid() || std::chrono::steady_clock::now() < opened_ + kPatience)
+      return;
+    opened_ = std::chrono::steady_clock::now();
+    next_ = build(options_);
+  }
+
+  /// Builds the scene that the person wants.
+  void follow(const view::SceneWish& wish) {
+    if (shown_.mirror && wish.recording) {
+      return window_.tell("a scene is recorded where it is simulated: start the server with --record FILE");
+    }
+    work_ = wish.work;
+    next_ = build(options_of(options_, wish));
   }
 
   GuardedMotors guarded_;                // first: the watchdog is forked off before there are threads
@@ -233,12 +270,12 @@ class Performance {
   Options building_;                     // of the newest stage
   std::optional<view::SavedWork> work_;  // that it is to begin with
   WindowReport report_;
-  std::unique_ptr<Stage> stage_;         // none before the first is built, and while a recording is played
-  std::unique_ptr<ReplayStage> replay_;  // the recording that is played, if any
-  std::future<Built> next_;              // being built
-  view::Window window_;                  // after the stages: it shows their specimens
+  Built shown_;              // none before the first is built
+  std::future<Built> next_;  // being built
+  view::Window window_;      // after the stages: it shows their specimens
   messages::SceneFrame frame_;
-  std::chrono::steady_clock::time_point heard_;  // when the newest frame came
+  std::chrono::steady_clock::time_point heard_;   // when the newest frame came
+  std::chrono::steady_clock::time_point opened_;  // what is shown
   double common_ = 0.0;
   bool driven_ = false;
 };

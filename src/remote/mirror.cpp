@@ -1,7 +1,12 @@
 #include "remote/mirror.h"
 
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 #include <fmt/format.h>
 
+#include "core/vector.h"
 #include "remote/controls.h"
 #include "remote/frame_fit.h"
 
@@ -27,17 +32,33 @@ bool Mirror::fetch_frame(messages::SceneFrame& frame) {
   return true;
 }
 
-void Mirror::request(const scene::Requests& requests) {
-  if (asked_ && requests.stops != asked_->stops) client_->ask_stop();
-  if (asked_ && is_instructor()) {
-    for (const std::string& control : controls_between(*asked_, requests)) client_->ask(control);
-  }
-  asked_ = requests;
+bool Mirror::request(const scene::Requests& requests) {
+  const scene::Requests before = std::exchange(asked_, requests).value_or(requests);
+  if (requests.stops != before.stops) client_->ask_stop();
+  const std::vector<std::string> controls = controls_between(before, requests);
+  if (controls.empty()) return true;
+  if (client_->status().welcome.role != net::Role::Instructor) return false;
+  for (const std::string& control : controls) client_->ask(control);
+  return true;
 }
 
 bool Mirror::shows_another_scene(const std::string& scene_json) const {
   const net::LinkStatus link = client_->status();
   return link.connected && !link.scene_json.empty() && link.scene_json != scene_json;
+}
+
+void show_own_hand(const messages::FeltTool& felt, messages::SceneFrame& frame) {
+  const Vec3 hand_m = to_vec3(felt.tool.tool_position_world_m);
+  const auto distance_m = [&](const messages::ToolFrame& tool) { return (to_vec3(tool.tool_world_m) - hand_m).norm(); };
+  const auto own = std::min_element(frame.tools.begin(), frame.tools.end(),
+                                    [&](const auto& a, const auto& b) { return distance_m(a) < distance_m(b); });
+  if (own == frame.tools.end()) return;
+  own->tool_world_m = felt.tool.tool_position_world_m;
+  own->proxy_world_m = felt.tool.proxy_position_world_m;
+  own->force_world_N = felt.tool.force_world_N;
+  own->parts = felt.parts;
+  own->line_tension_N = felt.line_tension_N;
+  own->model_age_s = felt.model_age_s;
 }
 
 }  // namespace myotact::remote

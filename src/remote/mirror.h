@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "messages/felt_tool.h"
 #include "messages/scene_frame.h"
 #include "net/client.h"
 #include "scene/free_session.h"
@@ -19,11 +20,9 @@ class Mirror {
   /// The newest frame that fits the scene. While there is no connection, or the frames do not fit, the last one that
   /// did, whose notice says why. False: nothing new.
   bool fetch_frame(messages::SceneFrame& frame);
-  /// Asks the server for what changed since the last call; the first call asks for nothing. Only an instructor's
-  /// requests go out, but anybody's stops.
-  void request(const scene::Requests& requests);
-  /// May change the scene, by the present connection.
-  bool is_instructor() const { return client_->status().welcome.role == net::Role::Instructor; }
+  /// Asks the server for what changed since the last call; the first call asks for nothing. Anybody's stops go out, of
+  /// the rest only an instructor's. False: something did not.
+  bool request(const scene::Requests& requests);
   /// The server was started again with another scene.
   bool shows_another_scene(const std::string& scene_json) const;
 
@@ -37,5 +36,9 @@ class Mirror {
   std::string told_;  // notice of the connection in the last frame
   std::optional<scene::Requests> asked_;
 };
+
+/// A hand whose loop runs here is drawn as it is felt here, not as the server heard of it: its tool in the frame is the
+/// nearest one.
+void show_own_hand(const messages::FeltTool& felt, messages::SceneFrame& frame);
 
 }  // namespace myotact::remote

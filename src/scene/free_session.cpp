@@ -257,14 +257,14 @@ void FreeSession::publish_models() {
 }
 
 /// Of a remote hand only the force is known, not what it is made of.
-messages::FeltTool FreeSession::felt_by(const Tool& tool) {
+messages::FeltTool FreeSession::felt_by(const Tool& tool) const {
   if (tool.loop) {
     tool.loop->felt().update();
     return tool.loop->felt().front();
   }
   messages::FeltTool felt;
   felt.tool = tool.hand.states->front();
-  felt.parts.contact = felt.tool.force_world_N;
+  (scene_->settings.tether ? felt.parts.tether : felt.parts.contact) = felt.tool.force_world_N;
   return felt;
 }
 

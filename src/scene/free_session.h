@@ -115,7 +115,7 @@ class FreeSession {
   void simulate();
   void move_scripted_hands(double time_s);
   messages::ToolState state_of(Tool& tool);
-  static messages::FeltTool felt_by(const Tool& tool);
+  messages::FeltTool felt_by(const Tool& tool) const;
   void obey(const Requests& requests);
   void step();
   void publish_models();

@@ -63,7 +63,7 @@ Json frame_json(const PanelContext& context) {
                      {"grabbed_line", key_of(context.specimen.muscles, tool.grabbed_line)},
                      {"forces_stopped", tool.forces_stopped}});
   }
-  return {{"time_s", context.frame.time_s}, {"joints", joints}, {"tools", tools}};
+  return {{"time_s", context.frame.time_s}, {"notice", context.frame.notice}, {"joints", joints}, {"tools", tools}};
 }
 
 /// Where the middles of muscles' skins and lines are on the screen [pixels of the window], whatever hides them.

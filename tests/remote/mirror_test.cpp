@@ -100,6 +100,24 @@ TEST(FrameFit, AFrameOfTheSpecimenFitsAndABrokenOneIsNamed) {
   }
 }
 
+TEST(OwnHand, IsShownAsItIsFeltHere) {
+  messages::SceneFrame frame;
+  messages::FeltTool felt;
+  felt.tool.tool_position_world_m = {0.10, 0.0, 0.0};
+  felt.tool.force_world_N = {0.0, 0.0, 0.7};
+  felt.model_age_s = 0.043;
+  show_own_hand(felt, frame);  // the server did not hear of it yet
+  EXPECT_TRUE(frame.tools.empty());
+  frame.tools.resize(2);
+  frame.tools[0].tool_world_m = {0.0, 0.0, 0.0};
+  frame.tools[1].tool_world_m = {0.09, 0.0, 0.0};  // where it was
+  show_own_hand(felt, frame);
+  EXPECT_EQ(frame.tools[1].tool_world_m, felt.tool.tool_position_world_m);
+  EXPECT_EQ(frame.tools[1].force_world_N[2], 0.7);
+  EXPECT_EQ(frame.tools[1].model_age_s, 0.043);
+  EXPECT_EQ(frame.tools[0].model_age_s, 0.0);
+}
+
 /// A particle on the wall clock behind a server.
 struct Host {
   explicit Host(std::uint16_t port = 0) {
@@ -163,16 +181,14 @@ TEST(Mirror, AnInstructorLeadsAndAViewerLooksOn) {
     EXPECT_EQ(misfit(watcher->frame, watcher->scene.specimen), "");
     EXPECT_EQ(watcher->frame.springs_world_m.size(), 1u);  // no hand is there
   }
-  EXPECT_TRUE(instructor.mirror.is_instructor());
-  EXPECT_FALSE(viewer.mirror.is_instructor());
   scene::Requests paused;
   paused.paused = true;
-  viewer.mirror.request({});
-  viewer.mirror.request(paused);
+  EXPECT_TRUE(viewer.mirror.request({}));
+  EXPECT_FALSE(viewer.mirror.request(paused));
   const double before_s = viewer.frame.time_s;
   EXPECT_TRUE(viewer.sees([&](const auto& f) { return is_later(f, before_s + 0.3); }));
-  instructor.mirror.request({});
-  instructor.mirror.request(paused);
+  EXPECT_TRUE(instructor.mirror.request({}));
+  EXPECT_TRUE(instructor.mirror.request(paused));
   double last_s = 0.0;
   EXPECT_TRUE(comes_true([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(200));

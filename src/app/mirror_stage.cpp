@@ -1,0 +1,102 @@
+#include "app/mirror_stage.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "app/network_options.h"
+#include "app/scene_facts.h"
+#include "core/error.h"
+#include "remote/scene_message.h"
+#include "remote/served_scene.h"
+#include "scene/conductor.h"
+
+namespace myotact::app {
+
+namespace {
+
+bool takes_a_hand(const Options& options) {
+  if (options.devices.empty()) return false;
+  if (options.devices.size() == 1 && options.devices.front() == "mouse") return true;
+  throw Error(ExitStatus::Usage,
+              "--device: beside --connect the window takes the mouse or no device; `myotact feel` is for others");
+}
+
+net::Token token_for(net::Role role) {
+  if (role != net::Role::Instructor) return own_token();
+  return token_of("MYOTACT_INSTRUCTOR_TOKEN").value_or(own_token());
+}
+
+net::Role role_of(const Options& options) {
+  if (options.role == "instructor") return net::Role::Instructor;
+  return options.role == "student" || takes_a_hand(options) ? net::Role::Student : net::Role::Viewer;
+}
+
+net::ClientSettings client_settings(const Options& options) {
+  net::ClientSettings settings;
+  settings.server = server_of(options);
+  settings.hello.role = role_of(options);
+  settings.hello.wants.hand = takes_a_hand(options);
+  settings.hello.wants.frames = settings.hello.wants.readings = true;
+  settings.hello.token = token_for(settings.hello.role);
+  settings.hello.name = "view";
+  return settings;
+}
+
+}  // namespace
+
+MirrorStage::MirrorStage(const Options& options)
+    : answer_(net::ask_scene(server_of(options), token_for(role_of(options)))),
+      scene_(remote::scene_of_message(answer_.scene_json)),
+      mouse_(scene::start_of_hand(scene_, 0)) {
+  const net::ClientSettings settings = client_settings(options);
+  if (settings.hello.wants.hand) {
+    hand_ = std::make_unique<remote::FreeHand>(settings, mouse_, scene_.tools[0], nullptr);
+  } else {
+    watcher_ = std::make_unique<net::Client>(settings);
+    watcher_->start();
+  }
+  mirror_ = std::make_unique<remote::Mirror>(hand_ ? hand_->client() : *watcher_, scene_);
+}
+
+void MirrorStage::start() {
+  if (hand_) hand_->start();
+}
+
+void MirrorStage::stop() noexcept {
+  if (hand_) hand_->stop();
+  if (watcher_) watcher_->stop();
+}
+
+void MirrorStage::fetch_frame(messages::SceneFrame& frame) {
+  mirror_->fetch_frame(frame);
+  if (!hand_) return;
+  hand_->loop().felt().update();
+  remote::show_own_hand(hand_->loop().felt().front(), frame);
+}
+
+std::string MirrorStage::lead(const view::ViewControls& controls, const scene::Requests& requests) {
+  mouse_.set_pointer(to_vec3(controls.hand_world_m), controls.hand_buttons);
+  if (hand_ && controls.arms != arms_) hand_->loop().stop_forces(false);
+  if (hand_ && controls.stops != stops_) hand_->loop().stop_forces(true);  // last: of both, the stop counts
+  arms_ = controls.arms;
+  stops_ = controls.stops;
+  if (mirror_->request(requests) || told_) return "";
+  told_ = true;
+  return "only an instructor changes the scene: connect with --role instructor, and the instructor's token where the "
+         "server has one";
+}
+
+view::WindowSettings MirrorStage::window_settings() const {
+  view::WindowSettings settings;
+  settings.facts = facts_of(scene_);
+  const auto& scenes = settings.facts.scenes;
+  const bool built_in = std::find(scenes.begin(), scenes.end(), scene_.name) != scenes.end();
+  settings.facts.file = built_in ? scene_.name : "elbow";  // to open one on this machine
+  settings.facts.device_peaks_N.assign(remote::kMostHands, mouse_.profile().peak_force_N);
+  settings.hand_start_world_m = to_array(scene::start_of_hand(scene_, 0));
+  settings.start = start_of(scene_);
+  return settings;
+}
+
+}  // namespace myotact::app

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "scene/scene_file.h"
+#include "view/panels/panel.h"
+
+namespace myotact::app {
+
+/// What a window is told of a scene, whoever simulates it: name, title, note, joint, presets and what else can be
+/// opened.
+view::SceneFacts facts_of(const scene::Scene& scene);
+
+/// What its controls show at first.
+view::SceneState start_of(const scene::Scene& scene);
+
+}  // namespace myotact::app

@@ -1,0 +1,79 @@
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "gui/gui_program.h"
+
+// A window on a scene that a server simulates.
+
+namespace myotact {
+namespace {
+
+using nlohmann::json;
+using testing::GuiProgram;
+
+class MirrorWindowTest : public testing::GuiTest {};
+
+/// `myotact serve` on this machine; port 0 takes a free one.
+struct ServerProgram {
+  explicit ServerProgram(int wanted_port) {
+    program =
+        std::make_unique<testing::Child>(MYOTACT_PROGRAM " serve particle --port " + std::to_string(wanted_port), log);
+    for (int i = 0; i < 300 && port == 0; ++i) {
+      testing::pause_s(0.1);
+      std::ifstream lines(log);
+      for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("tcp ")) port = std::stoi(line.substr(line.rfind(':') + 1));
+      }
+    }
+  }
+  ~ServerProgram() {
+    program.reset();
+    std::filesystem::remove(log);
+  }
+
+  std::filesystem::path log =
+      std::filesystem::temp_directory_path() / ("myotact_mirror_" + std::to_string(::getpid()) + ".log");
+  std::unique_ptr<testing::Child> program;
+  int port = 0;
+};
+
+double time_s(const json& state) {
+  return state["frame"]["time_s"];
+}
+
+TEST_F(MirrorWindowTest, AnInstructorsWindowLeadsLosesItsServerAndFindsItAgain) {
+  auto server = std::make_unique<ServerProgram>(0);
+  const int port = server->port;
+  ASSERT_NE(port, 0);
+  GuiProgram gui("mirror", "--role instructor --device mouse --connect 127.0.0.1:" + std::to_string(port));
+  ASSERT_TRUE(gui.wait_until([](const json& s) { return s["scene_name"] == "particle" && time_s(s) > 0.5; }));
+  ASSERT_TRUE(gui.wait_until([](const json& s) { return !s["frame"]["tools"].empty(); }));  // the mouse is a hand of it
+  gui.click("toolbar.pause");
+  ASSERT_TRUE(gui.wait_until([](const json& s) { return s["scene"]["paused"] == true; }));
+  testing::pause_s(0.5);
+  const double paused_s = time_s(gui.state());
+  testing::pause_s(1.0);
+  EXPECT_EQ(time_s(gui.state()), paused_s);
+  gui.click("toolbar.play");
+  EXPECT_TRUE(gui.wait_until([&](const json& s) { return time_s(s) > paused_s + 0.2; }));
+
+  ::kill(server->program->id(), SIGKILL);
+  const auto says_so = [](const json& s) {
+    return s["frame"]["notice"].get<std::string>().find("no connection") != std::string::npos;
+  };
+  EXPECT_TRUE(gui.wait_until(says_so));
+  gui.screenshot("lost");
+  server.reset();
+  server = std::make_unique<ServerProgram>(port);
+  EXPECT_TRUE(gui.wait_until([&](const json& s) { return !says_so(s) && time_s(s) > 0.2; }));
+  EXPECT_TRUE(gui.program().running());
+}
+
+}  // namespace
+}  // namespace myotact
