@@ -57,20 +57,18 @@ ToolStateFrames encode(const messages::ToolState& state) noexcept {
 }
 
 bool ToolStateJoiner::take(const Frame& frame) noexcept {
-  switch (frame.header.type) {
-    case FrameType::ToolContact:
-      return take_contact(frame.payload);
-    case FrameType::ToolGrip:
-      return take_grip(frame.payload);
-    case FrameType::ToolState:
-      return take_state(frame);
-    default:
-      return false;
-  }
+  bool sound = false;
+  messages::ToolState whole = state_;
+  if (frame.header.type == FrameType::ToolContact) sound = take_contact(frame.payload);
+  if (frame.header.type == FrameType::ToolGrip) sound = take_grip(frame.payload);
+  if (frame.header.type == FrameType::ToolState) sound = take_state(frame, whole);
+  if (sound) state_ = whole;
+  if (!sound || frame.header.type == FrameType::ToolState) parts_ = {};
+  return sound;
 }
 
-bool ToolStateJoiner::take_state(const Frame& frame) noexcept {
-  messages::ToolState state;
+bool ToolStateJoiner::take_state(const Frame& frame, messages::ToolState& state) const noexcept {
+  state = {};
   if ((frame.header.flags & kWithContact) != 0) {
     state.contact = parts_.contact;
     state.touched_world_m = parts_.touched_world_m;
@@ -96,8 +94,6 @@ bool ToolStateJoiner::take_state(const Frame& frame) noexcept {
   in.get(third);
   if ((frame.header.flags & kWithContact) != 0) state.contact.barycentric[2] = third;
   state.time_ns = frame.header.time_ns;
-  state_ = state;
-  parts_ = {};
   return in.done() && (frame.header.flags & ~(kWithContact | kWithGrip)) == 0 && std::abs(third) <= 1.0 + kRounding &&
          within(state.tool_position_world_m, kFarthest_m) && within(state.proxy_position_world_m, kFarthest_m) &&
          within(state.force_world_N, kMostForce_N);

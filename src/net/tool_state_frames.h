@@ -23,12 +23,12 @@ ToolStateFrames encode(const messages::ToolState& state) noexcept;
 /// Puts the frames of tool states together again, without loss.
 class ToolStateJoiner {
  public:
-  /// False: a number out of its range. After a ToolState frame state() is whole.
+  /// False: a number out of its range; state() stays what it was. After a ToolState frame state() is whole.
   bool take(const Frame& frame) noexcept;
   const messages::ToolState& state() const noexcept { return state_; }
 
  private:
-  bool take_state(const Frame& frame) noexcept;
+  bool take_state(const Frame& frame, messages::ToolState& state) const noexcept;
   bool take_contact(std::span<const std::uint8_t> payload) noexcept;
   bool take_grip(std::span<const std::uint8_t> payload) noexcept;
 

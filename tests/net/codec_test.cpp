@@ -91,6 +91,20 @@ TEST(Codec, RefusesToolStatesWithNumbersOutOfRange) {
   }
 }
 
+TEST(Codec, WhatWasRefusedIsNotPartOfALaterState) {
+  messages::ToolState bad = touching_state();
+  bad.contact.stiffness_N_m = -1.0;
+  ToolStateJoiner joiner;
+  const ToolStateFrames frames = encode(bad);
+  FrameHeader header;
+  header.type = FrameType::ToolContact;
+  EXPECT_FALSE(joiner.take({header, frames.frames[0].payload()}));
+  header.type = FrameType::ToolState;
+  header.flags = kWithContact;
+  EXPECT_TRUE(joiner.take({header, frames.frames[2].payload()}));
+  EXPECT_EQ(joiner.state().contact.stiffness_N_m, 0.0);
+}
+
 messages::LocalModel some_model() {
   messages::LocalModel model;
   model.sequence = 17;
