@@ -9,6 +9,7 @@
 #include "layer/simulation_engine.h"
 #include "net/local_model_codec.h"
 #include "net/tool_state_frames.h"
+#include "remote/mesh_frames.h"
 #include "remote/scene_message.h"
 #include "scene/model_writer.h"
 #include "scene/remote_hand.h"
@@ -81,7 +82,12 @@ bool LockstepServer::welcome(net::FrameStream& stream, net::Wants& wants) {
   welcome.role = hello.role;
   welcome.lockstep = true;
   welcome.step_ns = step_ns_;
-  return stream.write(net::encode(welcome), 0) && stream.write_text(message_, 0);
+  bool sent = stream.write(net::encode(welcome), 0) && stream.write_text(message_, 0);
+  if (!wants.meshes) return sent;
+  for (const net::Bytes& mesh : mesh_frames(scene_.specimen)) {
+    sent = sent && stream.write(net::FrameType::Mesh, 0, mesh, 0);
+  }
+  return sent;
 }
 
 bool LockstepServer::answer(net::FrameStream& stream, const net::Wants& wants, const messages::ToolState& state,

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "realtime/real_time_thread.h"
 #include "remote/controls.h"
+#include "remote/mesh_frames.h"
 #include "remote/scene_message.h"
 
 namespace myotact::remote {
@@ -37,6 +38,7 @@ std::vector<scene::ToolDevice> remote_tools(const std::vector<std::unique_ptr<ne
 net::ServerSettings server_settings(const scene::Scene& scene, const ServeSettings& given) {
   net::ServerSettings settings = given.server;
   settings.scene_json = scene_message(scene, given.seed);
+  settings.meshes = mesh_frames(scene.specimen);
   settings.step_ns = static_cast<std::uint64_t>(std::llround(scene.settings.dt_s * 1e9));
   return settings;
 }

@@ -21,8 +21,9 @@ using testing::comes_true;
 using testing::TemporaryFolder;
 
 std::unique_ptr<Child> serve(const TemporaryFolder& folder, const std::string& port = "0") {
-  return std::make_unique<Child>(std::vector<std::string>{MYOTACT_PROGRAM, "serve", "spring", "--port", port, "--no-websocket"},
-                                 folder / "served.txt");
+  return std::make_unique<Child>(
+      std::vector<std::string>{MYOTACT_PROGRAM, "serve", "spring", "--port", port, "--no-websocket"},
+      folder / "served.txt");
 }
 
 net::Endpoint endpoint_of(const Child& server) {

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "device/simulated_device.h"
+#include "net/byte_cursor.h"
+#include "net/frame_stream.h"
 #include "remote/free_hand.h"
 #include "scene/scene_file.h"
 #include "support/loopback_server.h"
@@ -89,6 +91,39 @@ TEST(ServedScene, AStopFromAnyoneTakesTheForceAndOnlyTheOwnerArmsAgain) {
   std::this_thread::sleep_for(std::chrono::milliseconds(1500));
   puller.device.set_hand_target({{0.03, 0.0, 0.0}, {}, 0, {}});
   EXPECT_TRUE(comes_true([&] { return puller.force_N() > 0.5; }));
+}
+
+TEST(ServedScene, WhoHasNoFilesGetsTheMeshes) {
+  Host host("spring");
+  net::FrameStream stream(net::connect_to(host.client(net::Role::Viewer, false).server, std::chrono::seconds(5)),
+                          std::chrono::seconds(5));
+  net::Hello hello;
+  hello.wants.meshes = true;
+  stream.write(net::encode(hello), 0);
+  std::size_t triangles = 0;
+  for (std::size_t bones = 0; bones < host.scene.specimen.bones.size();) {
+    const auto frame = stream.read();
+    ASSERT_TRUE(frame) << stream.why();
+    if (frame->header.type != net::FrameType::Mesh) continue;
+    net::ByteReader in(frame->payload);
+    std::uint8_t kind = 0;
+    std::uint16_t index = 0;
+    std::int32_t body = 0;
+    std::uint32_t vertices = 0, faces = 0;
+    in.get(kind);
+    in.get(index);
+    in.get(body);
+    in.get(vertices);
+    in.get(faces);
+    EXPECT_EQ(kind, 1);
+    EXPECT_EQ(index, bones);
+    EXPECT_EQ(body, host.scene.specimen.bones[bones].body);
+    EXPECT_EQ(in.left(), 12 * vertices + 12 * faces);
+    triangles += faces;
+    ++bones;
+  }
+  EXPECT_EQ(triangles, host.scene.specimen.bones[0].surface.triangles.size() +
+                           host.scene.specimen.bones[1].surface.triangles.size());
 }
 
 TEST(ServedScene, AnInstructorPausesAndABadWishIsAnswered) {
