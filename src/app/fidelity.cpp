@@ -70,6 +70,9 @@ int scene_fidelity(const Options& options) {
   if (!options.plant.empty()) request.planted = measure::parse_planted_faults(options.plant);
   request.truth = options.truth == "steps" ? measure::Truth::Steps : measure::Truth::Ticks;
   const Subject subject = subject_of(options);
+  if (subject.scene.settings.tether) {
+    throw bad_data(subject.scene.name, "/original", "has one spring and no touch to judge; name a limb, such as elbow");
+  }
   request.device = subject.device.name;
   request.profile = subject.device.profile;
   if (options.seconds) request.seconds = *options.seconds;

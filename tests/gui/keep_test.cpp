@@ -58,7 +58,7 @@ TEST_F(KeepTest, TablesAndPicturesGoIntoThePersonsOwnFolder) {
   std::getline(std::ifstream(files_below(own, ".csv")[0]), header);
   EXPECT_EQ(header,
             "time_s,elbow_angle_deg,elbow_stiffness_Nm_rad,elbow_torque_Nm,tool_force_N,tool_contact_N,tool_friction_N,"
-            "tool_texture_N,tool_line_N,tool_bone_N,tool_damping_N,tool_limits_N");
+            "tool_texture_N,tool_line_N,tool_bone_N,tool_tether_N,tool_damping_N,tool_limits_N");
   gui.key("ctrl+p");
   ASSERT_TRUE(gui.wait_until([&](const json&) { return files_below(own, ".png").size() == 1; }));
   EXPECT_GT(testing::colours_in(files_below(own, ".png")[0], {0, 0, 1280, 800}), 200);
