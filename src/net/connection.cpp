@@ -1,5 +1,6 @@
 #include "net/connection.h"
 
+#include <cstring>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,6 +11,29 @@
 #include "realtime/real_time_thread.h"
 
 namespace myotact::net {
+
+namespace {
+
+/// As hard to guess as a token: who knows it takes over the hand.
+std::uint64_t new_resume_id() {
+  const Token random = new_token();
+  std::uint64_t id = 0;
+  std::memcpy(&id, random.data(), sizeof id);
+  return id;
+}
+
+/// Gives a connection that broke without a word the time to leave.
+int take_hand(HandTable& hands, HandWish wish, std::uint64_t resume_id) {
+  constexpr std::chrono::milliseconds kLook(20);
+  constexpr int kLooks = 50;
+  for (int i = 0; i < kLooks; ++i) {
+    if (const int hand = hands.take(wish, resume_id); hand != HandTable::kComesFree) return hand;
+    std::this_thread::sleep_for(kLook);
+  }
+  return -1;
+}
+
+}  // namespace
 
 Connection::Connection(Socket socket, std::string peer, ServerState& server)
     : socket_(std::move(socket)),
@@ -87,8 +111,8 @@ bool Connection::welcome(const Hello& hello) {
   wants_ = hello.wants;
   Welcome answer;
   answer.client = id_;
-  answer.resume_id = hello.resume_id != 0 ? hello.resume_id : realtime::steady_now_ns();
-  if (wants_.hand && role_ != Role::Viewer) hand_ = server_.hands.take(hello.hand, answer.resume_id);
+  answer.resume_id = hello.resume_id != 0 ? hello.resume_id : new_resume_id();
+  if (wants_.hand && role_ != Role::Viewer) hand_ = take_hand(server_.hands, hello.hand, answer.resume_id);
   answer.hand = static_cast<std::int8_t>(hand_);
   answer.role = role_;
   answer.step_ns = server_.settings.step_ns;

@@ -18,11 +18,13 @@ void Connection::send_all() {
   std::uint64_t heard = 0;
   while (!closing_) {
     heard = server_.bell.wait(heard, kLook);
-    if (closing_ || send_news()) continue;
-    if (!closing_.exchange(true)) {
+    const bool is_claimed = hand_ >= 0 && server_.hands.is_claimed(hand_);
+    if (closing_ || (!is_claimed && send_news())) continue;
+    if (!is_claimed && !closing_) {
       server_.count(&ServerCounters::closed_slow);
       complain("it takes nothing of what is sent to it");
     }
+    closing_ = true;
     shut_down();
   }
 }

@@ -9,7 +9,7 @@ constexpr std::chrono::seconds kKept(5);  // for a client whose connection broke
 }  // namespace
 
 HandTable::HandTable(const std::vector<HandPlace>& places) {
-  for (const HandPlace& place : places) places_.push_back({place, false, 0, {}});
+  for (const HandPlace& place : places) places_.push_back({place, false, false, 0, {}});
 }
 
 int HandTable::take(HandWish wish, std::uint64_t resume_id) {
@@ -18,6 +18,10 @@ int HandTable::take(HandWish wish, std::uint64_t resume_id) {
   Place* best = nullptr;
   int best_rank = 0;
   for (Place& place : places_) {
+    if (place.taken && resume_id != 0 && place.resume_id == resume_id) {
+      place.claimed = true;
+      return kComesFree;
+    }
     if (place.taken || (wish != HandWish::Any && place.hand.left != (wish == HandWish::Left))) continue;
     const bool was_ours = resume_id != 0 && place.resume_id == resume_id;
     const int rank = was_ours ? 3 : (now < place.kept_until ? 1 : 2);
@@ -27,7 +31,7 @@ int HandTable::take(HandWish wish, std::uint64_t resume_id) {
     }
   }
   if (best == nullptr) return -1;
-  *best = {best->hand, true, resume_id, {}};
+  *best = {best->hand, true, false, resume_id, {}};
   return static_cast<int>(best - places_.data());
 }
 
@@ -37,6 +41,11 @@ void HandTable::leave(int hand) {
   place.hand.channels->states.publish({});
   place.taken = false;
   place.kept_until = std::chrono::steady_clock::now() + kKept;
+}
+
+bool HandTable::is_claimed(int hand) {
+  const std::lock_guard lock(mutex_);
+  return places_[static_cast<std::size_t>(hand)].claimed;
 }
 
 }  // namespace myotact::net

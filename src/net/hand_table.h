@@ -33,8 +33,12 @@ class HandTable {
   explicit HandTable(const std::vector<HandPlace>& places);
 
   /// A free hand for a client, or -1. One that left a moment ago gets its own hand again; until then others get it only
-  /// when there is no other.
+  /// when there is no other. Where its own hand is still that of a connection that broke without a word, that one is
+  /// told to leave, and the answer is kComesFree: ask again.
   int take(HandWish wish, std::uint64_t resume_id);
+  static constexpr int kComesFree = -2;
+  /// Its owner has come back by another connection: this one is to leave.
+  bool is_claimed(int hand);
   /// Nobody has the hand from now on: it lets go of everything.
   void leave(int hand);
 
@@ -43,7 +47,7 @@ class HandTable {
  private:
   struct Place {
     HandPlace hand;
-    bool taken = false;
+    bool taken = false, claimed = false;
     std::uint64_t resume_id = 0;  // of its owner, or its last one
     std::chrono::steady_clock::time_point kept_until;
   };

@@ -1,3 +1,4 @@
+#include <cstdlib>
 #include <fstream>
 #include <iostream>
 
@@ -7,6 +8,7 @@
 #include "realtime/periodic_loop.h"
 #include "remote/free_hand.h"
 #include "scene/scene_file.h"
+#include "support/cable.h"
 #include "support/child.h"
 #include "support/loopback_server.h"
 #include "support/temporary_folder.h"
@@ -68,6 +70,7 @@ class PulledHand {
     settings.server = server;
     settings.hello.role = net::Role::Student;
     settings.hello.wants.hand = true;
+    if (const char* token = std::getenv("MYOTACT_TOKEN")) settings.hello.token = net::parse_token(token).value();
     return settings;
   }
 
@@ -117,6 +120,26 @@ TEST(BrokenLink, AServerThatHangs) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1500));  // the client gives the connection up
         server->send(SIGCONT);
       });
+}
+
+TEST(BrokenLink, ACableThatIsPulledAndPluggedInAgain) {
+  const testing::Cable cable;
+  if (!cable.works()) GTEST_SKIP() << "no network namespaces here: they need root and iproute2";
+  const TemporaryFolder folder;
+  setenv("MYOTACT_TOKEN", "000102030405060708090a0b0c0d0e0f", 1);
+  const Child server({"/sbin/ip", "netns", "exec", cable.far_host(), MYOTACT_PROGRAM, "serve", "spring", "--bind",
+                      testing::Cable::far_address(), "--port", "0", "--no-websocket"},
+                     folder / "served.txt");
+  PulledHand hand(endpoint_of(server));
+  break_and_mend(
+      hand, [&] { cable.pull(); },
+      [&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1200));  // the client gives the connection up
+        cable.plug_in();
+      });
+  EXPECT_EQ(hand.client().status().connections, 2u);
+  EXPECT_EQ(hand.client().status().welcome.hand, 0) << "its hand, which the dead connection still had";
+  unsetenv("MYOTACT_TOKEN");
 }
 
 std::size_t resident_kB(int pid) {
