@@ -46,6 +46,7 @@ nlohmann::json counters_json(const net::ServerCounters& counters) {
   }
   return {{"accepted", counters.accepted},
           {"refused", counters.refused},
+          {"failed", counters.failed},
           {"closed_slow", counters.closed_slow},
           {"closed_silent", counters.closed_silent},
           {"bad_frames", faults},

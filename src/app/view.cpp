@@ -44,8 +44,8 @@ scene::Requests requests_of(const view::ViewControls& controls, bool driven) {
   requests.extensors = state.extensors;
   requests.common = state.common;
   requests.difference = state.difference;
-  requests.levels_changed = state.drive == view::Drive::Levels;
-  requests.balance_changed = state.drive == view::Drive::Balance || (state.drive == view::Drive::Script && driven);
+  requests.levels_asked = state.drive == view::Drive::Levels;
+  requests.balance_asked = state.drive == view::Drive::Balance || (state.drive == view::Drive::Script && driven);
   requests.hold_posture = state.hold_posture;
   requests.gravity = state.gravity;
   requests.paused = controls.paused;

@@ -31,7 +31,6 @@ Client::~Client() {
 
 void Client::start() {
   connect();
-  say_hello();
   while (connected_ && status().scene_json.empty()) {
     if (!receive_until_break()) break;
   }
@@ -60,15 +59,16 @@ void Client::connect() {
   set_patience(socket, settings_.silence);
   reader_ = FrameReader();
   decoder_ = SceneDecoder();
+  clock_ = ClockEstimate();  // it may be another server, or the same one after a restart of its machine
+  settings_.hello.resume_id = status().welcome.resume_id;
+  const SmallFrame hello = encode(settings_.hello);
   const std::lock_guard lock(writing_);
+  is_welcome_ = has_hand_ = false;
   socket_ = std::move(socket);
   sequence_ = 0;
   connected_ = true;
-}
-
-void Client::say_hello() {
-  settings_.hello.resume_id = status().welcome.resume_id;
-  write(encode(settings_.hello));
+  hello_ns_ = realtime::steady_now_ns();
+  write_locked(hello.type, hello.flags, hello.payload());
 }
 
 void Client::receive_all() {
@@ -108,7 +108,10 @@ bool Client::take(const Frame& frame) {
     case FrameType::Welcome: {
       const std::lock_guard lock(telling_);
       sound = decode(frame.payload, status_.welcome);
+      const std::uint64_t there_ns = status_.welcome.server_time_ns;
+      clock_.add({hello_ns_, there_ns, there_ns, realtime::steady_now_ns()});
       has_hand_ = sound && status_.welcome.hand >= 0;
+      is_welcome_ = sound;
       break;
     }
     case FrameType::Control: {
@@ -175,7 +178,7 @@ void Client::take_bye(const Frame& frame) {
 }
 
 void Client::note_break(const std::string& why) {
-  connected_ = false;
+  connected_ = is_welcome_ = false;
   const std::lock_guard lock(telling_);
   if (status_.connected && !closing_) spdlog::warn("connection lost: {}; connecting again", why);
   status_.connected = false;
@@ -191,7 +194,6 @@ void Client::reconnect() {
     if (closing_ || status().is_final) continue;
     try {
       connect();
-      say_hello();
     } catch (const Error& failure) {
       note_break(failure.what());
     }
@@ -206,7 +208,7 @@ void Client::send_all() {
   std::uint64_t pinged_ns = 0;
   while (!closing_) {
     const std::uint64_t now_ns = loop.wait().now_ns;
-    if (!connected_) continue;
+    if (!is_welcome_) continue;
     if (loop_.states != nullptr && has_hand_ && loop_.states->update()) {
       const ToolStateFrames frames = encode(loop_.states->front());
       for (const SmallFrame& frame : frames.used()) write(frame);
@@ -218,8 +220,12 @@ void Client::send_all() {
 }
 
 bool Client::write(FrameType type, std::uint8_t flags, std::span<const std::uint8_t> payload) {
-  constexpr std::chrono::milliseconds kPatience(500);
   const std::lock_guard lock(writing_);
+  return write_locked(type, flags, payload);
+}
+
+bool Client::write_locked(FrameType type, std::uint8_t flags, std::span<const std::uint8_t> payload) {
+  constexpr std::chrono::milliseconds kPatience(500);
   FrameHeader header;
   header.type = type;
   header.flags = flags;
@@ -234,11 +240,11 @@ bool Client::write(FrameType type, std::uint8_t flags, std::span<const std::uint
 }
 
 void Client::ask(const std::string& control_json) {
-  if (connected_) write(FrameType::Control, 0, bytes_of(control_json));
+  if (is_welcome_) write(FrameType::Control, 0, bytes_of(control_json));
 }
 
 void Client::ask_stop() {
-  if (connected_) write(encode(Event{EventCode::Stop, 0, "stop"}));
+  if (is_welcome_) write(encode(Event{EventCode::Stop, 0, "stop"}));
 }
 
 LinkStatus Client::status() const {

@@ -79,7 +79,6 @@ class Client {
 
  private:
   void connect();
-  void say_hello();
   void receive_all();
   bool receive_until_break();
   bool take(const Frame& frame);
@@ -88,6 +87,7 @@ class Client {
   void reconnect();
   void send_all();
   bool write(FrameType type, std::uint8_t flags, std::span<const std::uint8_t> payload);
+  bool write_locked(FrameType type, std::uint8_t flags, std::span<const std::uint8_t> payload);
   bool write(const SmallFrame& frame) { return write(frame.type, frame.flags, frame.payload()); }
   void note_break(const std::string& why);
 
@@ -105,8 +105,10 @@ class Client {
   LinkStatus status_;
   std::function<void()> on_stop_;
   std::atomic<std::uint32_t> stops_{0};
-  std::atomic<bool> connected_{false};
-  std::atomic<bool> has_hand_{false};
+  std::uint64_t hello_ns_ = 0;           // when the last one left
+  std::atomic<bool> connected_{false};   // the socket is
+  std::atomic<bool> is_welcome_{false};  // the server answered the Hello of this connection
+  std::atomic<bool> has_hand_{false};    // of this connection
   std::atomic<bool> closing_{false};
   std::thread receiver_, sender_;
 };

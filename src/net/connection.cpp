@@ -1,6 +1,7 @@
 #include "net/connection.h"
 
 #include <cstring>
+#include <exception>
 #include <utility>
 
 #include <fmt/format.h>
@@ -22,17 +23,6 @@ std::uint64_t new_resume_id() {
   return id;
 }
 
-/// Gives a connection that broke without a word the time to leave.
-int take_hand(HandTable& hands, HandWish wish, std::uint64_t resume_id) {
-  constexpr std::chrono::milliseconds kLook(20);
-  constexpr int kLooks = 50;
-  for (int i = 0; i < kLooks; ++i) {
-    if (const int hand = hands.take(wish, resume_id); hand != HandTable::kComesFree) return hand;
-    std::this_thread::sleep_for(kLook);
-  }
-  return -1;
-}
-
 }  // namespace
 
 Connection::Connection(Socket socket, std::string peer, ServerState& server)
@@ -48,22 +38,39 @@ Connection::~Connection() {
   receiver_.join();
 }
 
+/// Whatever one client makes fail - no memory, no thread - is the end of its connection and of nothing else.
 void Connection::receive_all() {
   realtime::name_this_thread("net receive");
-  set_patience(socket_, server_.settings.hello_wait);
-  if (admit()) {
-    set_patience(socket_, server_.settings.silence);
-    sender_ = std::thread([this] { send_all(); });
-    for (std::optional<Frame> frame = next_frame(); frame && obey(*frame);) frame = next_frame();
-    closing_ = true;
-    shut_down();
-    server_.bell.ring();
-    sender_.join();
-    spdlog::info("Client {} left.", id_.load());
+  try {
+    serve();
+  } catch (const std::exception& failure) {
+    server_.count(&ServerCounters::failed);
+    complain(failure.what());
   }
-  if (hand_ >= 0) server_.hands.leave(hand_);
-  shut_down();
+  leave();
   finished_ = true;
+}
+
+void Connection::serve() {
+  reader_.set_most_payload(kSmallPayload);  // a stranger is not worth more memory
+  set_patience(socket_, server_.settings.hello_wait);
+  if (!admit()) return;
+  reader_.set_most_payload(kMostControl);
+  set_patience(socket_, server_.settings.silence);
+  sender_ = std::thread([this] { send_all(); });
+  for (std::optional<Frame> frame = next_frame(); frame && obey(*frame);) frame = next_frame();
+}
+
+void Connection::leave() {
+  closing_ = true;
+  shut_down();
+  server_.bell.ring();
+  if (sender_.joinable()) sender_.join();
+  if (hand_ >= 0) server_.hands.leave(hand_, stops_);
+  if (!admitted_) return;
+  --server_.admitted;
+  if (wants_.frames) --server_.watchers;
+  spdlog::info("Client {} left.", id_.load());
 }
 
 /// The next whole frame; nothing when the connection is at its end.
@@ -106,19 +113,26 @@ bool Connection::admit() {
 }
 
 bool Connection::welcome(const Hello& hello) {
-  id_ = server_.next_client++;
+  if (++server_.admitted > server_.settings.most_connections) {
+    --server_.admitted;
+    refuse(ByeReason::Full, fmt::format("{} clients are all that may join", server_.settings.most_connections));
+    return false;
+  }
   role_ = hello.role;
   wants_ = hello.wants;
+  if (wants_.frames) ++server_.watchers;
+  stops_ = server_.stops;  // before the Welcome: no stop after it is missed
+  id_ = server_.next_client++;
+  admitted_ = true;
+  const std::uint64_t resume_id = hello.resume_id != 0 ? hello.resume_id : new_resume_id();
+  if (wants_.hand && role_ != Role::Viewer && !take_hand(hello.hand, hello.resume_id, resume_id)) return false;
   Welcome answer;
   answer.client = id_;
-  answer.resume_id = hello.resume_id != 0 ? hello.resume_id : new_resume_id();
-  if (wants_.hand && role_ != Role::Viewer) hand_ = take_hand(server_.hands, hello.hand, answer.resume_id);
+  answer.resume_id = resume_id;
   answer.hand = static_cast<std::int8_t>(hand_);
   answer.role = role_;
   answer.step_ns = server_.settings.step_ns;
   answer.server_time_ns = realtime::steady_now_ns();
-  admitted_ = true;
-  stops_ = server_.stops;  // before the Welcome: no stop after it is missed
   const std::string& scene = server_.settings.scene_json;
   spdlog::info("Client connected! {} as {}{}", peer_, describe(role_),
                hand_ >= 0 ? fmt::format(", hand {}", hand_) : std::string());
@@ -126,6 +140,33 @@ bool Connection::welcome(const Hello& hello) {
               write(FrameType::Control, 0, {reinterpret_cast<const std::uint8_t*>(scene.data()), scene.size()});
   for (const Bytes& mesh : server_.settings.meshes) sent = sent && (!wants_.meshes || write(FrameType::Mesh, 0, mesh));
   return sent;
+}
+
+/// Gives a connection that broke without a word the time to leave. False: the client came back for a hand, and is to
+/// try again later; a new one may watch without.
+bool Connection::take_hand(HandWish wish, std::uint64_t former_id, std::uint64_t resume_id) {
+  constexpr std::chrono::milliseconds kLook(20);
+  constexpr int kLooks = 50;
+  const auto leave_now = [this] {
+    closing_ = true;
+    shut_down();
+  };
+  HandTable::Taken taken = server_.hands.take(wish, resume_id, leave_now);
+  for (int i = 0; taken.comes_free && i < kLooks && !closing_; ++i) {
+    std::this_thread::sleep_for(kLook);
+    taken = server_.hands.take(wish, resume_id, leave_now);
+  }
+  hand_ = taken.hand;
+  if (hand_ < 0) {
+    if (former_id != 0) refuse(ByeReason::NoHand, "no hand of the scene is free yet; come again");
+    return former_id == 0;
+  }
+  // A stop while it was away is told it now. Its former hand is another's, perhaps: one too many does no harm.
+  if (former_id != 0) stops_ = taken.stops_told.value_or(0);
+  HandChannels& channels = server_.hands.channels(hand_);
+  channels.forces.update();
+  first_step_ = channels.forces.front().step + 2;  // the step under way may still be the former owner's
+  return true;
 }
 
 bool Connection::obey(const Frame& frame) {
@@ -173,7 +214,8 @@ bool Connection::take_tool_frame(const Frame& frame) {
   HandChannels& channels = server_.hands.channels(hand_);
   channels.states.publish(state);
   channels.forces.update();
-  const messages::HandForce& force = channels.forces.front();
+  messages::HandForce force = channels.forces.front();
+  if (force.step < first_step_) force.force_world_N = {};
   spdlog::debug("force send: {} {} {}", force.force_world_N[0], force.force_world_N[1], force.force_world_N[2]);
   write(encode(ForceAnswer{state.sequence, force.step, force.force_world_N}), true);
   return true;
@@ -204,6 +246,15 @@ bool Connection::take_control(const Frame& frame) {
   if (!server_.ask({id_, role_, text}))
     return write(encode(Event{EventCode::Refused, 0, "too much is asked for at once"}));
   return true;
+}
+
+void Connection::refuse_wish(const std::string& why) {
+  constexpr std::size_t kMost = 8;  // of answers that a slow reader has not taken
+  {
+    const std::lock_guard lock(refusing_);
+    if (refusals_.size() < kMost) refusals_.push_back(why);
+  }
+  server_.bell.ring();
 }
 
 void Connection::refuse(ByeReason reason, const std::string& text) {

@@ -34,13 +34,18 @@ class Connection {
   bool finished() const { return finished_; }
   bool is_waiting() const { return !admitted_; }  // for its Hello
   std::uint32_t id() const { return id_; }
-  /// Tells the client why something that it asked for is not done.
-  void refuse_wish(const std::string& why) { write(encode(Event{EventCode::Refused, 0, why}), true); }
+  /// Tells the client, soon, why something that it asked for is not done.
+  void refuse_wish(const std::string& why);
+  /// The last word of a server that has no more time for it.
+  void dismiss(ByeReason reason, const std::string& why);
   void shut_down() const { net::shut_down(socket_); }
 
  private:
   void receive_all();
+  void serve();
+  void leave();
   bool admit();
+  bool take_hand(HandWish wish, std::uint64_t former_id, std::uint64_t resume_id);
   bool welcome(const Hello& hello);
   bool obey(const Frame& frame);
   bool take_tool_frame(const Frame& frame);
@@ -52,11 +57,13 @@ class Connection {
 
   void send_all();
   bool send_news();
+  bool send_events();
   bool send_model();
   bool send_scene();
 
   bool write(FrameType type, std::uint8_t flags, std::span<const std::uint8_t> payload, bool may_drop = false);
   bool write(const SmallFrame& frame, bool may_drop = false);
+  bool write_locked(FrameType type, std::uint8_t flags, std::span<const std::uint8_t> payload, bool may_drop);
 
   Socket socket_;
   std::string peer_;
@@ -68,11 +75,15 @@ class Connection {
   Role role_ = Role::Viewer;
   Wants wants_;
   int hand_ = -1;
-  std::uint32_t stops_ = 0;  // told so far
+  std::uint64_t first_step_ = 0;  // whose force is of this client's hand
+  std::uint32_t stops_ = 0;       // told so far
+  std::mutex refusing_;
+  std::deque<std::string> refusals_;  // of wishes, to be told
   Bytes model_bytes_;
   std::shared_ptr<const EncodedScene> shown_;  // sent last
   std::mutex writing_;
-  std::uint32_t sequence_ = 0;  // of the next frame, under writing_
+  std::uint32_t sequence_ = 0;         // of the next frame, under writing_
+  std::atomic<bool> is_stuck_{false};  // it did not take a frame: nothing after it would make sense to it
   std::atomic<bool> admitted_{false};
   std::atomic<bool> closing_{false};
   std::atomic<bool> finished_{false};

@@ -1,3 +1,4 @@
+#include <exception>
 #include <mutex>
 #include <vector>
 
@@ -16,25 +17,40 @@ void Connection::send_all() {
   realtime::name_this_thread("net send");
   constexpr std::chrono::milliseconds kLook(100);
   std::uint64_t heard = 0;
-  while (!closing_) {
-    heard = server_.bell.wait(heard, kLook);
-    const bool is_claimed = hand_ >= 0 && server_.hands.is_claimed(hand_);
-    if (closing_ || (!is_claimed && send_news())) continue;
-    if (!is_claimed && !closing_) {
+  try {
+    while (!closing_) {
+      heard = server_.bell.wait(heard, kLook);
+      if (closing_ || (send_news() && !is_stuck_) || closing_) continue;
       server_.count(&ServerCounters::closed_slow);
       complain("it takes nothing of what is sent to it");
+      break;
     }
-    closing_ = true;
-    shut_down();
+  } catch (const std::exception& failure) {
+    server_.count(&ServerCounters::failed);
+    complain(failure.what());
   }
+  closing_ = true;
+  shut_down();
 }
 
 bool Connection::send_news() {
+  return send_events() && send_model() && send_scene();
+}
+
+bool Connection::send_events() {
   if (const std::uint32_t now = server_.stops; now != stops_) {
     stops_ = now;
     if (!write(encode(Event{EventCode::Stop, 0, "somebody stopped all forces"}))) return false;
   }
-  return send_model() && send_scene();
+  std::deque<std::string> refusals;
+  {
+    const std::lock_guard lock(refusing_);
+    refusals.swap(refusals_);
+  }
+  for (const std::string& why : refusals) {
+    if (!write(encode(Event{EventCode::Refused, 0, why}))) return false;
+  }
+  return true;
 }
 
 bool Connection::send_model() {
@@ -52,7 +68,8 @@ bool Connection::send_scene() {
   const std::vector<const EncodedFrame*> frames = frames_to_send(*scene, shown_.get(), wants_);
   for (const EncodedFrame* frame : frames) {
     const std::uint8_t flags = frame == frames.back() ? kLastOfScene : 0;
-    if (!write(frame->type, flags, frame->payload)) return false;
+    // What a hand waits for goes between: a scene's frames may take a slow line long.
+    if (!send_events() || !send_model() || !write(frame->type, flags, frame->payload)) return false;
   }
   shown_ = scene;
   return true;
@@ -65,6 +82,18 @@ bool Connection::write(const SmallFrame& frame, bool may_drop) {
 /// Either thread. False: not sent.
 bool Connection::write(FrameType type, std::uint8_t flags, std::span<const std::uint8_t> payload, bool may_drop) {
   const std::lock_guard lock(writing_);
+  return write_locked(type, flags, payload, may_drop);
+}
+
+void Connection::dismiss(ByeReason reason, const std::string& why) {
+  const std::unique_lock lock(writing_, std::try_to_lock);  // who is still taking a frame has no ear for it
+  const SmallFrame bye = encode(Bye{reason, why});
+  if (lock) write_locked(bye.type, bye.flags, bye.payload(), true);
+}
+
+bool Connection::write_locked(FrameType type, std::uint8_t flags, std::span<const std::uint8_t> payload,
+                              bool may_drop) {
+  if (is_stuck_) return false;
   FrameHeader header;
   header.type = type;
   header.flags = flags;
@@ -72,6 +101,7 @@ bool Connection::write(FrameType type, std::uint8_t flags, std::span<const std::
   header.time_ns = realtime::steady_now_ns();
   const Sent sent = send(socket_, header_bytes(header, payload), payload, may_drop, server_.settings.slow_wait);
   if (sent == Sent::All) ++sequence_;
+  if (sent == Sent::Failed) is_stuck_ = true;  // it may have half of a frame
   return sent == Sent::All;
 }
 

@@ -31,6 +31,7 @@ std::optional<Frame> FrameReader::next() {
   const auto header_part = bytes.first<kHeaderBytes>();
   Frame frame;
   fault_ = parse_header(header_part, frame.header);
+  if (fault_ == WireFault::None && frame.header.length > most_payload_) fault_ = WireFault::Length;
   if (fault_ != WireFault::None || bytes.size() < kHeaderBytes + frame.header.length) return std::nullopt;
   frame.payload = bytes.subspan(kHeaderBytes, frame.header.length);
   if (!has_right_crc(header_part, frame.payload)) {

@@ -12,6 +12,8 @@ namespace myotact::net {
 class FrameReader {
  public:
   FrameReader();
+  /// From now on longer payloads are refused before any of them came; at first: whatever their type ever has.
+  void set_most_payload(std::size_t bytes) { most_payload_ = bytes; }
 
   /// Where the next bytes go; never empty. Frames told before are void.
   std::span<std::uint8_t> room();
@@ -24,7 +26,8 @@ class FrameReader {
  private:
   Bytes buffer_;
   std::size_t begin_ = 0, end_ = 0;  // of what came and was not told yet
-  std::uint32_t sequence_ = 0;       // of the next frame
+  std::size_t most_payload_ = kMostPayload;
+  std::uint32_t sequence_ = 0;  // of the next frame
   WireFault fault_ = WireFault::None;
 };
 

@@ -1,11 +1,19 @@
 #include "net/frame_stream.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace myotact::net {
 
-FrameStream::FrameStream(Socket socket, std::chrono::milliseconds patience) : socket_(std::move(socket)) {
-  set_patience(socket_, patience);
+namespace {
+
+constexpr std::chrono::milliseconds kLook(100);
+
+}  // namespace
+
+FrameStream::FrameStream(Socket socket, std::chrono::milliseconds patience, std::function<bool()> stopped)
+    : socket_(std::move(socket)), patience_(patience), stopped_(std::move(stopped)) {
+  net::set_patience(socket_, std::min(patience, kLook));
 }
 
 bool FrameStream::write(FrameType type, std::uint8_t flags, std::span<const std::uint8_t> payload,
@@ -23,6 +31,15 @@ bool FrameStream::write_text(const std::string& text, std::uint64_t time_ns) {
   return write(FrameType::Control, 0, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, time_ns);
 }
 
+Received FrameStream::wait_for_bytes(std::size_t& count) {
+  const auto until = std::chrono::steady_clock::now() + patience_;
+  for (;;) {
+    const Received received = receive(socket_, reader_.room(), count);
+    const bool waits_on = std::chrono::steady_clock::now() < until && !(stopped_ && stopped_());
+    if (received != Received::TimedOut || !waits_on) return received;
+  }
+}
+
 std::optional<Frame> FrameStream::read() {
   for (;;) {
     if (const auto frame = reader_.next()) return frame;
@@ -31,7 +48,7 @@ std::optional<Frame> FrameStream::read() {
       return std::nullopt;
     }
     std::size_t count = 0;
-    const Received received = receive(socket_, reader_.room(), count);
+    const Received received = wait_for_bytes(count);
     if (received == Received::Some) {
       reader_.filled(count);
       continue;

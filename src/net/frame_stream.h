@@ -1,6 +1,8 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -13,8 +15,10 @@ namespace myotact::net {
 /// Frames to and from one peer, one after the other: for programs in lockstep, which wait for each other. One thread.
 class FrameStream {
  public:
-  /// `patience`: how long to wait for a frame.
-  FrameStream(Socket socket, std::chrono::milliseconds patience);
+  /// `patience`: how long to wait for a frame. `stopped`: asked ten times a second whether to wait no longer.
+  FrameStream(Socket socket, std::chrono::milliseconds patience, std::function<bool()> stopped = {});
+
+  void set_patience(std::chrono::milliseconds patience) { patience_ = patience; }
 
   /// False: the peer is gone or takes nothing.
   bool write(FrameType type, std::uint8_t flags, std::span<const std::uint8_t> payload, std::uint64_t time_ns);
@@ -28,7 +32,11 @@ class FrameStream {
   const std::string& why() const { return why_; }
 
  private:
+  Received wait_for_bytes(std::size_t& count);
+
   Socket socket_;
+  std::chrono::milliseconds patience_;
+  std::function<bool()> stopped_;
   FrameReader reader_;
   std::uint32_t sequence_ = 0;
   std::string why_;

@@ -2,7 +2,9 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "messages/local_model.h"
@@ -32,23 +34,26 @@ class HandTable {
   /// The channels outlive the table.
   explicit HandTable(const std::vector<HandPlace>& places);
 
-  /// A free hand for a client, or -1. One that left a moment ago gets its own hand again; until then others get it only
-  /// when there is no other. Where its own hand is still that of a connection that broke without a word, that one is
-  /// told to leave, and the answer is kComesFree: ask again.
-  int take(HandWish wish, std::uint64_t resume_id);
-  static constexpr int kComesFree = -2;
-  /// Its owner has come back by another connection: this one is to leave.
-  bool is_claimed(int hand);
-  /// Nobody has the hand from now on: it lets go of everything.
-  void leave(int hand);
+  struct Taken {
+    int hand = -1;
+    bool comes_free = false;                  // its own hand is still another connection's, which was told to leave
+    std::optional<std::uint32_t> stops_told;  // to its owner, who has come back to it, before the break
+  };
+  /// A free hand for a client, if there is one. One that left a moment ago gets its own hand again; until then others
+  /// get it only when there is no other. `leave_now` is called, under a lock, when the client comes back by another
+  /// connection while this one, which broke without a word, still has the hand.
+  Taken take(HandWish wish, std::uint64_t resume_id, std::function<void()> leave_now);
+  /// Nobody has the hand from now on: it lets go of everything. Its owner was told of so many emergency stops.
+  void leave(int hand, std::uint32_t stops_told);
 
   HandChannels& channels(int hand) { return *places_[static_cast<std::size_t>(hand)].hand.channels; }
 
  private:
   struct Place {
     HandPlace hand;
-    bool taken = false, claimed = false;
-    std::uint64_t resume_id = 0;  // of its owner, or its last one
+    std::function<void()> leave_now;  // empty: the hand is free
+    std::uint64_t resume_id = 0;      // of its owner, or its last one
+    std::uint32_t stops_told = 0;     // to its last owner
     std::chrono::steady_clock::time_point kept_until;
   };
 

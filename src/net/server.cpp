@@ -1,6 +1,7 @@
 #include "net/server.h"
 
 #include <algorithm>
+#include <exception>
 #include <utility>
 
 #include <spdlog/spdlog.h>
@@ -19,7 +20,10 @@ Server::~Server() {
   shut_down(listener_);
   acceptor_.join();
   const std::lock_guard lock(mutex_);
-  for (const auto& connection : connections_) connection->shut_down();
+  for (const auto& connection : connections_) {
+    if (!connection->is_waiting()) connection->dismiss(ByeReason::Closing, "the server stops");
+    connection->shut_down();
+  }
   connections_.clear();
 }
 
@@ -37,17 +41,13 @@ void Server::adopt(Socket socket, const std::string& peer) {
   make_room();
   const std::lock_guard lock(mutex_);
   if (closing_) return;
-  const auto admitted = static_cast<std::size_t>(std::count_if(
-      connections_.begin(), connections_.end(), [](const auto& connection) { return !connection->is_waiting(); }));
-  if (admitted >= state_.settings.most_connections) {
-    state_.count(&ServerCounters::refused);
-    if (state_.is_new_complaint("full")) {
-      spdlog::warn("{}: refused: {} clients are all that may join (told once)", peer, state_.settings.most_connections);
-    }
-    return;
-  }
   state_.count(&ServerCounters::accepted);
-  connections_.push_back(std::make_unique<Connection>(std::move(socket), peer, state_));
+  try {
+    connections_.push_back(std::make_unique<Connection>(std::move(socket), peer, state_));
+  } catch (const std::exception& failure) {  // no memory, no thread: this one does not come in
+    state_.count(&ServerCounters::failed);
+    if (state_.is_new_complaint(failure.what())) spdlog::warn("{}: closed: {} (told once)", peer, failure.what());
+  }
 }
 
 /// Lets go of connections that ended; of those that say nothing, the oldest give way.
@@ -78,13 +78,6 @@ void Server::refuse(std::uint32_t client, const std::string& why) {
 void Server::stop_forces() {
   ++state_.stops;
   state_.bell.ring();
-}
-
-std::size_t Server::client_count() const {
-  const std::lock_guard lock(mutex_);
-  return static_cast<std::size_t>(std::count_if(connections_.begin(), connections_.end(), [](const auto& connection) {
-    return !connection->is_waiting() && !connection->finished();
-  }));
 }
 
 void Server::show(const messages::SceneFrame& frame) {

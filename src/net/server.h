@@ -36,9 +36,12 @@ class Server {
   void refuse(std::uint32_t client, const std::string& why);
   std::uint32_t stops() const { return state_.stops; }  // emergency stops that clients asked for so far
   void stop_forces();                                   // of all hands, asked for by this machine's person
-  std::size_t client_count() const;
+  std::size_t client_count() const { return state_.admitted; }
+  bool is_new_complaint(const std::string& text) { return state_.is_new_complaint(text); }
   ServerCounters counters() const { return state_.counters(); }
 
+  /// Whether anybody wants to see scene frames.
+  bool is_watched() const { return state_.watchers > 0; }
   /// One thread: shows a newer frame to all who want to see.
   void show(const messages::SceneFrame& frame);
 
@@ -49,7 +52,7 @@ class Server {
   Socket listener_;
   ServerState state_;
   SceneEncoder encoder_;
-  mutable std::mutex mutex_;
+  std::mutex mutex_;
   std::vector<std::unique_ptr<Connection>> connections_;
   std::atomic<bool> closing_{false};
   std::thread acceptor_;  // last: it runs from the constructor on

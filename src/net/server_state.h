@@ -42,7 +42,7 @@ struct ControlRequest {
 };
 
 struct ServerCounters {
-  std::uint64_t accepted = 0, refused = 0, closed_slow = 0, closed_silent = 0, dropped_controls = 0;
+  std::uint64_t accepted = 0, refused = 0, failed = 0, closed_slow = 0, closed_silent = 0, dropped_controls = 0;
   std::array<std::uint64_t, kWireFaults> faults{};  // bad frames by kind
 };
 
@@ -56,6 +56,8 @@ class ServerState {
   Doorbell bell;  // models, scene frames or a stop are new
   std::atomic<std::uint32_t> stops{0};
   std::atomic<std::uint32_t> next_client{1};
+  std::atomic<int> watchers{0};          // clients that want scene frames
+  std::atomic<std::size_t> admitted{0};  // clients after their Hello
 
   void show(std::shared_ptr<const EncodedScene> scene);
   std::shared_ptr<const EncodedScene> scene() const;

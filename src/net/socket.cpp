@@ -4,8 +4,10 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <memory>
+#include <thread>
 
 #include <arpa/inet.h>
 #include <fcntl.h>
@@ -23,6 +25,9 @@
 namespace myotact::net {
 
 namespace {
+
+constexpr std::chrono::milliseconds kNoRoom(50);  // until another connection may have left
+constexpr double kSlowest_bytes_s = 64e3;         // of a peer that is not stuck
 
 using Addresses = std::unique_ptr<addrinfo, decltype(&freeaddrinfo)>;
 
@@ -152,11 +157,18 @@ Socket accept_from(const Socket& listener, std::chrono::milliseconds wait, std::
   socklen_t size = sizeof address;
   auto* peer = reinterpret_cast<sockaddr*>(&address);
   Socket socket(accept4(listener.descriptor(), peer, &size, SOCK_CLOEXEC));
-  if (!socket) return {};
+  if (!socket) {
+    // No descriptor is free, so the one who knocks stays there: without a pause this would be asked again and again.
+    if (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM) std::this_thread::sleep_for(kNoRoom);
+    return {};
+  }
   std::array<char, NI_MAXHOST> host{};
   getnameinfo(peer, size, host.data(), host.size(), nullptr, 0, NI_NUMERICHOST);
   peer_address = host.data();
   set_option(socket, IPPROTO_TCP, TCP_NODELAY, 1);
+  // What waits here to be sent grows old: a slow line gets newer models the less of it there is.
+  constexpr int kUnsent_bytes = 1 << 14;
+  set_option(socket, IPPROTO_TCP, TCP_NOTSENT_LOWAT, kUnsent_bytes);
   return socket;
 }
 
@@ -199,6 +211,8 @@ Sent send(const Socket& socket, std::span<const std::uint8_t> head, std::span<co
           std::chrono::milliseconds wait) noexcept {
   std::size_t done = 0;
   const std::size_t whole = head.size() + body.size();
+  const auto end = std::chrono::steady_clock::now() + wait +
+                   std::chrono::milliseconds(std::llround(1e3 * static_cast<double>(whole) / kSlowest_bytes_s));
   while (done < whole) {
     // sendmsg does not write through these pointers.
     std::array<iovec, 2> parts{};
@@ -218,7 +232,8 @@ Sent send(const Socket& socket, std::span<const std::uint8_t> head, std::span<co
       done += static_cast<std::size_t>(sent);
     } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
       if (done == 0 && may_drop) return Sent::None;
-      if (!wait_for(socket, POLLOUT, wait)) return Sent::Failed;
+      const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
+      if (left.count() <= 0 || !wait_for(socket, POLLOUT, std::min(left, wait))) return Sent::Failed;
     } else if (errno != EINTR) {
       return Sent::Failed;
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <exception>
 #include <memory>
 #include <thread>
 #include <utility>
@@ -12,6 +13,7 @@
 #include <boost/asio/local/stream_protocol.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/read.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/asio/write.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
@@ -40,7 +42,9 @@ using Failure = boost::system::error_code;
 constexpr std::size_t kMostMessage = kHeaderBytes + kMostControl;  // that a client sends
 constexpr std::size_t kMostRequest = 8192;                         // of the HTTP request
 constexpr std::size_t kMostGuests = 128;                           // under way at once
+constexpr std::size_t kMostOrigin = 128;                           // of it in a log
 constexpr std::chrono::seconds kRequestWait(3);
+constexpr std::chrono::milliseconds kNoRoom(50);  // until another connection may have left
 
 /// "example.org" of "https://example.org:8080".
 std::string host_of(const std::string& origin) {
@@ -90,8 +94,10 @@ class Guest : public std::enable_shared_from_this<Guest> {
     if (failure || !websocket::is_upgrade(request_.get())) return;
     const auto text = [this](http::field field) { return std::string(request_.get()[field]); };
     if (!may_open(text(http::field::host), text(http::field::origin), origins_)) {
-      spdlog::warn("a WebSocket of a page from \"{}\" was refused; --allow-origin lets it in",
-                   text(http::field::origin));
+      if (server_.is_new_complaint("origin " + text(http::field::origin).substr(0, kMostOrigin))) {
+        spdlog::warn("a WebSocket of a page from \"{}\" was refused; --allow-origin lets it in (told once)",
+                     text(http::field::origin).substr(0, kMostOrigin));
+      }
       http::response<http::empty_body> refusal(http::status::forbidden, request_.get().version());
       refusal.prepare_payload();
       http::write(socket_.next_layer(), refusal, failure);
@@ -191,7 +197,7 @@ struct WebSocketDoor::Impl {
     accept();
     thread = std::thread([this] {
       realtime::name_this_thread("websockets");
-      context.run();
+      run();
     });
   }
   ~Impl() {
@@ -199,10 +205,26 @@ struct WebSocketDoor::Impl {
     thread.join();
   }
 
+  /// What one guest makes fail - no descriptor, no memory - is its own end only.
+  void run() {
+    while (!context.stopped()) {
+      try {
+        context.run();
+      } catch (const std::exception& failure) {
+        if (server.is_new_complaint(failure.what())) spdlog::warn("a WebSocket: {} (told once)", failure.what());
+      }
+    }
+  }
+
   void accept() {
     acceptor.async_accept([this](Failure failure, Tcp::socket socket) {
       if (failure == asio::error::operation_aborted) return;
-      if (!failure && guests < kMostGuests) {
+      if (failure) {  // no descriptor is free: without a pause this would be tried again and again
+        pause.expires_after(kNoRoom);
+        pause.async_wait([this](Failure) { accept(); });
+        return;
+      }
+      if (guests < kMostGuests) {
         std::make_shared<Guest>(std::move(socket), server, origins, guests)->start();
       }
       accept();
@@ -214,6 +236,7 @@ struct WebSocketDoor::Impl {
   std::atomic<std::size_t> guests{0};
   asio::io_context context{1};
   Tcp::acceptor acceptor;
+  asio::steady_timer pause{context};
   std::uint16_t bound = 0;
   std::thread thread;
 };

@@ -15,13 +15,13 @@ void add_control(const std::string& json, scene::Requests& requests) {
   if (deed == "levels") {
     requests.flexors = fields.at("flexors").number_between(0.0, 1.0);
     requests.extensors = fields.at("extensors").number_between(0.0, 1.0);
-    requests.levels_changed = true;
-    requests.balance_changed = false;
+    requests.levels_asked = true;
+    requests.balance_asked = false;
   } else if (deed == "co_contract") {
     requests.common = fields.at("common").number_between(0.0, 1.0);
     requests.difference = fields.at("difference").number_between(-1.0, 1.0);
-    requests.balance_changed = true;
-    requests.levels_changed = false;
+    requests.balance_asked = true;
+    requests.levels_asked = false;
   } else if (deed == "hold_posture") {
     requests.hold_posture = fields.at("on").boolean();
   } else if (deed == "gravity") {
@@ -47,11 +47,11 @@ std::vector<std::string> controls_between(const scene::Requests& before, const s
     for (; from != to; ++from) ask({{"do", deed}});
   };
   const bool new_levels = before.flexors != now.flexors || before.extensors != now.extensors;
-  if (now.levels_changed && (!before.levels_changed || new_levels)) {
+  if (now.levels_asked && (!before.levels_asked || new_levels)) {
     ask({{"do", "levels"}, {"flexors", now.flexors}, {"extensors", now.extensors}});
   }
   const bool new_balance = before.common != now.common || before.difference != now.difference;
-  if (now.balance_changed && (!before.balance_changed || new_balance)) {
+  if (now.balance_asked && (!before.balance_asked || new_balance)) {
     ask({{"do", "co_contract"}, {"common", now.common}, {"difference", now.difference}});
   }
   if (now.hold_posture != before.hold_posture) ask({{"do", "hold_posture"}, {"on", now.hold_posture}});

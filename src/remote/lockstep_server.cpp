@@ -19,6 +19,7 @@ namespace myotact::remote {
 
 namespace {
 
+constexpr std::chrono::milliseconds kHelloWait(3000);   // as long as the others who want to join have to wait, too
 constexpr std::chrono::milliseconds kPatience(60'000);  // with a client that thinks, or is looked at in a debugger
 
 }  // namespace
@@ -44,7 +45,7 @@ void LockstepServer::serve(const std::function<bool()>& stopped) {
     std::string peer;
     net::Socket socket = net::accept_from(listener_, kLook, peer);
     if (!socket) continue;
-    net::FrameStream stream(std::move(socket), kPatience);
+    net::FrameStream stream(std::move(socket), kHelloWait, stopped);
     spdlog::info("Client connected! {}", peer);
     serve_client(stream, *run);
     spdlog::info("Client left: {}", stream.why());
@@ -55,6 +56,7 @@ void LockstepServer::serve(const std::function<bool()>& stopped) {
 void LockstepServer::serve_client(net::FrameStream& stream, Run& run) {
   net::Wants wants;
   if (!welcome(stream, wants)) return;
+  stream.set_patience(kPatience);
   net::ToolStateJoiner joiner;
   while (const auto frame = stream.read()) {
     if (frame->header.type == net::FrameType::Bye) return;
@@ -63,6 +65,10 @@ void LockstepServer::serve_client(net::FrameStream& stream, Run& run) {
       return;
     }
     if (frame->header.type != net::FrameType::ToolState) continue;
+    if (!wants.hand) {
+      stream.write(net::encode(net::Bye{net::ByeReason::NoHand, "a viewer, or who asked for no hand, moves none"}), 0);
+      return;
+    }
     if (!answer(stream, wants, joiner.state(), run)) return;
   }
 }
@@ -76,6 +82,7 @@ bool LockstepServer::welcome(net::FrameStream& stream, net::Wants& wants) {
     return false;
   }
   wants = hello.wants;
+  wants.hand = wants.hand && hello.role != net::Role::Viewer;
   net::Welcome welcome;
   welcome.client = 1;
   welcome.hand = wants.hand ? std::int8_t{0} : std::int8_t{-1};
@@ -90,8 +97,9 @@ bool LockstepServer::welcome(net::FrameStream& stream, net::Wants& wants) {
   return sent;
 }
 
-bool LockstepServer::answer(net::FrameStream& stream, const net::Wants& wants, const messages::ToolState& state,
+bool LockstepServer::answer(net::FrameStream& stream, const net::Wants& wants, const messages::ToolState& said,
                             Run& run) {
+  const messages::ToolState state = scene::heeded(said, scene_.specimen);
   if (run.begun) step(state, run);
   if (!run.begun) run.conductor.prepare_step(run.simulation.time_s(), run.input);
   run.begun = true;

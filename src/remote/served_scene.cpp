@@ -67,8 +67,8 @@ ServedScene::ServedScene(const scene::Scene& scene, simulation::Simulation& simu
                          scene::RecordingWriter* recorder)
     : channels_(make_channels(scene.tools.size())),
       hands_(places_of(channels_, scene)),
-      session_(scene, simulation, remote_tools(channels_), recorder),
       server_(std::make_unique<net::Server>(settings.endpoint, server_settings(scene, settings), hands_)),
+      session_(scene, simulation, remote_tools(channels_), recorder),
       requests_(start_of(scene)) {
   session_.on_models([this] { server_->ring(); });
 }
@@ -98,7 +98,7 @@ void ServedScene::encode_frames() {
     std::this_thread::sleep_for(kPeriod);
     if (!session_.fetch_frame(frame)) continue;
     time_s_ = frame.time_s;
-    server_->show(frame);
+    if (server_->is_watched()) server_->show(frame);
   }
 }
 
@@ -116,7 +116,6 @@ void ServedScene::obey() {
   }
   if (!changed) return;
   session_.request(requests_);
-  requests_.levels_changed = requests_.balance_changed = false;
 }
 
 }  // namespace myotact::remote

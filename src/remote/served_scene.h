@@ -54,8 +54,8 @@ class ServedScene {
 
   std::vector<std::unique_ptr<net::HandChannels>> channels_;
   net::HandTable hands_;
-  scene::FreeSession session_;
   std::unique_ptr<net::Server> server_;
+  scene::FreeSession session_;  // after the server, whose bell it rings to its end
   scene::Requests requests_;
   std::atomic<double> time_s_{0.0};
   std::atomic<bool> closing_{false};

@@ -66,8 +66,8 @@ void FreeSession::start() {
   started_ns_ = realtime::steady_now_ns();
   for (haptics::HapticLoop* loop : loops_) {
     loop->prepare(started_ns_);
-    loop->tool_states().update();  // where the hand is: the first model is of the surface there
   }
+  for (const auto& tool : tools_) hear(*tool);  // where the hand is: the first model is of the surface there
   publish_models();
   publish_frame();
   running_ = true;
@@ -126,14 +126,14 @@ ShoveRecord FreeSession::fetch_shove() {
 }
 
 void FreeSession::obey(const Requests& requests) {
-  if (requests.levels_changed) conductor_.ask_levels(requests.flexors, requests.extensors);
-  if (requests.balance_changed) conductor_.ask_co_contraction(requests.common, requests.difference);
+  if (requests.resets != obeyed_.resets) conductor_.restart();  // first: what else is asked for is of the new beginning
+  if (requests.levels_asked) conductor_.ask_levels(requests.flexors, requests.extensors);
+  if (requests.balance_asked) conductor_.ask_co_contraction(requests.common, requests.difference);
   if (requests.hold_posture != obeyed_.hold_posture) conductor_.ask_hold_posture(requests.hold_posture);
   if (requests.gravity != obeyed_.gravity) {
     constexpr double kGravity_m_s2 = 9.81;
     conductor_.ask_gravity(requests.gravity ? Vec3(0.0, 0.0, -kGravity_m_s2) : Vec3::Zero());
   }
-  if (requests.resets != obeyed_.resets) conductor_.restart();
   if (requests.shoves != obeyed_.shoves) conductor_.ask_shove_test();
   if (requests.recording_ends != obeyed_.recording_ends) end_recording();
 }
@@ -196,15 +196,16 @@ void FreeSession::move_scripted_hands(double time_s) {
   }
 }
 
-/// The newest that it said. A remote hand that falls silent lets go, or its last spring would pull for ever.
-messages::ToolState FreeSession::state_of(Tool& tool) {
+/// A remote hand that falls silent lets go, or its last spring would pull for ever.
+void FreeSession::hear(Tool& tool) const {
   constexpr std::uint64_t kSilent_ns = 100'000'000;  // the same after which a haptic loop without models gives no force
-  const bool is_new = tool.hand.states->update();
-  const messages::ToolState& state = tool.hand.states->front();
-  if (tool.loop) return state;
   const std::uint64_t now_ns = realtime::steady_now_ns();
-  if (is_new) tool.heard_ns = now_ns;
-  return now_ns - tool.heard_ns > kSilent_ns ? messages::let_go(state) : state;
+  if (tool.hand.states->update()) {
+    const messages::ToolState& said = tool.hand.states->front();
+    tool.newest = tool.loop ? said : heeded(said, scene_->specimen);
+    tool.heard_ns = now_ns;
+  }
+  if (!tool.loop && now_ns - tool.heard_ns > kSilent_ns) tool.newest = messages::let_go(tool.newest);
 }
 
 void FreeSession::step() {
@@ -213,7 +214,8 @@ void FreeSession::step() {
   move_scripted_hands(time_s);
   input_.tools.clear();
   for (const auto& tool : tools_) {
-    input_.tools.push_back(state_of(*tool));
+    hear(*tool);
+    input_.tools.push_back(tool->newest);
     layer::name_touched_triangle(*simulation_, input_.tools.back());
   }
   apply(input_, *simulation_);
@@ -244,7 +246,7 @@ void FreeSession::publish_models() {
   const std::uint64_t step_ns = nanoseconds(scene_->settings.dt_s);
   for (std::size_t t = 0; t < tools_.size(); ++t) {
     RemoteHand& hand = tools_[t]->hand;
-    const messages::ToolState& state = hand.states->front();
+    const messages::ToolState& state = tools_[t]->newest;
     const ModelRecord model{++tools_[t]->model_sequence, realtime::steady_now_ns(), obeyed_.paused,
                             state.tool_position_world_m, 0};
     write_model(*simulation_, {state, static_cast<int>(t), model, step_ns, report_radius_m(scene_->tools[t])},
@@ -263,7 +265,7 @@ messages::FeltTool FreeSession::felt_by(const Tool& tool) const {
     return tool.loop->felt().front();
   }
   messages::FeltTool felt;
-  felt.tool = tool.hand.states->front();
+  felt.tool = tool.newest;
   (scene_->settings.tether ? felt.parts.tether : felt.parts.contact) = felt.tool.force_world_N;
   return felt;
 }

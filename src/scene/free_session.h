@@ -34,8 +34,8 @@ namespace myotact::scene {
 struct Requests {
   double flexors = 0.0, extensors = 0.0;
   double common = 0.0, difference = 0.0;
-  bool levels_changed = false;   // the first two were moved since the last request
-  bool balance_changed = false;  // the second two were
+  bool levels_asked = false;   // the first two lead from now on
+  bool balance_asked = false;  // the second two do; neither: the script
   bool hold_posture = true;
   bool gravity = false;
   bool paused = false;
@@ -107,14 +107,15 @@ class FreeSession {
     device::SimulatedDevice* scripted;
     std::unique_ptr<haptics::HapticLoop> loop;  // none: it runs elsewhere
     RemoteHand hand;                            // the channels of either
-    std::uint64_t heard_ns = 0;                 // when the newest state of a remote hand was taken
+    messages::ToolState newest;                 // that its loop told, or that a remote hand is heeded for
+    std::uint64_t heard_ns = 0;                 // when that came
     std::uint64_t model_sequence = 0;
     FaultNotice faults;
   };
 
   void simulate();
   void move_scripted_hands(double time_s);
-  messages::ToolState state_of(Tool& tool);
+  void hear(Tool& tool) const;
   messages::FeltTool felt_by(const Tool& tool) const;
   void obey(const Requests& requests);
   void step();

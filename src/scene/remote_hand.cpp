@@ -16,9 +16,21 @@ Vec3 line_force_N(const messages::LocalLine& line, const Vec3& hand_m) {
   return force_N;
 }
 
+bool is_below(std::int32_t index, std::size_t count) {
+  return index < 0 || static_cast<std::size_t>(index) < count;
+}
+
 }  // namespace
 
+messages::ToolState heeded(const messages::ToolState& said, const anatomy::Specimen& specimen) {
+  const bool fits = is_below(said.contact.surface, specimen.muscles.size() + specimen.bones.size()) &&
+                    is_below(said.grabbed_line, specimen.muscles.size()) &&
+                    is_below(said.grabbed_body, specimen.bodies.size());
+  return fits && said.sequence > 0 ? said : messages::let_go(said);
+}
+
 std::array<double, 3> force_on_hand_N(const messages::LocalModel& model, const messages::ToolState& tool) {
+  if (tool.sequence == 0) return {};
   const Vec3 hand_m = to_vec3(tool.tool_position_world_m);
   Vec3 force_N = model.tether.stiffness_N_m * (to_vec3(model.tether.anchor_world_m) - hand_m);
   if (tool.contact.stiffness_N_m > 0.0) force_N -= to_vec3(model.contact.force_world_N);

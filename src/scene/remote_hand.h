@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "anatomy/specimen.h"
 #include "messages/local_model.h"
 #include "messages/remote_hand.h"
 #include "messages/tool_state.h"
@@ -16,6 +17,10 @@ struct RemoteHand {
   realtime::LatestValue<messages::LocalModel>* models = nullptr;  // written
   realtime::LatestValue<messages::HandForce>* forces = nullptr;   // written
 };
+
+/// What a hand elsewhere says, as far as the specimen has what it names; one that names something else, or nothing at
+/// all, lets go. Its indices are good to look things up from here on.
+messages::ToolState heeded(const messages::ToolState& said, const anatomy::Specimen& specimen);
 
 /// Of all springs between the hand and the scene, as the model has them at the end of its step [N, on the hand]: for
 /// clients that have no haptic loop of their own.

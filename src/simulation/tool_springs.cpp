@@ -11,6 +11,9 @@ namespace {
 
 /// Stiffest spring that enters a solve [N/m]: above what any device can couple with, far below overflow.
 constexpr double kStiffestSpring_N_m = 1e6;
+/// Hardest pull of a spring [N]: five times what the strongest desk-top devices give. Harder ones are a broken
+/// client's, and would keep the solver from balancing a step.
+constexpr double kHardestPull_N = 200.0;
 /// A target farther away than this is not a hand's [m].
 constexpr double kFarthestTarget_m = 10.0;
 
@@ -55,6 +58,13 @@ std::optional<ToolSpring> contact_spring(const messages::ToolContact& contact, c
   spring.body = parts.specimen.bones[at(contact.surface - muscles)].body;
   for (std::size_t c = 0; c < 3; ++c)
     spring.body_rest_m += contact.barycentric[c] * surface->positions_m[at(triangle[c])];
+  return spring;
+}
+
+/// The spring, softened where it would pull harder than any hand from where its point is now.
+ToolSpring bounded(ToolSpring spring, const Limb& limb) {
+  const double length_m = (spring.target_W_m - spring_point(limb, spring)).norm();
+  if (spring.stiffness_N_m * length_m > kHardestPull_N) spring.stiffness_N_m = kHardestPull_N / length_m;
   return spring;
 }
 
@@ -111,7 +121,7 @@ std::vector<ToolSpring> tool_springs(std::span<const messages::ToolState> tools,
          {contact_spring(tool.contact, parts), line_spring(tool, parts, limb), body_spring(tool, parts.specimen)}) {
       if (!spring) continue;
       spring->tool = static_cast<int>(t);
-      springs.push_back(*spring);
+      springs.push_back(bounded(*spring, limb));
     }
   }
   return springs;

@@ -15,8 +15,8 @@ struct TouchableParts {
 };
 
 /// Springs that the tools' states ask for: the coupling spring of each contact, of each muscle line and of each bone
-/// in hand. States that name something that does not exist, or numbers that are not finite, give no spring: a client
-/// may send anything.
+/// in hand, none of which pulls harder than a hand could. States that name something that does not exist, or numbers
+/// that are not finite, give no spring: a client may send anything.
 std::vector<ToolSpring> tool_springs(std::span<const messages::ToolState> tools, const TouchableParts& parts,
                                      const Limb& limb);
 

@@ -12,10 +12,10 @@ TEST(Controls, ChangeWhatTheyName) {
   add_control(R"({"do": "co_contract", "common": 0.2, "difference": -0.1})", requests);
   EXPECT_EQ(requests.common, 0.2);
   EXPECT_EQ(requests.difference, -0.1);
-  EXPECT_TRUE(requests.balance_changed);
+  EXPECT_TRUE(requests.balance_asked);
   add_control(R"({"do": "levels", "flexors": 0.3, "extensors": 0.4})", requests);
-  EXPECT_TRUE(requests.levels_changed);
-  EXPECT_FALSE(requests.balance_changed);
+  EXPECT_TRUE(requests.levels_asked);
+  EXPECT_FALSE(requests.balance_asked);
   add_control(R"({"do": "pause", "on": true})", requests);
   EXPECT_TRUE(requests.paused);
   add_control(R"({"do": "shove"})", requests);

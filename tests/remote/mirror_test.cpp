@@ -28,7 +28,7 @@ using ::testing::HasSubstr;
 TEST(MirrorControls, ComeOutAsTheyWereMeant) {
   scene::Requests before, now;
   before.stops = now.stops = 3;
-  now.levels_changed = true;
+  now.levels_asked = true;
   now.flexors = 0.25;
   now.extensors = 0.5;
   now.hold_posture = !before.hold_posture;
@@ -38,7 +38,7 @@ TEST(MirrorControls, ComeOutAsTheyWereMeant) {
   now.shoves = 1;
   scene::Requests heard = before;
   for (const std::string& control : controls_between(before, now)) add_control(control, heard);
-  EXPECT_TRUE(heard.levels_changed);
+  EXPECT_TRUE(heard.levels_asked);
   EXPECT_EQ(heard.flexors, 0.25);
   EXPECT_EQ(heard.extensors, 0.5);
   EXPECT_EQ(heard.hold_posture, now.hold_posture);
@@ -52,7 +52,7 @@ TEST(MirrorControls, ComeOutAsTheyWereMeant) {
 
 TEST(MirrorControls, ABalanceIsAskedForOnceUntilItChanges) {
   scene::Requests before, now;
-  now.balance_changed = true;
+  now.balance_asked = true;
   now.common = 0.5;
   now.difference = -0.25;
   ASSERT_EQ(controls_between(before, now).size(), 1u);
