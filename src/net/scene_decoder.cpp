@@ -11,6 +11,7 @@ namespace myotact::net {
 namespace {
 
 constexpr std::uint16_t kMostSkins = 256;
+constexpr std::size_t kMostVertices = 1'000'000;  // of all skins: ten times the finest limb, 24 MB
 
 /// What key and delta frames of a skin begin with.
 struct SkinHead {
@@ -66,6 +67,10 @@ bool SceneDecoder::take_key(std::span<const std::uint8_t> payload) {
   if (!get_head(in, 3 * sizeof(std::int32_t), head)) return false;
   keys_.resize(head.skins);
   KeySkin& skin = keys_[head.skin];
+  skin.places.clear();
+  std::size_t vertices = head.vertices;
+  for (const KeySkin& other : keys_) vertices += other.places.size();
+  if (vertices > kMostVertices) return false;
   skin.key = head.key;
   skin.places.resize(head.vertices);
   for (auto& place : skin.places) in.get(place);

@@ -15,6 +15,9 @@ namespace myotact::net {
 inline constexpr double kGrid_m = 1e-5;
 inline constexpr std::uint8_t kLastOfScene = 1;  // flag: the scene frame is whole with this one
 
+/// Of a skin whose key fits into a frame.
+inline constexpr std::size_t kMostSkinVertices = (kMostPayload - 12) / (3 * sizeof(std::int32_t));
+
 /// A frame that many connections send.
 struct EncodedFrame {
   FrameType type = FrameType::SceneDelta;

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/json_reader.h"
+#include "net/wire.h"
 
 namespace myotact::remote {
 
@@ -46,7 +47,13 @@ std::string scene_message(const scene::Scene& scene, std::uint64_t seed) {
                                {"bodies", keys_of(scene.specimen.bodies)},
                                {"joints", keys_of(scene.specimen.joints)},
                                {"tools", tools}};
-  return nlohmann::json{{"scene", body}}.dump();
+  std::string message = nlohmann::json{{"scene", body}}.dump();
+  if (message.size() > net::kMostControl) {
+    throw Error(ExitStatus::BadData,
+                fmt::format("{}: what clients are told of the scene is {} bytes; at most {}; shorten its file",
+                            scene.name, message.size(), net::kMostControl));
+  }
+  return message;
 }
 
 scene::Scene scene_of_message(const std::string& message) {

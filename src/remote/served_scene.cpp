@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include "core/error.h"
@@ -35,7 +36,18 @@ std::vector<scene::ToolDevice> remote_tools(const std::vector<std::unique_ptr<ne
   return tools;
 }
 
+/// A skin that fits into no frame would be seen by nobody, ever.
+void check_skins(const anatomy::Specimen& specimen) {
+  for (const anatomy::Muscle& muscle : specimen.muscles) {
+    const std::size_t count = muscle.skin.positions_m.size();
+    if (count <= net::kMostSkinVertices) continue;
+    throw Error(ExitStatus::BadData, fmt::format("{}: its skin has {} vertices; a server shows at most {}; simplify it",
+                                                 muscle.key, count, net::kMostSkinVertices));
+  }
+}
+
 net::ServerSettings server_settings(const scene::Scene& scene, const ServeSettings& given) {
+  check_skins(scene.specimen);
   net::ServerSettings settings = given.server;
   settings.scene_json = scene_message(scene, given.seed);
   settings.meshes = mesh_frames(scene.specimen);

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "net/scene_inquiry.h"
+#include "net/tool_state_frames.h"
 #include "remote/lockstep_hand.h"
 #include "remote/lockstep_server.h"
 #include "remote/scene_message.h"
@@ -99,6 +100,26 @@ TEST(SceneMessage, WhatIsNoneIsRefusedWithItsPlace) {
        {"", "{}", R"({"scene": 3})", R"({"scene": {"seed": -1}})", R"({"scene": {"seed": 1, "specimen": {}}})"}) {
     EXPECT_THROW(scene_of_message(bad), Error) << bad;
   }
+}
+
+TEST(LockstepServer, AViewerMovesNoHandAndASilentOneKeepsNobodyWaitingForLong) {
+  const Host host(scene::load_scene("spring"));
+  constexpr std::chrono::milliseconds kPatience(10'000);
+  net::Hello hello;
+  hello.wants.hand = true;
+  {
+    net::FrameStream viewer(net::connect_to(host.endpoint(), kPatience), kPatience);
+    viewer.write(net::encode(hello), 0);
+    EXPECT_EQ(net::read_scene(viewer, host.endpoint()).welcome.hand, -1);
+    viewer.write(net::encode(messages::ToolState{}).used()[0], 0);
+    const auto answer = viewer.read();
+    ASSERT_TRUE(answer);
+    EXPECT_EQ(answer->header.type, net::FrameType::Bye);
+  }
+  const net::Socket silent = net::connect_to(host.endpoint(), kPatience);
+  net::FrameStream next(net::connect_to(host.endpoint(), kPatience), kPatience);
+  next.write(net::encode(hello), 0);
+  EXPECT_FALSE(net::read_scene(next, host.endpoint()).scene_json.empty());
 }
 
 }  // namespace

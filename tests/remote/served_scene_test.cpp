@@ -5,6 +5,7 @@
 #include "device/simulated_device.h"
 #include "net/byte_cursor.h"
 #include "net/frame_stream.h"
+#include "remote/controls.h"
 #include "remote/free_hand.h"
 #include "scene/scene_file.h"
 #include "support/loopback_server.h"
@@ -142,6 +143,43 @@ TEST(ServedScene, AnInstructorPausesAndABadWishIsAnswered) {
     }
     return frame.time_s == std::exchange(before_s, frame.time_s);
   }));
+}
+
+/// A surface, a line and a body that no scene has: the hand is not heeded, and everybody else goes on.
+TEST(ServedScene, AHandOfNonsenseMovesNothing) {
+  Host host("spring");
+  net::Client watcher(host.client(net::Role::Viewer, false));
+  watcher.start();
+  realtime::LatestValue<messages::ToolState> states;
+  realtime::LatestValue<messages::LocalModel> models;
+  net::Client hand(host.client(net::Role::Student, true), {&states, &models});
+  hand.start();
+  messages::SceneFrame frame;
+  for (std::uint64_t i = 1; i < 100; ++i) {
+    messages::ToolState state;
+    state.sequence = i;
+    state.contact.surface = i % 3 == 0 ? 1 << 30 : -1;
+    state.grabbed_line = i % 3 == 1 ? 1 << 30 : -1;
+    state.grabbed_body = i % 3 == 2 ? 1 << 30 : -1;
+    states.publish(state);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    watcher.fetch_frame(frame);
+    EXPECT_TRUE(frame.tools.empty());
+  }
+  const double before_s = frame.time_s;
+  EXPECT_TRUE(comes_true([&] { return watcher.fetch_frame(frame) && frame.time_s > before_s + 0.2; }));
+}
+
+/// Newest wins between two threads: a wish that another one follows at once is not lost with it.
+TEST(ServedScene, WhatLeadsGoesOnLeading) {
+  scene::Requests requests;
+  add_control(R"({"do": "levels", "flexors": 0.5, "extensors": 0.25})", requests);
+  add_control(R"({"do": "pause", "on": true})", requests);
+  EXPECT_TRUE(requests.levels_asked);
+  EXPECT_EQ(requests.flexors, 0.5);
+  add_control(R"({"do": "co_contract", "common": 0.5, "difference": 0})", requests);
+  EXPECT_FALSE(requests.levels_asked);
+  EXPECT_TRUE(requests.balance_asked);
 }
 
 }  // namespace
