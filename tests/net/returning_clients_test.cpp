@@ -140,6 +140,8 @@ TEST(ReturningClients, OneTooManyIsToldSo) {
 TEST(ReturningClients, AServerThatStopsSaysSo) {
   auto host = std::make_unique<LoopbackServer>();
   Guest guest(*host);
+  ASSERT_TRUE(guest.stream.read()) << "the scene's Control: who is being told something else is not dismissed";
+  guest.is_stopped();  // a ping has been answered: nothing is on its way
   host.reset();
   const auto bye = guest.next<Bye>(FrameType::Bye);
   ASSERT_TRUE(bye);
