@@ -27,7 +27,7 @@ namespace myotact::net {
 namespace {
 
 constexpr std::chrono::milliseconds kNoRoom(50);  // until another connection may have left
-constexpr double kSlowest_bytes_s = 64e3;         // of a peer that is not stuck
+constexpr double kSlowest_bytes_s = 16e3;         // of a peer that is not stuck
 
 using Addresses = std::unique_ptr<addrinfo, decltype(&freeaddrinfo)>;
 

@@ -61,7 +61,7 @@ Received receive(const Socket& socket, std::span<std::uint8_t> room, std::size_t
 
 enum class Sent { All, None, Failed };
 /// Sends both parts as one, or none of them: None when the peer takes nothing now and `may_drop` is set. Failed: the
-/// peer is gone, took nothing for `wait`, or is slower than the slowest line (64 kB/s). One caller at a time.
+/// peer is gone, took nothing for `wait`, or is slower than the slowest line (16 kB/s). One caller at a time.
 Sent send(const Socket& socket, std::span<const std::uint8_t> head, std::span<const std::uint8_t> body, bool may_drop,
           std::chrono::milliseconds wait) noexcept;
 
