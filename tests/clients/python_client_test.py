@@ -13,35 +13,13 @@ sys.path.insert(0, str(SOURCE / "tools" / "clients" / "python"))
 
 import myotact_client as mc  # noqa: E402
 import myotact_recording  # noqa: E402
+from server import Server  # noqa: E402
 
 VECTORS = SOURCE / "tests" / "net" / "vectors"
 
 
 def vector(name):
     return (VECTORS / f"{name}.bin").read_bytes()
-
-
-class Server:
-    """`myotact serve` on free ports."""
-
-    def __init__(self, *arguments):
-        self.process = subprocess.Popen([PROGRAM, "serve", *arguments, "--port", "0", "--log-level", "off"],
-                                        stdout=subprocess.PIPE, text=True)
-        for line in self.process.stdout:
-            word, address = line.split()
-            if word == "tcp":
-                self.host, port = address.rsplit(":", 1)
-                self.port = int(port)
-                return
-        raise RuntimeError("the server did not start")
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self.process.terminate()
-        self.process.wait(20)
-        self.process.stdout.close()
 
 
 class Vectors(unittest.TestCase):
@@ -99,14 +77,14 @@ def drive(server, states, wants):
 
 class Lockstep(unittest.TestCase):
     def test_the_same_states_get_the_same_bytes(self):
-        with Server("spring", "--lockstep") as server:
+        with Server(PROGRAM, "spring", "--lockstep") as server:
             wants = mc.WANT_HAND | mc.WANT_FRAMES | mc.WANT_READINGS
             first = drive(server, 50, wants)
             self.assertEqual(drive(server, 50, wants), first)
             self.assertGreater(len(first), 50 * 500)
 
     def test_the_spring_pulls_as_it_should(self):
-        with Server("spring", "--lockstep") as server, mc.Client(server.host, server.port) as client:
+        with Server(PROGRAM, "spring", "--lockstep") as server, mc.Client(server.host, server.port) as client:
             k = json.loads(json.loads(client.scene_json)["scene"]["text"])["original"]["spring"]["stiffness_N_m"]
             for i in range(20):
                 hand = (0.001 * i, -0.002 * i, 0.0005 * i)
@@ -118,7 +96,7 @@ class Lockstep(unittest.TestCase):
 
 class OnTheWallClock(unittest.TestCase):
     def test_the_force_is_that_of_a_moment_ago(self):
-        with Server("spring", "--no-websocket") as server, mc.Client(server.host, server.port) as client:
+        with Server(PROGRAM, "spring", "--no-websocket") as server, mc.Client(server.host, server.port) as client:
             hand = (0.02, 0.01, 0.0)
             forces = []
             for i in range(2000):
@@ -131,7 +109,7 @@ class OnTheWallClock(unittest.TestCase):
             self.assertLess(math.dist(forces[-1], (-0.6, -0.3, 0.0)), 1e-9)
 
     def test_a_scene_is_shown(self):
-        with Server("particle", "--no-websocket") as server:
+        with Server(PROGRAM, "particle", "--no-websocket") as server:
             with mc.Client(server.host, server.port, mc.VIEWER, mc.WANT_FRAMES) as client:
                 decoder = mc.SceneDecoder()
                 while not decoder.take(client.read()):
@@ -139,7 +117,7 @@ class OnTheWallClock(unittest.TestCase):
                 self.assertEqual(len(decoder.scene.poses[0]), 12)
 
     def test_a_student_may_not_change_the_scene(self):
-        with Server("particle", "--no-websocket") as server, mc.Client(server.host, server.port) as client:
+        with Server(PROGRAM, "particle", "--no-websocket") as server, mc.Client(server.host, server.port) as client:
             client.control('{"do": "reset"}')
             self.assertIn("instructor", client.read_until(mc.EVENT).payload[5:].decode())
 
