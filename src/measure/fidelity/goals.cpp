@@ -10,6 +10,7 @@
 #include "measure/fidelity/goal.h"
 #include "measure/fidelity/joint_goals.h"
 #include "measure/fidelity/loop_goals.h"
+#include "measure/fidelity/network_goals.h"
 #include "measure/fidelity/proxy_cost_goals.h"
 #include "measure/fidelity/proxy_force_goals.h"
 #include "measure/fidelity/proxy_goals.h"
@@ -22,10 +23,6 @@
 namespace myotact::measure {
 
 namespace {
-
-GoalFigures measure_network(Effort) {
-  return {{}, "not measured: there is no server yet"};
-}
 
 constexpr std::array kGoals = {
     Goal{1, "no fall-through on deforming meshes", measure_deforming_contact},

@@ -19,12 +19,12 @@ struct NetworkCase {
 
 /// What a hand went through, tick by tick.
 struct NetworkRun {
-  std::vector<Vec3> hand_m;      // where it wanted the stylus
-  std::vector<Vec3> force_N;     // sent to the device
-  double most_in_touch_J = 0.0;  // net work on the hand since it last touched nothing, while the gate was open
-  double jitter_N = 0.0;         // of the force above 20 Hz while touched, root mean square
-  double largest_rise_N = 0.0;   // of the force from one tick to the next, in a touch that lasts
-  double largest_age_s = 0.0;    // of the content of the models, as told, while the gate was open
+  std::vector<Vec3> hand_m;                 // where it wanted the stylus
+  std::vector<Vec3> force_N;                // sent to the device
+  double most_net_J = 0.0;                  // net work on the hand since it last felt nothing, while the gate was open
+  double jitter_N = 0.0;                    // of the force above 20 Hz while touched, root mean square
+  double largest_rise_after_break_N = 0.0;  // of the force from one tick to the next, within 0.2 s of a break's end
+  double largest_age_s = 0.0;               // of the content of the models, as told, while the gate was open
   std::uint64_t buzzes = 0;
   std::uint64_t faded_ticks = 0;  // the gate was not open
   std::uint64_t touched_ticks = 0;
@@ -39,8 +39,8 @@ struct NetworkRunRequest {
 };
 
 /// A hand that pokes, presses, slides and lets go, with tremor, on the first muscle that the scene's script touches
-/// (else the first of all), all muscles relaxed, felt over that network. Throws Error BadData for a scene without
-/// muscles.
+/// (else the first of all), all muscles relaxed, felt over that network. In a scene of one spring it swings through its
+/// anchor instead. Throws Error BadData for a scene without muscle or spring.
 NetworkRun run_over_network(const scene::Scene& scene, const NetworkRunRequest& request);
 
 }  // namespace myotact::measure
