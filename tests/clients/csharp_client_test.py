@@ -8,18 +8,20 @@ import unittest
 from server import Server
 
 PROGRAM, SOURCE, CLIENT_TEST = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3]
+TOKEN = "000102030405060708090a0b0c0d0e0f"
 
 
 class CSharp(unittest.TestCase):
-    def run_client(self, *arguments):
-        subprocess.run(["mono", CLIENT_TEST, *arguments], check=True, timeout=60)
-
     def test_frames_are_those_of_the_vectors_and_axes_are_the_engines(self):
-        self.run_client("vectors", str(SOURCE / "tests" / "net" / "vectors"))
+        subprocess.run(["mono", CLIENT_TEST, "vectors", SOURCE / "tests" / "net" / "vectors"], check=True, timeout=60)
 
-    def test_the_behaviour_feels_the_spring(self):
-        with Server(PROGRAM, "spring", "--no-websocket") as server:
-            self.run_client("hand", str(server.port))
+    def test_the_behaviour_feels_the_spring_until_the_server_is_killed(self):
+        with Server(PROGRAM, "spring", "--no-websocket", token=TOKEN) as server:
+            hand = subprocess.Popen(["mono", CLIENT_TEST, "hand", str(server.port), TOKEN], stdout=subprocess.PIPE, text=True)
+            self.assertEqual(hand.stdout.readline(), "felt\n")
+            server.process.kill()
+            hand.communicate(timeout=60)
+            self.assertEqual(hand.returncode, 0)
 
 
 if __name__ == "__main__":

@@ -56,6 +56,27 @@ class Vectors(unittest.TestCase):
             self.assertAlmostEqual(got, 1e-5 * grid, 12)
         self.assertEqual(decoder.scene.poses[0][11], 0.3)
 
+    def test_what_is_cut_off_is_noticed(self):
+        decoder = mc.SceneDecoder()
+        readers = {"scene_key": decoder.take, "scene_delta": decoder.take, "bone_poses": decoder.take,
+                   "welcome": lambda frame: mc.decode_welcome(frame.payload),
+                   "force": lambda frame: mc.decode_force(frame.payload)}
+        for name, read in readers.items():
+            frame = mc.parse_frame(vector(name))
+            read(frame)
+            whole = frame.payload
+            for length in range(len(whole)):
+                frame.payload = whole[:length]
+                with self.assertRaises(mc.WireError, msg=f"{length} bytes of {name}"):
+                    read(frame)
+
+    def test_a_token_is_what_the_server_prints(self):
+        self.assertEqual(mc.token_of("000102030405060708090A0b0c0d0e0f"), bytes(range(16)))
+        self.assertEqual(mc.token_of(""), bytes(16))
+        for wrong in ("00", 15 * "00" + "0x", 16 * "00" + "0", 16 * "+1"):
+            with self.assertRaises(ValueError):
+                mc.token_of(wrong)
+
     def test_damage_is_noticed(self):
         data = bytearray(vector("force"))
         data[-1] ^= 1

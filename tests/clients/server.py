@@ -1,11 +1,12 @@
 """`myotact serve` on free ports, for the tests of clients."""
+import os
 import subprocess
 
 
 class Server:
-    def __init__(self, program, *arguments):
+    def __init__(self, program, *arguments, token=""):
         self.process = subprocess.Popen([program, "serve", *arguments, "--port", "0", "--log-level", "off"],
-                                        stdout=subprocess.PIPE, text=True)
+                                        stdout=subprocess.PIPE, text=True, env={**os.environ, "MYOTACT_TOKEN": token})
         for line in self.process.stdout:
             word, address = line.split()
             if word == "tcp":

@@ -1,5 +1,5 @@
 // The C# client against the golden vectors, and what a path gets in lockstep:
-//   ClientTest vectors FOLDER | ClientTest drive PORT STATES FILE LINE | ClientTest hand PORT
+//   ClientTest vectors FOLDER | ClientTest drive PORT STATES FILE LINE | ClientTest hand PORT TOKEN
 using System;
 using System.IO;
 using System.Linq;
@@ -63,11 +63,24 @@ static class ClientTest
         var grid = new[] { 10000, 19999, 30064 };
         for (int i = 0; i < 3; ++i) Require(Math.Abs(decoder.SkinsWorldM[0][i] - 1e-5 * grid[i]) < 1e-12, "skin");
         Require(decoder.Poses[0][11] == 0.3, "pose");
-        Frame cut = Vector(folder, "scene_delta");
-        cut.Payload = cut.Payload.Take(cut.Payload.Length - 1).ToArray();
-        try { decoder.Take(cut); }
-        catch (WireException) { return; }
-        throw new Exception("a delta that was cut is no delta");
+        foreach (string name in new[] { "scene_key", "scene_delta", "bone_poses" }) CutOff(decoder, Vector(folder, name));
+    }
+
+    static void CutOff(SceneDecoder decoder, Frame whole)
+    {
+        for (int length = 0; length < whole.Payload.Length; ++length)
+        {
+            Frame cut = whole;
+            cut.Payload = whole.Payload.Take(length).ToArray();
+            Require(IsRefused(decoder, cut), length + " bytes are no " + whole.Type);
+        }
+    }
+
+    static bool IsRefused(SceneDecoder decoder, Frame frame)
+    {
+        try { decoder.Take(frame); }
+        catch (WireException) { return true; }
+        return false;
     }
 
     static void Axes()
@@ -84,6 +97,7 @@ static class ClientTest
         Require(a[1] * b[2] - a[2] * b[1] == 0 && a[2] * b[0] - a[0] * b[2] == 0 && a[0] * b[1] - a[1] * b[0] == 1,
                 "outside is outside");
         Require(WorldAxes.ToWorld(WorldAxes.ToEngine(some)).SequenceEqual(some), "there and back");
+        Require(WorldAxes.ToEngine(WorldAxes.ToWorld(some)).SequenceEqual(some), "and the other way");
     }
 
     static void Drive(int port, int states, string file, int line)
@@ -104,26 +118,38 @@ static class ClientTest
         }
     }
 
-    /// The behaviour as an engine calls it: for half a second, ten times slower than usual.
-    static void Hand(int port)
+    /// The behaviour as an engine calls it, ten times slower than usual, until it feels what it should.
+    static void Hand(int port, string token)
     {
-        var hand = new MyotactHand { Port = port, MetresPerUnit = 1.0f };
-        hand.transform.position = new UnityEngine.Vector3(0.01f, 0.0f, 0.02f);
-        Call(hand, "OnEnable");
-        for (int i = 0; i < 25; ++i)
-        {
-            Call(hand, "FixedUpdate");
-            System.Threading.Thread.Sleep(20);
-        }
+        var hand = new MyotactHand { Port = port, Token = token, MetresPerUnit = 0.1f };
+        hand.transform.position = new UnityEngine.Vector3(0.1f, -0.15f, 0.2f);
+        hand.enabled = true;
         // f = -k x, k = 30 N/m, in the engine's axes as in the world's.
-        Require(Math.Abs(hand.ForceNewtons.x + 0.3) < 1e-4 && Math.Abs(hand.ForceNewtons.z + 0.6) < 1e-4,
-                "the spring pulls back: " + hand.ForceNewtons.x + " " + hand.ForceNewtons.z);
-        Call(hand, "OnDisable");
+        var wanted = new UnityEngine.Vector3(-0.3f, 0.45f, -0.6f);
+        for (int i = 0; i < 500 && hand.enabled && !IsNear(hand.ForceNewtons, wanted); ++i) Update(hand);
+        Require(IsNear(hand.ForceNewtons, wanted), "the spring pulls back: " + Text(hand.ForceNewtons));
+        Console.WriteLine("felt");
+        for (int i = 0; i < 500 && hand.enabled; ++i) Update(hand);
+        Require(!hand.enabled && IsNear(hand.ForceNewtons, new UnityEngine.Vector3()), "without a server, without a force");
+        hand.enabled = true;
+        Require(!hand.enabled, "nobody is there");
     }
 
-    static void Call(object target, string method)
+    static bool IsNear(UnityEngine.Vector3 a, UnityEngine.Vector3 b)
     {
-        target.GetType().GetMethod(method, BindingFlags.Instance | BindingFlags.NonPublic).Invoke(target, null);
+        return Math.Abs(a.x - b.x) < 1e-4 && Math.Abs(a.y - b.y) < 1e-4 && Math.Abs(a.z - b.z) < 1e-4;
+    }
+
+    static string Text(UnityEngine.Vector3 v)
+    {
+        return v.x + " " + v.y + " " + v.z;
+    }
+
+    static void Update(MyotactHand hand)
+    {
+        const BindingFlags Own = BindingFlags.Instance | BindingFlags.NonPublic;
+        typeof(MyotactHand).GetMethod("FixedUpdate", Own).Invoke(hand, null);
+        System.Threading.Thread.Sleep(20);
     }
 
     static int Main(string[] arguments)
@@ -134,8 +160,9 @@ static class ClientTest
             Scene(arguments[1]);
             Axes();
         }
-        if (arguments[0] == "drive") Drive(int.Parse(arguments[1]), int.Parse(arguments[2]), arguments[3], int.Parse(arguments[4]));
-        if (arguments[0] == "hand") Hand(int.Parse(arguments[1]));
+        if (arguments[0] == "drive")
+            Drive(int.Parse(arguments[1]), int.Parse(arguments[2]), arguments[3], int.Parse(arguments[4]));
+        if (arguments[0] == "hand") Hand(int.Parse(arguments[1]), arguments[2]);
         return 0;
     }
 }

@@ -1,5 +1,6 @@
 // Between the world of the simulation (right-handed: x cranial, y left, z up) and that of a left-handed engine with y up
-// (Unity: x right, y up, z forward), looking cranially: engine x = -y, engine y = z, engine z = x.
+// (Unity: x right, y up, z forward), looking cranially: engine x = -y, engine y = z, engine z = x. For places and
+// forces; a body's pose is for places of the world: turn what it gives.
 namespace Myotact
 {
     public static class WorldAxes

@@ -4,6 +4,7 @@ It has no haptic loop: it tells where the hand is and gets the newest force of t
 (x cranial, y left, z up).
 """
 import socket
+import string
 import struct
 import time
 import zlib
@@ -17,10 +18,25 @@ LAST_OF_SCENE = 1
 GRID_M = 1e-5
 HEADER_BYTES = 24
 MOST_PAYLOAD = 1 << 20
+CONNECT_WAIT_S = 2.0
 
 
 class WireError(Exception):
-    """The other side broke a rule of the format, refused, or is gone."""
+    """The other side broke a rule of the format, refused, is gone, or never was there."""
+
+
+def token_of(text: str) -> bytes:
+    """A token as the server prints it; no text: no token. Raises ValueError."""
+    if len(text) not in (0, 32) or any(digit not in string.hexdigits for digit in text):
+        raise ValueError("a token is 32 hexadecimal digits, as the server prints it")
+    return bytes.fromhex(text) or bytes(16)
+
+
+def unpack(layout: str, data: bytes, at: int = 0) -> tuple:
+    try:
+        return struct.unpack_from(layout, data, at)
+    except struct.error:
+        raise WireError("a frame that is shorter than it says") from None
 
 
 @dataclass
@@ -39,7 +55,7 @@ def frame_bytes(frame: Frame) -> bytes:
 
 def parse_frame(data: bytes) -> Frame:
     """The one frame that `data` is."""
-    magic, version, kind, flags, length, sequence, time_ns, crc = struct.unpack_from("<BBBBIIQI", data)
+    magic, version, kind, flags, length, sequence, time_ns, crc = unpack("<BBBBIIQI", data)
     payload = data[HEADER_BYTES:]
     if (magic, version) != (0x4D, 1):
         raise WireError("no frame of this format")
@@ -125,12 +141,12 @@ class Force:
 
 
 def decode_welcome(payload: bytes) -> Welcome:
-    client, resume_id, hand, role, lockstep, step_ns, time_ns = struct.unpack("<IQbBBQQ", payload)
+    client, resume_id, hand, role, lockstep, step_ns, time_ns = unpack("<IQbBBQQ", payload)
     return Welcome(client, resume_id, hand, role, lockstep == 1, step_ns, time_ns)
 
 
 def decode_force(payload: bytes) -> Force:
-    tool_sequence, step, x, y, z = struct.unpack("<QQ3d", payload)
+    tool_sequence, step, x, y, z = unpack("<QQ3d", payload)
     return Force(tool_sequence, step, (x, y, z))
 
 
@@ -150,53 +166,68 @@ class SceneDecoder:
         self._keys = {}
 
     def take(self, frame: Frame) -> bool:
-        """True when the scene is whole with this frame; other frames change nothing."""
+        """True when the scene is whole with this frame; other frames change nothing. Raises WireError."""
         if frame.type == SCENE_KEY:
-            key, skin, _, count = struct.unpack_from("<IHHI", frame.payload)
-            self._keys[skin] = (key, struct.unpack_from(f"<{3 * count}i", frame.payload, 12))
+            key, skin, _, count = unpack("<IHHI", frame.payload)
+            self._keys[skin] = (key, unpack(f"<{3 * count}i", frame.payload, 12))
         elif frame.type == SCENE_DELTA:
             self._take_delta(frame.payload)
         elif frame.type == BONE_POSES:
-            self.scene.sequence, self.scene.time_s, count = struct.unpack_from("<QdH", frame.payload)
-            numbers = struct.unpack_from(f"<{12 * count}d", frame.payload, 18)
+            self.scene.sequence, self.scene.time_s, count = unpack("<QdH", frame.payload)
+            numbers = unpack(f"<{12 * count}d", frame.payload, 18)
             self.scene.poses = [numbers[12 * i:12 * i + 12] for i in range(count)]
         self.scene.is_whole = frame.type != SCENE_KEY and frame.flags & LAST_OF_SCENE != 0
         return self.scene.is_whole
 
     def _take_delta(self, payload):
-        key, skin, skins, count = struct.unpack_from("<IHHI", payload)
+        key, skin, skins, count = unpack("<IHHI", payload)
         known, places = self._keys.get(skin, (None, ()))
-        if known != key or len(places) != 3 * count:
+        if known != key or len(places) != 3 * count or skin >= skins:
             raise WireError("a skin that refers to a key that did not come")
         numbers, at = [], 12
         for place in places:
-            zigzag, shift = 0, 0
-            while True:
-                byte = payload[at]
-                at += 1
-                zigzag |= (byte & 0x7F) << shift
-                shift += 7
-                if byte < 0x80:
-                    break
-            numbers.append(GRID_M * (place + ((zigzag >> 1) ^ -(zigzag & 1))))
+            offset, at = self._varint(payload, at)
+            numbers.append(GRID_M * (place + offset))
         if len(self.scene.skins_world_m) != skins:
             self.scene.skins_world_m = [[] for _ in range(skins)]
         self.scene.skins_world_m[skin] = [tuple(numbers[i:i + 3]) for i in range(0, len(numbers), 3)]
 
+    @staticmethod
+    def _varint(payload, at):
+        zigzag = 0
+        for shift in range(0, 35, 7):
+            if at == len(payload):
+                raise WireError("a frame that is shorter than it says")
+            byte = payload[at]
+            at += 1
+            zigzag |= (byte & 0x7F) << shift
+            if byte < 0x80:
+                break
+        return (zigzag >> 1) ^ -(zigzag & 1), at
+
 
 class Client:
-    """One connection. `with Client(...) as client:` says good-bye at its end."""
+    """One connection. `with Client(...) as client:` says good-bye at its end. All that can go wrong is a WireError."""
 
     def __init__(self, host, port, role=STUDENT, wants=WANT_HAND, token=bytes(16), name="python", hand=0, resume_id=0,
                  timeout_s=60.0):
-        self._socket = socket.create_connection((host, port), timeout_s)
-        self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        self._address = f"{host}:{port}"
         self._sent = self._got = 0
         self.received = []  # every frame's bytes, when keep() was called
         self._keeps = False
-        self.send(HELLO, struct.pack("<HBBBQ", 1, role, wants, hand, resume_id) + token + name.encode()[:48])
-        self.welcome = decode_welcome(self._expect(WELCOME).payload)
-        self.scene_json = self._expect(CONTROL).payload.decode()
+        try:
+            self._socket = socket.create_connection((host, port), CONNECT_WAIT_S)
+        except OSError as why:
+            raise self._failure(f"{why.strerror or why}; is `myotact serve` running there, and is this its port?") from None
+        self._socket.settimeout(timeout_s)
+        self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        try:
+            self.send(HELLO, struct.pack("<HBBBQ16s", 1, role, wants, hand, resume_id, token) + name.encode()[:48])
+            self.welcome = decode_welcome(self._expect(WELCOME).payload)
+            self.scene_json = self._expect(CONTROL).payload.decode(errors="replace")
+        except WireError:
+            self._socket.close()
+            raise
 
     def __enter__(self):
         return self
@@ -207,8 +238,8 @@ class Client:
     def close(self):
         try:
             self.send(BYE, bytes([0]))
-        except OSError:
-            pass
+        except WireError:
+            pass  # it is gone already
         self._socket.close()
 
     def keep(self):
@@ -216,7 +247,10 @@ class Client:
         self._keeps = True
 
     def send(self, kind, payload=b"", flags=0, time_ns=0):
-        self._socket.sendall(frame_bytes(Frame(kind, flags, self._sent, time_ns, payload)))
+        try:
+            self._socket.sendall(frame_bytes(Frame(kind, flags, self._sent, time_ns, payload)))
+        except OSError as why:
+            raise self._failure(why.strerror or why) from None
         self._sent += 1
 
     def tell(self, state: ToolState, time_ns=None):
@@ -233,20 +267,20 @@ class Client:
         self.send(EVENT, struct.pack("<Bi", 1, 0))
 
     def read(self) -> Frame:
-        """The next frame. Raises WireError when the server said good-bye or broke a rule."""
+        """The next frame. Raises WireError, too, when the server said good-bye."""
         head = self._take(HEADER_BYTES)
         length, = struct.unpack_from("<I", head, 4)
         if head[0] != 0x4D or length > MOST_PAYLOAD:
-            raise WireError("no frame of this format")
+            raise self._failure("what answers there speaks another protocol")
         data = head + self._take(length)
         frame = parse_frame(data)
         if frame.sequence != self._got:
-            raise WireError(f"frame {frame.sequence} where {self._got} was due")
+            raise self._failure(f"frame {frame.sequence} where {self._got} was due")
         self._got += 1
         if self._keeps:
             self.received.append(data)
         if frame.type == BYE:
-            raise WireError(frame.payload[1:].decode(errors="replace") or "the server said good-bye")
+            raise self._failure(frame.payload[1:].decode(errors="replace") or "the server said good-bye")
         return frame
 
     def read_until(self, kind) -> Frame:
@@ -258,14 +292,21 @@ class Client:
     def _expect(self, kind):
         frame = self.read()
         if frame.type != kind:
-            raise WireError(f"a frame of type {frame.type} where {kind} was due")
+            raise self._failure(f"a frame of type {frame.type} where {kind} was due")
         return frame
 
     def _take(self, count):
         data = b""
         while len(data) < count:
-            part = self._socket.recv(count - len(data))
+            try:
+                part = self._socket.recv(count - len(data))
+            except OSError as why:
+                raise self._failure(why.strerror or why) from None
             if not part:
-                raise WireError("the server closed the connection")
+                raise self._failure("the server closed the connection" if self._got else
+                                    "closed without a word; is this the TCP port of `myotact serve`?")
             data += part
         return data
+
+    def _failure(self, why):
+        return WireError(f"{self._address}: {why}")

@@ -82,6 +82,18 @@ def read_step(data: bytes) -> Step:
     return Step(excitations, torques, gravity, tools, state_hash)
 
 
+def take_chunk(kind: int, payload: bytes, recording: Recording):
+    if kind == STEP:
+        recording.steps.append(read_step(payload))
+    elif kind == TICKS:
+        tool, = struct.unpack_from("<I", payload)
+        ticks = recording.ticks.setdefault(tool, [])
+        for n in TICK.iter_unpack(payload[4:]):
+            ticks.append(Tick(n[:3], n[3:6], n[7], n[8], n[9], n[10] != 0))
+    elif kind == END:
+        recording.is_complete = True
+
+
 def read_recording(path) -> Recording:
     """Raises ValueError for a file that is no recording of this version."""
     with open(path, "rb") as file:
@@ -92,19 +104,24 @@ def read_recording(path) -> Recording:
     found = chunks(data)
     recording = Recording(json.loads(next(found)[1]))
     for kind, payload in found:
-        if kind == STEP:
-            recording.steps.append(read_step(payload))
-        elif kind == TICKS:
-            tool, = struct.unpack_from("<I", payload)
-            ticks = recording.ticks.setdefault(tool, [])
-            for n in TICK.iter_unpack(payload[4:]):
-                ticks.append(Tick(n[:3], n[3:6], n[7], n[8], n[9], n[10] != 0))
-        elif kind == END:
-            recording.is_complete = True
+        try:
+            take_chunk(kind, payload, recording)
+        except struct.error:
+            raise ValueError(f"{path}: a chunk of the type {kind} is shorter than it says") from None
     return recording
 
 
-if __name__ == "__main__":
-    shown = read_recording(sys.argv[1])
+def main():
+    if len(sys.argv) != 2:
+        print("usage: myotact_recording.py FILE", file=sys.stderr)
+        sys.exit(2)
+    try:
+        shown = read_recording(sys.argv[1])
+    except (OSError, ValueError) as why:
+        sys.exit(str(why))
     print(f"{len(shown.steps)} steps, {sum(len(t) for t in shown.ticks.values())} ticks, "
           f"{'complete' if shown.is_complete else 'cut off'}")
+
+
+if __name__ == "__main__":
+    main()
