@@ -45,11 +45,12 @@ void LockstepServer::serve(const std::function<bool()>& stopped) {
     std::string peer;
     net::Socket socket = net::accept_from(listener_, kLook, peer);
     if (!socket) continue;
+    // Now, and not when a client leaves: a scene settles for seconds, and who stops the server would wait for it.
+    if (run->begun) run = std::make_unique<Run>(scene_);
     net::FrameStream stream(std::move(socket), kHelloWait, stopped);
     spdlog::info("Client connected! {}", peer);
     serve_client(stream, *run);
     spdlog::info("Client left: {}", stream.why());
-    if (run->begun) run = std::make_unique<Run>(scene_);
   }
 }
 
