@@ -156,6 +156,7 @@ TEST(SpringScene, AHandElsewhereIsAnsweredWithMinusKX) {
   messages::LocalModel model;
   model.tether.stiffness_N_m = 30.0;
   messages::ToolState hand;
+  hand.sequence = 1;  // somebody has it
   hand.tool_position_world_m = {0.01, -0.02, 0.03};
   const Vec3 force_N = to_vec3(force_on_hand_N(model, hand));
   EXPECT_NEAR((force_N + 30.0 * to_vec3(hand.tool_position_world_m)).norm(), 0.0, 1e-15);
