@@ -118,7 +118,7 @@ TEST(ReturningClients, TheForceOfTheOwnerBeforeIsNotToldToTheNext) {
   LoopbackServer host;
   host.channels[0]->forces.publish({41, {1.0, 2.0, 3.0}});
   Guest guest(host);
-  for (const std::uint64_t step : {41, 42}) {
+  for (const std::uint64_t step : {41u, 42u}) {
     host.channels[0]->forces.publish({step, {1.0, 2.0, 3.0}});
     guest.tell(step);
     EXPECT_EQ(guest.next<ForceAnswer>(FrameType::Force)->force_world_N[0], 0.0) << step;
