@@ -16,7 +16,8 @@ struct ToolStateFrames {
   std::array<SmallFrame, 3> frames;
   std::size_t count = 0;
 
-  std::span<const SmallFrame> used() const noexcept { return std::span(frames).first(count); }
+  std::span<const SmallFrame> used() const& noexcept { return std::span(frames).first(count); }
+  void used() const&& = delete;  // a span of what a loop over a temporary has already lost
 };
 ToolStateFrames encode(const messages::ToolState& state) noexcept;
 

@@ -51,7 +51,8 @@ void LockstepHand::step(const std::function<void(double, const haptics::HapticTi
 }
 
 void LockstepHand::exchange() {
-  for (const net::SmallFrame& frame : net::encode(loop_.tool_state()).used()) stream_.write(frame, clock_ns_);
+  const net::ToolStateFrames state = net::encode(loop_.tool_state());
+  for (const net::SmallFrame& frame : state.used()) stream_.write(frame, clock_ns_);
   for (;;) {
     const auto frame = stream_.read();
     if (!frame) {

@@ -156,7 +156,8 @@ struct HandStream {
   }
   void tell() {
     ++state.sequence;
-    for (const net::SmallFrame& frame : net::encode(state).used()) stream.write(frame, realtime::steady_now_ns());
+    const net::ToolStateFrames frames = net::encode(state);
+    for (const net::SmallFrame& frame : frames.used()) stream.write(frame, realtime::steady_now_ns());
   }
   void round_trip() {
     tell();

@@ -39,7 +39,8 @@ void drive(const net::Endpoint& server, int states, int line, std::ostream& out)
   net::read_scene(stream, server);
   for (int i = 0; i < states; ++i) {
     const std::uint64_t time_ns = 1'000'000 * static_cast<std::uint64_t>(i);
-    for (const net::SmallFrame& frame : net::encode(state_on_path(i, line)).used()) stream.write(frame, time_ns);
+    const net::ToolStateFrames state = net::encode(state_on_path(i, line));
+    for (const net::SmallFrame& frame : state.used()) stream.write(frame, time_ns);
     for (bool answered = false; !answered;) {
       const auto frame = stream.read();
       if (!frame) throw Error(ExitStatus::Unavailable, stream.why());

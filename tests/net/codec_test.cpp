@@ -73,7 +73,8 @@ TEST(Codec, ToolStatesComeThroughBitForBit) {
 }
 
 TEST(Codec, EveryFrameOfAToolStateFitsIntoTheSmallOnes) {
-  for (const SmallFrame& frame : encode(touching_state()).used()) EXPECT_LE(kHeaderBytes + frame.size, 128u);
+  const ToolStateFrames frames = encode(touching_state());
+  for (const SmallFrame& frame : frames.used()) EXPECT_LE(kHeaderBytes + frame.size, 128u);
 }
 
 TEST(Codec, RefusesToolStatesWithNumbersOutOfRange) {

@@ -111,7 +111,7 @@ TEST(LockstepServer, AViewerMovesNoHandAndASilentOneKeepsNobodyWaitingForLong) {
     net::FrameStream viewer(net::connect_to(host.endpoint(), kPatience), kPatience);
     viewer.write(net::encode(hello), 0);
     EXPECT_EQ(net::read_scene(viewer, host.endpoint()).welcome.hand, -1);
-    viewer.write(net::encode(messages::ToolState{}).used()[0], 0);
+    viewer.write(net::encode(messages::ToolState{}).frames[0], 0);
     const auto answer = viewer.read();
     ASSERT_TRUE(answer);
     EXPECT_EQ(answer->header.type, net::FrameType::Bye);
