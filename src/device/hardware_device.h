@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "device/device.h"
+
+namespace myotact::device {
+
+/// How far a device on the table is from being felt with. Only Ready answers connected() with true.
+enum class DevicePhase : std::uint8_t { Closed, Opening, NeedsCalibration, Ready, Lost };
+
+/// What a panel shows of a device.
+struct DeviceReport {
+  DevicePhase phase = DevicePhase::Closed;
+  double rate_Hz = 0.0;   // exchanges with the device in the last second
+  double warmth = -1.0;   // of the hottest motor, 0 cold .. 1 as hot as it may get; below 0: the device does not tell
+  const char* hint = "";  // what the person is to do now, a sentence of static text; empty: nothing
+};
+
+/// Ticks that a maker's library makes: its servo thread calls us, not we it.
+class ServoClock {
+ public:
+  virtual ~ServoClock() = default;
+  /// Calls `tick` with the steady clock [ns] once a servo period, between its read and its write, until stop(). `tick`
+  /// neither allocates, locks, waits nor throws. Throws Error Unavailable.
+  virtual void start(std::function<void(std::uint64_t now_ns)> tick) = 0;
+  /// No tick runs any more when it returns. Any number of times.
+  virtual void stop() noexcept = 0;
+};
+
+/// A device on the table. What it says and is told is in its own frame: x to the right of the person who sits before
+/// it, y up, z towards that person, metres from the middle of its workspace. In phases other than Ready it takes no
+/// force, whatever is written, and says connected() == false.
+class HardwareDevice : public Device {
+ public:
+  /// Any thread; never waits.
+  virtual DeviceReport report() const noexcept = 0;
+  /// Where the maker's library makes the ticks; null: whoever reads and writes does.
+  virtual ServoClock* servo_clock() noexcept { return nullptr; }
+};
+
+/// One row of "myotact devices".
+struct DeviceFinding {
+  std::string name;    // what --device takes: "falcon", the second one "falcon:2"
+  std::string title;   // maker, model, serial number where it is known
+  bool ready = false;  // it can be opened now
+  std::string cause;   // why not: one sentence that names the file, the library or the device; empty when ready
+  std::string remedy;  // what to do about it: one sentence; empty when ready
+};
+
+/// A family of devices.
+class Driver {
+ public:
+  virtual ~Driver() = default;
+  virtual const std::string& name() const = 0;  // "falcon"
+  /// What is plugged in. One row that is not ready when nothing is, or nothing can be: it says why. Never throws for
+  /// what it meets.
+  virtual std::vector<DeviceFinding> find() = 0;
+  /// One of those found, closed. Throws Error Unavailable (cause and remedy).
+  virtual std::unique_ptr<HardwareDevice> make(const std::string& name) = 0;
+};
+
+}  // namespace myotact::device
