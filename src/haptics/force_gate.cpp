@@ -98,7 +98,7 @@ Vec3 ForceGate::admit(const GateInput& input) noexcept {
     return shut(GateState::Off);
   }
   if (state_ == GateState::Off) state_ = GateState::Armed;
-  if ((faults_ & kDeviceFaults) != 0) return shut(GateState::Armed);
+  if (input.clutched || (faults_ & kDeviceFaults) != 0) return shut(GateState::Armed);
   if (!input.wanted_N.allFinite()) faults_ |= bit(Fault::NonFiniteForce);
   if ((faults_ & (bit(Fault::NonFiniteForce) | bit(Fault::TooFast))) != 0) {
     return shut(state_ == GateState::Armed ? GateState::Armed : GateState::Ramp);

@@ -26,6 +26,7 @@ struct GateInput {
   Vec3 device_position_m = Vec3::Zero();
   bool connected = true;
   bool cut = false;           // a watchdog took the force away
+  bool clutched = false;      // the hand moves without the tool, whose force must not drive it
   double damping_Ns_m = 0.0;  // already in the wanted force; device bears only so much
   bool has_model = false;
   std::uint64_t now_ns = 0;
@@ -37,7 +38,7 @@ struct GateInput {
 ///
 ///   enable()        |F| < 0.2 N            full
 ///   OFF ---> ARMED -------------> RAMP ----------> ON
-///    ^ stop()  ^ device lost       ^                | no new model for max(30 ms, 2 steps); zero at 100 ms
+///    ^ stop()  ^ lost, clutched    ^                | no new model for max(30 ms, 2 steps); zero at 100 ms
 ///              |                   '---- FADE <-----'
 ///
 /// A tick: finite check, ramp and fade, clamp, slew limit on rising |F|, passivity on the force really sent, clamp.

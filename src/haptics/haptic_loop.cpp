@@ -123,8 +123,8 @@ void HapticLoop::tick(std::uint64_t now_ns) noexcept {
     faults_ |= bit(Fault::NonFiniteDevice);
   }
   const Vec3 nowhere = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
-  const Vec3 sent_N =
-      gate_and_write(felt.sum_N(), device_is_sound ? to_vec3(state.stylus_position_world_m) : nowhere, now_ns);
+  const Vec3 position_m = device_is_sound ? to_vec3(state.stylus_position_world_m) : nowhere;
+  const Vec3 sent_N = gate_and_write(felt.sum_N(), position_m, state.buttons, now_ns);
   ports_.book(sent_N);
   forces_.gate_damping_N = gate_.damping_N();
   forces_.sent_N = sent_N;
@@ -282,12 +282,14 @@ Vec3 HapticLoop::texture_force_N(const ProxyGoal& goal, const Vec3& contact_N) n
   return texture_.tick_N(surface_, proxy_.contact(), {goal, normal_N, settings_.contact.stiffness_N_m, dt_s_});
 }
 
-Vec3 HapticLoop::gate_and_write(const Vec3& wanted_N, const Vec3& position_m, std::uint64_t now_ns) noexcept {
+Vec3 HapticLoop::gate_and_write(const Vec3& wanted_N, const Vec3& position_m, std::uint32_t buttons,
+                                std::uint64_t now_ns) noexcept {
   GateInput input;
   input.wanted_N = wanted_N;
   input.device_position_m = position_m;
   input.connected = device_.connected();
   input.cut = cut_;
+  input.clutched = (buttons & messages::kClutchButton) != 0;
   input.damping_Ns_m = ports_.damping_Ns_m();
   cut_ = false;
   input.has_model = model_ != nullptr;

@@ -113,7 +113,8 @@ class HapticLoop {
   double contact_share() const noexcept;
   PortForces make_passive(const PortForces& felt, const ProxyGoal& goal) noexcept;
   Vec3 texture_force_N(const ProxyGoal& goal, const Vec3& contact_N) noexcept;
-  Vec3 gate_and_write(const Vec3& wanted_N, const Vec3& position_m, std::uint64_t now_ns) noexcept;
+  Vec3 gate_and_write(const Vec3& wanted_N, const Vec3& position_m, std::uint32_t buttons,
+                      std::uint64_t now_ns) noexcept;
   void tell(const messages::DeviceState& state, const Vec3& sent_N, const Vec3& contact_N) noexcept;
   void tell_felt() noexcept;
   void tell_grabs(messages::ToolState& tool) const noexcept;

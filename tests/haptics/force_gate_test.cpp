@@ -81,6 +81,20 @@ TEST(ForceGate, StopAndLossOfTheDeviceGiveZeroAtOnce) {
   EXPECT_NE(rig.gate.faults() & bit(Fault::Stopped), 0u);
 }
 
+TEST(ForceGate, AClutchGivesZeroAtOnceWithoutAFaultAndTheRampAfterwards) {
+  Rig rig;
+  rig.open();
+  for (int i = 0; i < 20; ++i) rig.tick(Vec3(2, 0, 0));
+  rig.input.clutched = true;
+  EXPECT_EQ(rig.tick(Vec3(2, 0, 0)).norm(), 0.0);
+  EXPECT_EQ(rig.gate.faults(), 0u);
+  rig.input.clutched = false;
+  EXPECT_EQ(rig.tick(Vec3(2, 0, 0)).norm(), 0.0) << "armed: the hand came back inside of something";
+  rig.tick(Vec3(0.1, 0, 0));
+  EXPECT_EQ(rig.gate.state(), GateState::Ramp);
+  EXPECT_LT(rig.tick(Vec3(2, 0, 0)).norm(), 0.01);
+}
+
 TEST(ForceGate, AStaleModelFadesFromThirtyMillisecondsToZeroAtAHundred) {
   Rig rig;
   rig.open();

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <string>
+
+#include "core/vector.h"
+#include "device/hardware_device.h"
+
+namespace myotact::device {
+
+/// How the workspace of a device lies in the world.
+struct Placement {
+  Mat3 world_from_device = Mat3::Identity();  // a rotation: columns are the device's right, up and towards the person
+  Vec3 middle_world_m = Vec3::Zero();         // where the middle of the workspace lies at first
+  double scale = 1.0;                         // metres in the world for a metre on the table, 0.05 .. 20
+  /// Radius on the table within which the hand moves the tool, and beyond which it drives the workspace through the
+  /// world, ever faster; 0: the workspace stays, and only the clutch takes it further.
+  double bubble_radius_m = 0.0;
+};
+
+/// A device on the table as one in the world: turned, scaled, moved on by clutch and bubble.
+///
+/// Clutch (kClutchButton held): the tool stays, the hand goes back to where it has room. Bubble (Dominjon et al. 2005,
+/// after its idea): outside the radius the middle moves outwards with a speed that grows with the cube of the way out.
+/// The middle rests while a force is felt: it would do work on the tissue that no hand did.
+///
+/// The force on the table is the force in the world. A step on the table is `scale` steps in the world, so that what
+/// the world calls stiffness, damping and inertia of this device are its own divided by the scale: profile() says so,
+/// and every bound made from it holds on the table. A scale that stands keeps a passive force passive: both works
+/// differ by that factor.
+class PlacedDevice : public Device {
+ public:
+  /// `device` outlives this. Throws std::invalid_argument: a scale or radius out of its range, no rotation.
+  PlacedDevice(HardwareDevice& device, const Placement& placement);
+
+  const std::string& name() const override { return device_.name(); }
+  const DeviceProfile& profile() const override { return profile_; }  // as the world sees it
+  void open() override;  // afterwards profile() has what the device told of itself
+  void close() noexcept override { device_.close(); }
+  bool connected() const noexcept override { return device_.connected(); }
+  messages::DeviceState read(std::uint64_t now_ns) noexcept override;
+  void write(const messages::DeviceCommand& command) noexcept override;
+
+ private:
+  void follow_clutch(bool clutched, const Vec3& on_table_m) noexcept;
+  void drive_bubble(const Vec3& on_table_m, double dt_s) noexcept;
+  Vec3 in_world(const Vec3& on_table_m) const { return middle_m_ + placement_.scale * (turn() * on_table_m); }
+  const Mat3& turn() const { return placement_.world_from_device; }
+
+  HardwareDevice& device_;
+  Placement placement_;
+  DeviceProfile profile_;
+  Vec3 middle_m_;  // of the workspace, in the world
+  Vec3 held_at_m_ = Vec3::Zero();
+  bool is_clutched_ = false;
+  bool feels_force_ = false;
+  std::uint64_t last_ns_ = 0;
+};
+
+}  // namespace myotact::device
