@@ -20,7 +20,9 @@ using myotact::app::Options;
 
 void add_common(CLI::App& command, Options& options) {
   command
-      .add_option("--device", options.devices, "one device a tool: simulated or mouse; two tools: simulated,simulated")
+      .add_option(
+          "--device", options.devices,
+          "one device a tool: simulated, simulated:touch (another profile) or mouse; two tools: simulated,simulated")
       ->delimiter(',');
   command.add_option("--set", options.set,
                      "override a key of the scene: key=value, e.g. dt_s=0.005 or tissue.default=line");

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/number_list.h"
 #include "core/text.h"
+#include "device/profile_file.h"
 #include "scene/recording_header.h"
 
 namespace myotact::app {
@@ -35,6 +36,10 @@ scene::Scene scene_of(const Options& options) {
   }
   static const std::vector<std::string> kKnown = {"simulated", "mouse"};
   for (const std::string& name : options.devices) {
+    if (name.starts_with("simulated:")) {
+      device::simulated_profile(name);  // throws where there is none
+      continue;
+    }
     if (std::find(kKnown.begin(), kKnown.end(), name) != kKnown.end()) continue;
     throw Error(ExitStatus::Unavailable, "--device " + name + ": there is no such device; \"myotact devices\" lists " +
                                              join(kKnown) + " (nearest: " + nearest_word(name, kKnown) + ")");

@@ -19,6 +19,7 @@
 #include "app/timing_report.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "device/profile_file.h"
 #include "device/simulated_device.h"
 #include "haptics/faults.h"
 #include "measure/shove_report.h"
@@ -53,7 +54,9 @@ class Stopwatch {
 };
 
 std::vector<device::DeviceProfile> simulated_profiles(const scene::Scene& scene) {
-  return std::vector<device::DeviceProfile>(scene.tools.size());
+  std::vector<device::DeviceProfile> profiles;
+  for (const scene::ToolSettings& tool : scene.tools) profiles.push_back(device::simulated_profile(tool.device));
+  return profiles;
 }
 
 PictureWish picture_of(const Options& options) {
@@ -122,7 +125,9 @@ nlohmann::json run_free(const Options& options, const scene::Scene& scene, simul
   std::vector<std::unique_ptr<device::SimulatedDevice>> devices;
   std::vector<scene::ToolDevice> tools;
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {
-    devices.push_back(std::make_unique<device::SimulatedDevice>(scene.tools[t].device, scene::start_of_hand(scene, t)));
+    const std::string& name = scene.tools[t].device;
+    devices.push_back(std::make_unique<device::SimulatedDevice>(name, scene::start_of_hand(scene, t),
+                                                                device::simulated_profile(name)));
     devices.back()->drive(guarded.motors[t]);
     tools.push_back({devices.back().get(), devices.back().get()});
   }

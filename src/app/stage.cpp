@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include "app/scene_facts.h"
+#include "device/profile_file.h"
 #include "haptics/stiffness_bound.h"
 
 namespace myotact::app {
@@ -63,7 +64,9 @@ Hands::Hands(const Options& options, const scene::Scene& scene, GuardedMotors& g
       devices.push_back({&mouse, nullptr});
       continue;
     }
-    simulated.push_back(std::make_unique<device::SimulatedDevice>("simulated", scene::start_of_hand(scene, t)));
+    const std::string& name = scene.tools[t].device;
+    simulated.push_back(std::make_unique<device::SimulatedDevice>(name, scene::start_of_hand(scene, t),
+                                                                  device::simulated_profile(name)));
     simulated.back()->drive(guarded.motors[t]);
     devices.push_back({simulated.back().get(), simulated.back().get()});
   }

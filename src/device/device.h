@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -19,6 +20,7 @@ struct DeviceProfile {
   double resolution_m = 20e-6;    // of the encoder, at the stylus
   bool shows_force_only = false;  // nothing moves the hand, as of a mouse: no speed of it is dangerous
   int delay_ticks = 0;            // from reading a position to the force that answers it
+  std::array<double, 3> workspace_m{0.16, 0.12, 0.07};  // edges of the box that the stylus reaches: right, up, towards
 };
 
 /// One force-feedback device. open() and close() belong to the thread that owns the device; read() and write() to the

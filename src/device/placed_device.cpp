@@ -41,6 +41,7 @@ DeviceProfile as_the_world_sees(DeviceProfile profile, double scale) {
   profile.inertia_kg /= scale;
   profile.viscous_Ns_m /= scale;
   profile.resolution_m *= scale;
+  for (double& edge_m : profile.workspace_m) edge_m *= scale;
   return profile;
 }
 

@@ -27,7 +27,8 @@ constexpr std::array kKeys = {ProfileKey{"peak_force_N", 0.1, 100.0, &DeviceProf
                               ProfileKey{"viscous_Ns_m", 0.0, 100.0, &DeviceProfile::viscous_Ns_m},
                               ProfileKey{"coulomb_N", 0.0, 5.0, &DeviceProfile::coulomb_N},
                               ProfileKey{"resolution_m", 0.0, 5e-3, &DeviceProfile::resolution_m}};
-constexpr int kLongestDelay_ticks = 7;  // SimulatedDevice keeps eight commands
+constexpr double kSmallestEdge_m = 0.01, kLargestEdge_m = 2.0;  // of a workspace
+constexpr int kLongestDelay_ticks = 7;                          // SimulatedDevice keeps eight commands
 
 std::filesystem::path profiles_folder() {
   return data_folder() / "assets" / "devices";
@@ -61,6 +62,11 @@ std::vector<std::string> built_in_profiles() {
   return names;
 }
 
+DeviceProfile simulated_profile(const std::string& device) {
+  const std::size_t colon = device.find(':');
+  return colon == std::string::npos ? DeviceProfile{} : load_profile(device.substr(colon + 1)).profile;
+}
+
 NamedProfile load_profile(const std::string& name_or_path) {
   const std::filesystem::path path = path_of(name_or_path);
   const nlohmann::json json = read_json(path);
@@ -73,6 +79,10 @@ NamedProfile load_profile(const std::string& name_or_path) {
   }
   JsonObject delay(fields.at("delay_ticks"));
   named.profile.delay_ticks = sourced(delay).integer_between(0, kLongestDelay_ticks);
+  JsonObject workspace(fields.at("workspace_m"));
+  const std::vector<JsonValue> edges = sourced(workspace).elements(named.profile.workspace_m.size());
+  for (std::size_t k = 0; k < edges.size(); ++k)
+    named.profile.workspace_m[k] = edges[k].number_between(kSmallestEdge_m, kLargestEdge_m);
   fields.finish();
   if (named.profile.continuous_force_N > named.profile.peak_force_N) {
     throw bad_data(path.string(), "/continuous_force_N/value",

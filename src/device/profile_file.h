@@ -17,6 +17,10 @@ struct NamedProfile {
 /// (file, place, value, range).
 NamedProfile load_profile(const std::string& name_or_path);
 
+/// Of the device that a scene names: "simulated" has the default, "simulated:touch" the profile "touch". Throws as
+/// load_profile.
+DeviceProfile simulated_profile(const std::string& device);
+
 /// Names of those in assets/devices, sorted.
 std::vector<std::string> built_in_profiles();
 

@@ -18,6 +18,7 @@ struct HandProfile {
   double mass_kg = 0.1;
   double damping_Ns_m = 4.0;     // between the stylus and the hand's target
   double stiffness_N_m = 300.0;  // between the stylus and the hand's target
+  double tremor_m = 0.0;         // amplitude with which the target trembles at 9 Hz; a person's: about 0.2 mm
 };
 
 /// Where the hand wants the stylus.
@@ -33,7 +34,7 @@ struct HandTarget {
 ///   (m_device + m_hand) a = k_hand (target - x) + b_hand (v_target - v) - b_device v - Coulomb + F_command
 ///
 /// integrated from one read to the next; the encoder rounds what is read, a command acts `delay_ticks` (at most 7)
-/// later. Same calls, same bits.
+/// later and with no more than the peak force. Same calls, same bits.
 class SimulatedDevice : public Device {
  public:
   SimulatedDevice(std::string name, const Vec3& start_world_m, const DeviceProfile& profile = {},
@@ -73,6 +74,7 @@ class SimulatedDevice : public Device {
   Vec3 target_m_;
   Vec3 target_velocity_m_s_ = Vec3::Zero();
   double target_age_s_ = 0.0;
+  double tremor_s_ = 0.0;  // since the first read
   Vec3 push_N_ = Vec3::Zero();
   SharedMotor* motor_ = nullptr;
   Vec3 force_N_ = Vec3::Zero();     // of the motors

@@ -1,5 +1,6 @@
 #include "scene/lockstep_session.h"
 
+#include "device/profile_file.h"
 #include "layer/simulation_engine.h"
 #include "scene/tool_frame.h"
 
@@ -11,8 +12,9 @@ std::vector<std::unique_ptr<device::SimulatedDevice>> simulated_devices(const Sc
                                                                         const Conductor& conductor) {
   std::vector<std::unique_ptr<device::SimulatedDevice>> devices;
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {
-    devices.push_back(
-        std::make_unique<device::SimulatedDevice>(scene.tools[t].device, conductor.hand(t, 0.0).position_world_m));
+    const std::string& name = scene.tools[t].device;
+    devices.push_back(std::make_unique<device::SimulatedDevice>(name, conductor.hand(t, 0.0).position_world_m,
+                                                                device::simulated_profile(name)));
   }
   return devices;
 }

@@ -13,6 +13,7 @@
 #include "core/file.h"
 #include "core/json_reader.h"
 #include "core/text.h"
+#include "device/profile_file.h"
 #include "scene/tether_file.h"
 #include "scene/texture_file.h"
 #include "simulation/line_model.h"
@@ -252,10 +253,19 @@ void read_shape(JsonObject& fields, ToolSettings& tool) {
   }
 }
 
+std::string device_name(const JsonValue& value) {
+  try {
+    device::simulated_profile(value.string());
+  } catch (const Error& error) {
+    throw value.error(error.what());
+  }
+  return value.string();
+}
+
 ToolSettings read_tool(const JsonValue& value) {
   JsonObject fields(value);
   ToolSettings tool;
-  tool.device = fields.at("device").string();
+  tool.device = device_name(fields.at("device"));
   if (const auto hand = fields.find("hand")) tool.hand = hand->one_of({"left", "right"});
   if (const auto method = fields.find("method")) tool.method = force_method(*method);
   read_shape(fields, tool);

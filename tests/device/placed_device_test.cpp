@@ -98,6 +98,7 @@ TEST(PlacedDevice, TellsItsProfileAsTheWorldSeesIt) {
   EXPECT_DOUBLE_EQ(placed.device.profile().inertia_kg, table.inertia_kg / 4.0);
   EXPECT_DOUBLE_EQ(placed.device.profile().viscous_Ns_m, table.viscous_Ns_m / 4.0);
   EXPECT_DOUBLE_EQ(placed.device.profile().resolution_m, table.resolution_m * 4.0);
+  EXPECT_DOUBLE_EQ(placed.device.profile().workspace_m[0], table.workspace_m[0] * 4.0);
 }
 
 TEST(PlacedDevice, TheToolStaysWhileTheClutchIsHeldAndGoesOnFromThere) {

@@ -18,7 +18,8 @@ constexpr const char* kSound = R"({"schema": 1, "title": "t",
  "peak_force_N": {"value": 3, "source": "s"}, "continuous_force_N": {"value": 1, "source": "s"},
  "max_stiffness_N_m": {"value": 900, "source": "s"}, "inertia_kg": {"value": 0.1, "source": "s"},
  "viscous_Ns_m": {"value": 0.1, "source": "s"}, "coulomb_N": {"value": 0.1, "source": "s"},
- "resolution_m": {"value": 2e-5, "source": "s"}, "delay_ticks": {"value": 2, "source": "s"}})";
+ "resolution_m": {"value": 2e-5, "source": "s"}, "delay_ticks": {"value": 2, "source": "s"},
+ "workspace_m": {"value": [0.2, 0.1, 0.1], "source": "s"}})";
 
 class ProfileFile : public testing::Test {
  protected:
@@ -49,6 +50,7 @@ TEST_F(ProfileFile, AFileSaysWhatTheDeviceBears) {
   EXPECT_EQ(named.profile.max_stiffness_N_m, 900.0);
   EXPECT_EQ(named.profile.resolution_m, 2e-5);
   EXPECT_EQ(named.profile.delay_ticks, 2);
+  EXPECT_EQ(named.profile.workspace_m, (std::array{0.2, 0.1, 0.1}));
   EXPECT_FALSE(named.profile.shows_force_only);
 }
 
@@ -59,6 +61,8 @@ TEST_F(ProfileFile, WhatIsWrongIsNamedWithItsPlaceAndRange) {
   EXPECT_NE(refusal(R"("source": "s")", R"("source": "")").find("/peak_force_N/source"), std::string::npos);
   EXPECT_NE(refusal("\"coulomb_N\"", "\"coulomb\"").find("coulomb_N"), std::string::npos);
   EXPECT_NE(refusal("\"value\": 2,", "\"value\": 9,").find("/delay_ticks/value"), std::string::npos);
+  EXPECT_NE(refusal("[0.2,", "[0.001,").find("/workspace_m/value/0"), std::string::npos);
+  EXPECT_NE(refusal("[0.2, 0.1, 0.1]", "[0.2]").find("/workspace_m/value"), std::string::npos);
   EXPECT_NE(refusal("\"value\": 1,", "\"value\": 4,").find("/continuous_force_N/value"), std::string::npos);
   EXPECT_NE(refusal("\"schema\": 1", "\"schema\": 2").find("/schema"), std::string::npos);
   EXPECT_NE(refusal("{\"schema\"", "[\"schema\"").find(path_.string()), std::string::npos);
@@ -76,6 +80,12 @@ TEST(Profiles, EveryShippedOneIsReadAndSimulatedIsTheDefault) {
   EXPECT_EQ(read.coulomb_N, standard.coulomb_N);
   EXPECT_EQ(read.resolution_m, standard.resolution_m);
   EXPECT_EQ(read.delay_ticks, standard.delay_ticks);
+}
+
+TEST(Profiles, ASceneNamesASimulatedDeviceWithTheProfileOfARealOne) {
+  EXPECT_EQ(simulated_profile("simulated").peak_force_N, DeviceProfile{}.peak_force_N);
+  EXPECT_EQ(simulated_profile("simulated:omega").peak_force_N, 12.0);
+  EXPECT_THROW(simulated_profile("simulated:omego"), Error);
 }
 
 TEST(Profiles, AnUnknownNameIsRefusedWithTheNearest) {

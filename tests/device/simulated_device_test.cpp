@@ -31,6 +31,29 @@ TEST(SimulatedDevice, RestsWhereItStarts) {
   EXPECT_EQ(state.sampled_at_ns, now_ns);
 }
 
+TEST(SimulatedDevice, PullsWithNoMoreThanItsPeak) {
+  SimulatedDevice device("simulated", Vec3::Zero());
+  device.write({{30.0, 40.0, 0.0}});
+  EXPECT_NEAR((device.motor_force_N() - DeviceProfile{}.peak_force_N * Vec3(0.6, 0.8, 0.0)).norm(), 0.0, 1e-12);
+}
+
+/// Closed form: a driven oscillator's amplitude |k| / |k - m w^2 + i w (b + b_device)|.
+TEST(SimulatedDevice, TremblesAsADrivenOscillatorDoes) {
+  HandProfile hand;
+  hand.tremor_m = 2e-4;
+  const DeviceProfile profile = frictionless();
+  SimulatedDevice device("simulated", Vec3::Zero(), profile, hand);
+  std::uint64_t now_ns = 0;
+  run(device, 3000, now_ns);
+  double largest_m = 0.0;
+  for (int tick = 0; tick < 1000; ++tick)
+    largest_m = std::max(largest_m, run(device, 1, now_ns).stylus_position_world_m[0]);
+  const double w = 2.0 * std::numbers::pi * 9.0;
+  const double real = hand.stiffness_N_m - (hand.mass_kg + profile.inertia_kg) * w * w;
+  const double imaginary = w * (hand.damping_Ns_m + profile.viscous_Ns_m);
+  EXPECT_NEAR(largest_m, hand.tremor_m * hand.stiffness_N_m / std::hypot(real, imaginary), 0.02 * hand.tremor_m);
+}
+
 TEST(SimulatedDevice, SettlesAtForceOverHandStiffness) {
   SimulatedDevice device("simulated", Vec3::Zero(), frictionless());
   device.write({{0.6, 0.0, 0.0}});
