@@ -56,6 +56,7 @@ struct Options {
   double friction = 0.3;
   double rate_hz = 1000.0;
   std::string bind = "127.0.0.1";  // serve, as the seven below
+  std::optional<std::string> test_device;  // devices: the one to be checked with a person's help
   std::uint16_t port = 7480;
   std::uint16_t websocket_port = 7481;
   bool no_websocket = false;
