@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "messages/device.h"
@@ -42,6 +43,18 @@ class Device {
   virtual messages::DeviceState read(std::uint64_t now_ns) noexcept = 0;
   /// The force that acts on the hand until the next write.
   virtual void write(const messages::DeviceCommand& command) noexcept = 0;
+};
+
+/// Ticks that a maker's library makes: its servo thread calls us, not we it.
+class ServoClock {
+ public:
+  virtual ~ServoClock() = default;
+  /// Calls `tick` with the steady clock [ns] once a servo period, between its read and its write, until stop(). `tick`
+  /// neither allocates, locks, waits nor throws. Throws Error Unavailable.
+  virtual void start(std::function<void(std::uint64_t now_ns)> tick) = 0;
+  /// No tick runs any more when it returns, and the force is zero. Any number of times. Its caller may read and write
+  /// once more afterwards, which moves nothing.
+  virtual void stop() noexcept = 0;
 };
 
 }  // namespace myotact::device

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,17 +18,6 @@ struct DeviceReport {
   double rate_Hz = 0.0;   // exchanges with the device in the last second
   double warmth = -1.0;   // of the hottest motor, 0 cold .. 1 as hot as it may get; below 0: the device does not tell
   const char* hint = "";  // what the person is to do now, a sentence of static text; empty: nothing
-};
-
-/// Ticks that a maker's library makes: its servo thread calls us, not we it.
-class ServoClock {
- public:
-  virtual ~ServoClock() = default;
-  /// Calls `tick` with the steady clock [ns] once a servo period, between its read and its write, until stop(). `tick`
-  /// neither allocates, locks, waits nor throws. Throws Error Unavailable.
-  virtual void start(std::function<void(std::uint64_t now_ns)> tick) = 0;
-  /// No tick runs any more when it returns. Any number of times.
-  virtual void stop() noexcept = 0;
 };
 
 /// A device on the table. What it says and is told is in its own frame: x to the right of the person who sits before

@@ -4,13 +4,28 @@
 
 namespace myotact::haptics {
 
-HapticThread::HapticThread(std::span<HapticLoop* const> loops, realtime::Watchdog* watchdog)
-    : loops_(loops.begin(), loops.end()), watchdog_(watchdog), loop_durations_(loops.size()) {}
+namespace {
 
-HapticThread::HapticThread(HapticLoop& loop, realtime::Watchdog* watchdog)
-    : loops_{&loop}, watchdog_(watchdog), loop_durations_(1) {}
+/// Deadlines that went by between two ticks of a servo clock.
+std::uint64_t periods_between(std::uint64_t last_ns, std::uint64_t now_ns) noexcept {
+  const std::uint64_t since_ns = last_ns != 0 && now_ns > last_ns ? now_ns - last_ns : 0;
+  return since_ns < 2 * kTickPeriod_ns ? 0 : since_ns / kTickPeriod_ns - 1;
+}
+
+}  // namespace
+
+HapticThread::HapticThread(std::span<HapticLoop* const> loops, realtime::Watchdog* watchdog, device::ServoClock* servo)
+    : loops_(loops.begin(), loops.end()), watchdog_(watchdog), servo_(servo), loop_durations_(loops.size()) {}
+
+HapticThread::HapticThread(HapticLoop& loop, realtime::Watchdog* watchdog, device::ServoClock* servo)
+    : loops_{&loop}, watchdog_(watchdog), servo_(servo), loop_durations_(1) {}
 
 void HapticThread::start() {
+  if (servo_ != nullptr) {
+    servo_->start([this](std::uint64_t now_ns) { round(now_ns, periods_between(last_ns_, now_ns)); });
+    running_.store(true, std::memory_order_release);
+    return;
+  }
   thread_ = std::thread([this] {
     realtime::name_this_thread("haptics");
     permission_ = realtime::make_this_thread_real_time();
@@ -22,10 +37,11 @@ void HapticThread::start() {
 }
 
 void HapticThread::stop() noexcept {
-  if (!thread_.joinable()) return;
+  if (!running_.exchange(false, std::memory_order_acq_rel)) return;
   stopping_.store(true, std::memory_order_relaxed);
-  thread_.join();
-  // The thread is gone: this one may send the last, empty commands.
+  if (servo_ != nullptr) servo_->stop();
+  if (thread_.joinable()) thread_.join();
+  // Nobody else ticks any more: this thread may send the last, empty commands.
   stop_forces(loops_, true);
   tick_all(loops_, realtime::steady_now_ns());
   if (watchdog_ != nullptr) watchdog_->rest();
@@ -48,19 +64,22 @@ void HapticThread::tick_loops(std::uint64_t now_ns, std::uint64_t missed) noexce
   }
 }
 
+void HapticThread::round(std::uint64_t now_ns, std::uint64_t missed) noexcept {
+  if (last_ns_ != 0) periods_.add(now_ns - last_ns_);
+  last_ns_ = now_ns;
+  missed_.fetch_add(missed, std::memory_order_relaxed);
+  tick_loops(now_ns, missed);
+  if (watchdog_ != nullptr) watchdog_->beat();
+  count_.fetch_add(1, std::memory_order_relaxed);
+  durations_.add(realtime::steady_now_ns() - now_ns);
+}
+
 void HapticThread::run() noexcept {
   realtime::PeriodicLoop beat(kTickPeriod_ns);
   beat.start();
-  std::uint64_t last_ns = 0;
   while (!stopping_.load(std::memory_order_relaxed)) {
     const realtime::PeriodicLoop::Wake wake = beat.wait();
-    if (last_ns != 0) periods_.add(wake.now_ns - last_ns);
-    last_ns = wake.now_ns;
-    missed_.fetch_add(wake.missed, std::memory_order_relaxed);
-    tick_loops(wake.now_ns, wake.missed);
-    if (watchdog_ != nullptr) watchdog_->beat();
-    count_.fetch_add(1, std::memory_order_relaxed);
-    durations_.add(realtime::steady_now_ns() - wake.now_ns);
+    round(wake.now_ns, wake.missed);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "device/device.h"
 #include "haptics/haptic_group.h"
 #include "realtime/period_histogram.h"
 #include "realtime/real_time_thread.h"
@@ -17,18 +18,20 @@
 namespace myotact::haptics {
 
 /// Runs the loops of a group of devices free on the steady clock at 1 kHz, one after the other at each deadline, with
-/// real-time priority where the system permits.
+/// real-time priority where the system permits; or at the ticks that a maker's library makes, in its thread.
 class HapticThread {
  public:
   /// The loops outlive the thread and are prepared before start(). At least one.
   /// `watchdog`, which outlives the thread, is told of every round; null: none. It guards all devices of the group.
-  explicit HapticThread(std::span<HapticLoop* const> loops, realtime::Watchdog* watchdog = nullptr);
-  explicit HapticThread(HapticLoop& loop, realtime::Watchdog* watchdog = nullptr);
+  /// `servo`, which outlives it too: whose ticks these are; null: those of a thread of its own.
+  explicit HapticThread(std::span<HapticLoop* const> loops, realtime::Watchdog* watchdog = nullptr,
+                        device::ServoClock* servo = nullptr);
+  explicit HapticThread(HapticLoop& loop, realtime::Watchdog* watchdog = nullptr, device::ServoClock* servo = nullptr);
   ~HapticThread() { stop(); }
   HapticThread(const HapticThread&) = delete;
   HapticThread& operator=(const HapticThread&) = delete;
 
-  /// Returns when the thread runs. Once.
+  /// Returns when the thread runs. Once. Throws Error Unavailable: the maker's library gives no ticks.
   void start();
   /// All forces are zero when it returns. Any number of times.
   void stop() noexcept;
@@ -46,14 +49,17 @@ class HapticThread {
 
  private:
   void run() noexcept;
+  void round(std::uint64_t now_ns, std::uint64_t missed) noexcept;
   void tick_loops(std::uint64_t now_ns, std::uint64_t missed) noexcept;
 
   std::vector<HapticLoop*> loops_;
   realtime::Watchdog* watchdog_;
+  device::ServoClock* servo_;
   realtime::RealTimePermission permission_;
   realtime::PeriodHistogram periods_;
   realtime::PeriodHistogram durations_;
   std::deque<realtime::PeriodHistogram> loop_durations_;  // one a loop; never moved
+  std::uint64_t last_ns_ = 0;                             // when the last round began; of the thread that ticks
   std::atomic<std::uint64_t> count_{0};
   std::atomic<std::uint64_t> missed_{0};
   std::atomic<bool> running_{false};
