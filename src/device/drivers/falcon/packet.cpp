@@ -2,12 +2,13 @@
 
 #include <algorithm>
 
+#include "device/drivers/falcon/transport.h"
+
 namespace myotact::device::falcon {
 
 namespace {
 
 constexpr std::uint8_t kBegin = '<', kEnd = '>', kZero = 0x41;
-constexpr std::size_t kStatusBytes = 2;  // of the serial chip, before what a transfer carries
 constexpr std::size_t kNumbersAt = 1, kFlagsAt = 13, kUnknownAt = 14;
 constexpr std::uint8_t kHoming = 0x01;      // in the flags of a command
 constexpr std::uint8_t kButtons = 0x0f;     // in the flags of a report
