@@ -258,7 +258,7 @@ TEST(FalconSession, WhateverHappensTheForceHasItsLimitAndEndsWithinTwoTurnsOfAFa
       since_fault = 0;
     }
     const double angle = 1e-3 * i;
-    rig.fake.hold(kMiddle_m + 0.02 * Vec3(std::sin(angle), std::cos(1.3 * angle), std::sin(0.7 * angle)));
+    rig.fake.hold(kMiddle_m + 0.02 * Vec3(std::sin(angle), std::sin(1.3 * angle), std::sin(0.7 * angle)));
     Vec3 wanted_N(number(random), number(random), number(random));
     if (share(random) < 0.01) wanted_N[0] = std::numeric_limits<double>::infinity();
     rig.turns(1, wanted_N);
