@@ -21,19 +21,25 @@ constexpr std::uint16_t kDtrLow = 0x0100, kDtrHigh = 0x0101, kRtsLow = 0x0200;
 constexpr std::uint16_t kNoFlow = 0, kEightBits = 0x0008;
 constexpr std::uint16_t kBaud9600 = 0x4138, kBaud142857 = 0x0015, kBaud1500000 = 0x0002;
 
-constexpr std::chrono::milliseconds kAnswerWithin(50);  // three of the chip's longest latencies
-constexpr int kGreetings = 100, kTries = 10, kTestPackets = 100, kFirstTestPackets = 1000;
+/// The chip's latency while it greets and uploads [ms]: so often it sends its status when it has nothing else, which
+/// makes an empty transfer as good as a wait of that length.
+constexpr std::uint16_t kLatency_ms = 16;
+constexpr int kGreetingWaits = 2;  // seven bytes at 9600 baud and one latency are 23 ms
+constexpr int kEchoWaits = 60;     // about a second, as libnifalcon
+constexpr int kMostStale = 32;     // transfers that may lie in the buffers after many greetings
+/// libnifalcon greets up to 100 times a try; ten tries of 30 end within ten seconds where nothing answers.
+constexpr int kGreetings = 30, kTries = 10, kTestPackets = 100, kFirstTestPackets = 1000;
 constexpr std::size_t kBlock = kTransferBytes - kStatusBytes;          // so that a block's echo fits into one transfer
 constexpr std::uintmax_t kSmallestImage = 7000, kLargestImage = 9000;  // bytes; known ones have 7324 .. 8492
 constexpr std::array<std::uint8_t, 2> kImageBegin = {0xaa, 0x08};      // of every known one
 
-/// What came in, without status, appended; false: nothing came.
+/// What came in within a latency, without status, appended. False: nothing.
 bool receive(Transport& transport, std::vector<std::uint8_t>& bytes) {
   std::array<std::uint8_t, kTransferBytes> transfer{};
-  const std::size_t count = transport.receive(transfer, kAnswerWithin);
-  if (count > kStatusBytes)
-    bytes.insert(bytes.end(), transfer.begin() + kStatusBytes, transfer.begin() + static_cast<std::ptrdiff_t>(count));
-  return count > 0;
+  const std::size_t count = transport.receive(transfer, std::chrono::milliseconds(kLatency_ms));
+  if (count <= kStatusBytes) return false;
+  bytes.insert(bytes.end(), transfer.begin() + kStatusBytes, transfer.begin() + static_cast<std::ptrdiff_t>(count));
+  return true;
 }
 
 bool purge(Transport& transport) {
@@ -41,24 +47,34 @@ bool purge(Transport& transport) {
 }
 
 bool enter_greeting_mode(Transport& transport) {
-  return purge(transport) && transport.request(kLatency, 16) && transport.request(kBaud, kBaud9600) &&
+  return purge(transport) && transport.request(kLatency, kLatency_ms) && transport.request(kBaud, kBaud9600) &&
          transport.request(kFormat, kEightBits) && transport.request(kFlow, kNoFlow) &&
          transport.request(kModem, kRtsLow) && transport.request(kModem, kDtrLow) &&
          transport.request(kModem, kDtrHigh);
 }
 
-/// The processor answers a greeting; on some systems with a zero before it.
-bool is_welcome(std::vector<std::uint8_t> bytes) {
+/// The processor answers a greeting; on some systems with a zero before it, and after what was left of an older answer.
+bool is_welcome(const std::vector<std::uint8_t>& bytes) {
   constexpr std::array<std::uint8_t, 4> kWelcome = {0x0a, 0x44, 0x2c, 0x0d};
-  if (!bytes.empty() && bytes.front() == 0) bytes.erase(bytes.begin());
-  return std::equal(bytes.begin(), bytes.end(), kWelcome.begin(), kWelcome.end());
+  return bytes.size() >= kWelcome.size() && std::equal(kWelcome.rbegin(), kWelcome.rend(), bytes.rbegin());
+}
+
+/// Answers to greetings that were given up too early would be taken for the echo of a block.
+void drop_stale(Transport& transport) {
+  std::vector<std::uint8_t> stale;
+  for (int i = 0; i < kMostStale && receive(transport, stale); ++i) {
+  }
 }
 
 bool greet(Transport& transport) {
   constexpr std::array<std::uint8_t, 3> kGreeting = {0x0a, 0x43, 0x0d};
+  std::vector<std::uint8_t> answer;
   for (int i = 0; i < kGreetings && !transport.is_gone(); ++i) {
-    std::vector<std::uint8_t> answer;
-    if (transport.send(kGreeting) && receive(transport, answer) && is_welcome(answer)) return true;
+    if (!transport.send(kGreeting)) continue;
+    for (int waits = 0; waits < kGreetingWaits && !is_welcome(answer);) waits += receive(transport, answer) ? 0 : 1;
+    if (!is_welcome(answer)) continue;
+    drop_stale(transport);
+    return true;
   }
   return false;
 }
@@ -67,8 +83,11 @@ bool greet(Transport& transport) {
 Upload echo(Transport& transport, std::span<const std::uint8_t> block) {
   if (!transport.send(block)) return Upload::Gone;
   std::vector<std::uint8_t> back;
-  while (back.size() < block.size())
-    if (!receive(transport, back)) return transport.is_gone() ? Upload::Gone : Upload::NoAnswer;
+  for (int waits = 0; back.size() < block.size();) {
+    if (receive(transport, back)) continue;
+    if (transport.is_gone()) return Upload::Gone;
+    if (++waits == kEchoWaits) return Upload::NoAnswer;
+  }
   return std::equal(back.begin(), back.end(), block.begin(), block.end()) ? Upload::Done : Upload::EchoDiffers;
 }
 
