@@ -15,6 +15,8 @@ namespace {
 
 constexpr std::uint64_t kPoseLife_ns = 30'000'000;  // as a stale model: FORMATS, force gate
 constexpr std::uint64_t kRateWindow_ns = 1'000'000'000;
+/// The chip hears us and the processor behind it says nothing: it lost its power, and its firmware with it.
+constexpr std::uint64_t kGivenUp_ns = 2'000'000'000;
 constexpr auto kLookAgain = std::chrono::milliseconds(500);
 
 std::uint64_t steady(void*) {
@@ -36,6 +38,25 @@ DeviceProfile falcon_profile(double peak_force_N) {
   return profile;
 }
 
+/// A transport that is gone as soon as its user wants to stop: what waits for an answer, the start of a firmware above
+/// all, ends at once.
+class Stoppable : public Transport {
+ public:
+  Stoppable(std::unique_ptr<Transport> inner, const std::atomic<bool>& stopping)
+      : inner_(std::move(inner)), stopping_(stopping) {}
+
+  bool request(std::uint8_t number, std::uint16_t value) noexcept override { return inner_->request(number, value); }
+  bool send(std::span<const std::uint8_t> bytes) noexcept override { return inner_->send(bytes); }
+  std::size_t receive(std::span<std::uint8_t> bytes, std::chrono::milliseconds patience) noexcept override {
+    return inner_->receive(bytes, patience);
+  }
+  bool is_gone() const noexcept override { return stopping_ || inner_->is_gone(); }
+
+ private:
+  std::unique_ptr<Transport> inner_;
+  const std::atomic<bool>& stopping_;
+};
+
 }  // namespace
 
 FalconDevice::FalconDevice(std::string name, const FalconSettings& settings, OpenTransport open_transport)
@@ -45,7 +66,7 @@ FalconDevice::FalconDevice(std::string name, const FalconSettings& settings, Ope
       profile_(falcon_profile(settings.exchange.peak_force_N)) {}
 
 std::unique_ptr<Transport> FalconDevice::start_transport() const {
-  auto transport = open_transport_();
+  auto transport = std::make_unique<Stoppable>(open_transport_(), stopping_);
   const std::vector<std::uint8_t> image =
       settings_.firmware.empty() ? std::vector<std::uint8_t>{} : read_firmware(settings_.firmware);
   start_firmware(*transport, image);
@@ -55,13 +76,13 @@ std::unique_ptr<Transport> FalconDevice::start_transport() const {
 void FalconDevice::open() {
   if (thread_.joinable()) return;
   phase_ = DevicePhase::Opening;
+  stopping_ = false;
   try {
     transport_ = start_transport();
   } catch (...) {
     phase_ = DevicePhase::Closed;
     throw;
   }
-  stopping_ = false;
   thread_ = std::thread([this] {
     realtime::name_this_thread("falcon");
     realtime::make_this_thread_real_time();
@@ -93,6 +114,7 @@ void FalconDevice::run() noexcept {
 }
 
 bool FalconDevice::reopen() noexcept {
+  transport_.reset();  // first: a device that is held cannot be taken
   try {
     transport_ = start_transport();
     return true;
@@ -104,6 +126,7 @@ bool FalconDevice::reopen() noexcept {
 void FalconDevice::exchange_until_gone(Transport& transport) noexcept {
   Session session(transport, settings_.exchange, steady, nullptr);
   std::uint64_t window_ns = session.now_ns(), counted = 0;
+  std::uint64_t heard_ns = window_ns, heard = 0;
   while (!stopping_ && !transport.is_gone()) {
     forces_.update();
     session.turn(forces_.front());
@@ -113,6 +136,11 @@ void FalconDevice::exchange_until_gone(Transport& transport) noexcept {
     phase_ = phase;
     poses_.publish({{to_array(exchange.position_m()), to_array(exchange.velocity_m_s()), now_ns, exchange.buttons()},
                     phase == DevicePhase::Ready});
+    if (session.reports() != heard) {
+      heard = session.reports();
+      heard_ns = now_ns;
+    }
+    if (now_ns - heard_ns > kGivenUp_ns) break;
     if (now_ns - window_ns < kRateWindow_ns) continue;
     rate_Hz_ = 1e9 * static_cast<double>(session.reports() - counted) / static_cast<double>(now_ns - window_ns);
     window_ns = now_ns;

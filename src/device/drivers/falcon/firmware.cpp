@@ -68,10 +68,11 @@ void drop_stale(Transport& transport) {
 
 bool greet(Transport& transport) {
   constexpr std::array<std::uint8_t, 3> kGreeting = {0x0a, 0x43, 0x0d};
-  std::vector<std::uint8_t> answer;
   for (int i = 0; i < kGreetings && !transport.is_gone(); ++i) {
+    std::vector<std::uint8_t> answer;
     if (!transport.send(kGreeting)) continue;
-    for (int waits = 0; waits < kGreetingWaits && !is_welcome(answer);) waits += receive(transport, answer) ? 0 : 1;
+    for (int waits = 0; waits < kGreetingWaits && !is_welcome(answer) && answer.size() < kBlock;)
+      waits += receive(transport, answer) ? 0 : 1;
     if (!is_welcome(answer)) continue;
     drop_stale(transport);
     return true;
@@ -84,8 +85,8 @@ Upload echo(Transport& transport, std::span<const std::uint8_t> block) {
   if (!transport.send(block)) return Upload::Gone;
   std::vector<std::uint8_t> back;
   for (int waits = 0; back.size() < block.size();) {
-    if (receive(transport, back)) continue;
     if (transport.is_gone()) return Upload::Gone;
+    if (receive(transport, back)) continue;
     if (++waits == kEchoWaits) return Upload::NoAnswer;
   }
   return std::equal(back.begin(), back.end(), block.begin(), block.end()) ? Upload::Done : Upload::EchoDiffers;

@@ -4,13 +4,16 @@ namespace myotact::device::falcon {
 
 namespace {
 
-constexpr int kWaits = 5;  // of a millisecond each: then the reply, or the command, was lost
+using std::chrono::milliseconds;
+
+constexpr int kWaits = 5;     // of a millisecond each: then the reply, or the command, was lost
+constexpr int kMostLeft = 8;  // replies to commands that were given up too early
 
 }  // namespace
 
 /// True: at least one good report was in it.
-bool Session::take_transfer() noexcept {
-  const std::size_t count = transport_.receive(transfer_, std::chrono::milliseconds(1));
+bool Session::take_transfer(milliseconds patience) noexcept {
+  const std::size_t count = transport_.receive(transfer_, patience);
   reader_.take_transfer(std::span(transfer_).first(count));
   bool reported = false;
   while (const auto packet = reader_.next()) {
@@ -25,8 +28,11 @@ bool Session::take_transfer() noexcept {
 
 void Session::turn(const WantedForce& wanted) noexcept {
   transport_.send(exchange_.command(wanted, now_ns()));
-  for (int wait = 0; wait < kWaits && !transport_.is_gone(); ++wait)
-    if (take_transfer()) return;
+  bool reported = false;
+  for (int wait = 0; wait < kWaits && !reported && !transport_.is_gone(); ++wait)
+    reported = take_transfer(milliseconds(1));
+  // What else is there is newer: with one report a turn, every turn would act on one that is as many turns old.
+  for (int left = 0; left < kMostLeft && reported; ++left) reported = take_transfer(milliseconds(0));
 }
 
 void Session::rest() noexcept {

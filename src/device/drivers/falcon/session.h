@@ -16,7 +16,7 @@ class Session {
   Session(Transport& transport, const ExchangeSettings& settings, std::uint64_t (*now)(void*), void* of)
       : transport_(transport), exchange_(settings), now_(now), of_(of) {}
 
-  /// Sends what the force makes of the motors and takes what comes back within five milliseconds.
+  /// Sends what the force makes of the motors and takes what comes back within five milliseconds, the newest last.
   void turn(const WantedForce& wanted) noexcept;
   /// The last command: no torque, lamps off.
   void rest() noexcept;
@@ -26,7 +26,7 @@ class Session {
   std::uint64_t reports() const noexcept { return reports_; }
 
  private:
-  bool take_transfer() noexcept;
+  bool take_transfer(std::chrono::milliseconds patience) noexcept;
 
   Transport& transport_;
   Exchange exchange_;

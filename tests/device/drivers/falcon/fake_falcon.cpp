@@ -60,6 +60,7 @@ Report FakeFalcon::report() const {
 
 void FakeFalcon::answer_command(const Packet& packet) {
   last_ = decode_command(packet);
+  ++commands_;
   const Packet bytes = encode(report());
   const std::vector<std::uint8_t> whole(bytes.begin(), bytes.end());
   switch (fault_) {

@@ -21,6 +21,13 @@ class FakeFalcon : public Transport {
   void hold(const Vec3& grip_m) { grip_m_ = grip_m; }  // in the frame of the legs
   void home() { was_at_stops_ = true; }
   void boot_with_firmware() { runs_ = true; }
+  /// Its processor goes blank; the serial chip, which has the cable's power, stays.
+  void lose_power() {
+    runs_ = was_greeted_ = was_at_stops_ = false;
+    uploaded_.clear();
+    to_host_.clear();
+    last_ = {};
+  }
   void spoil_block(int block) { spoiled_block_ = block; }
   void greet_with_zero() { greets_with_zero_ = true; }
   void set(Fault fault) { fault_ = fault; }
@@ -34,6 +41,7 @@ class FakeFalcon : public Transport {
   /// What the motors push with at the grip, by the counts of the newest command [N].
   Vec3 force_N(double counts_per_Nm) const;
   const Command& last_command() const { return last_; }
+  int commands() const { return commands_; }
 
   bool request(std::uint8_t number, std::uint16_t value) noexcept override;
   bool send(std::span<const std::uint8_t> bytes) noexcept override;
@@ -54,7 +62,7 @@ class FakeFalcon : public Transport {
   std::uint64_t now_ns_ = 1'000'000'000;
   Fault fault_ = Fault::None;
   std::uint8_t buttons_ = 0;
-  int blocks_ = 0, spoiled_block_ = -1;
+  int commands_ = 0, blocks_ = 0, spoiled_block_ = -1;
   bool runs_ = false, was_greeted_ = false, was_at_stops_ = false, greets_with_zero_ = false;
 };
 

@@ -124,6 +124,19 @@ TEST(FalconDevice, ComesBackAfterItWasUnpluggedFromNoForce) {
   EXPECT_TRUE(rig.ticks_until([&] { return rig.device.connected(); }));
 }
 
+TEST(FalconDevice, OneThatSaysNothingForSecondsIsStartedAgain) {
+  Rig rig;
+  rig.device.open();
+  rig.falcon.with([](FakeFalcon& fake) { fake.home(); });
+  EXPECT_TRUE(rig.ticks_until([&] { return rig.felt_N() > 0.9; }, {0.0, 1.0, 0.0}));
+  rig.falcon.with([](FakeFalcon& fake) { fake.set(Fault::NoReply); });
+  EXPECT_TRUE(rig.ticks_until([&] { return rig.device.report().phase == DevicePhase::Lost; }, {0.0, 1.0, 0.0}));
+  EXPECT_FALSE(rig.device.connected());
+  EXPECT_EQ(rig.felt_N(), 0.0);
+  rig.falcon.with([](FakeFalcon& fake) { fake.set(Fault::None); });
+  EXPECT_TRUE(rig.ticks_until([&] { return rig.device.connected(); }));
+}
+
 TEST(FalconDevice, WhatDoesNotOpenStaysClosed) {
   Rig rig;
   rig.falcon.with([](FakeFalcon& fake) { fake.set(Fault::Gone); });
