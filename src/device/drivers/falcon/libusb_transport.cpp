@@ -160,7 +160,7 @@ std::size_t LibusbTransport::receive(std::span<std::uint8_t> bytes, std::chrono:
   const auto until = Clock::now() + patience;
   clear_stalls();
   queue_receipts();
-  for (bool is_first = true; count_ == 0 && !is_gone_ && (is_first || Clock::now() < until); is_first = false)
+  while (count_ == 0 && !is_gone_ && Clock::now() < until)
     handle_events(until);
   if (count_ == 0) return 0;
   const Arrival& arrival = arrivals_[first_];

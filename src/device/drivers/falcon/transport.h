@@ -18,7 +18,7 @@ class Transport {
   /// Queues bytes for the device. False: not taken.
   virtual bool send(std::span<const std::uint8_t> bytes) noexcept = 0;
   /// The oldest transfer that came in, its two bytes of status included, into `bytes` (64 or more): how many; 0 when
-  /// none came within `patience`.
+  /// none came within `patience` (0: none lies there yet).
   virtual std::size_t receive(std::span<std::uint8_t> bytes, std::chrono::milliseconds patience) noexcept = 0;
   /// The device was unplugged, or does not answer requests any more.
   virtual bool is_gone() const noexcept = 0;
