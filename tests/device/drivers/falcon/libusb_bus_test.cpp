@@ -1,6 +1,7 @@
 // The driver behind the real libusb: umockdev shows it a bus with a Falcon on it and answers what it asks the kernel.
 // States are waited for, with generous limits; no time decides.
 
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <random>
@@ -120,8 +121,7 @@ class FalconUsbTurns : public FalconUsb {
     transport = bus->open("1-1");
     start_firmware(*transport, {});
     session = std::make_unique<Session>(*transport, ExchangeSettings{}, steady, nullptr);
-    turns(5);
-    ASSERT_EQ(phase(), DevicePhase::Ready);
+    ASSERT_TRUE(turns_until([this] { return phase() == DevicePhase::Ready; }));
   }
   void turns(int count) {
     for (int i = 0; i < count; ++i) session->turn({{0.0, 1.0, 0.0}, session->now_ns()});
@@ -148,8 +148,7 @@ TEST_F(FalconUsbTurns, TenThousandAreFelt) {
   const auto reports = static_cast<double>(session->reports() - before);
   std::cout << "through libusb and umockdev: " << reports / taken_s << " reports a second\n";
   EXPECT_GE(reports, 9'900) << "a turn without a report waited five milliseconds for it: the machine was busy";
-  EXPECT_EQ(phase(), DevicePhase::Ready);
-  EXPECT_NEAR(felt_N(), 1.0, 0.01);
+  EXPECT_TRUE(turns_until([&] { return phase() == DevicePhase::Ready && std::abs(felt_N() - 1.0) < 0.01; }));
   EXPECT_GE(falcon->most_queued(), 2u);
 }
 
@@ -197,9 +196,9 @@ TEST_F(FalconUsbTurns, AnEndpointThatStallsIsCleared) {
 TEST_F(FalconUsbTurns, LeapsAndLegsThatForgetTheirStopTakeTheForce) {
   for (const Fault fault : {Fault::HomedDrops, Fault::EncoderLeaps}) {
     set(fault);
-    turns(3);  // a reply may still be on its way
-    EXPECT_EQ(felt_N(), 0.0) << static_cast<int>(fault);
-    EXPECT_NE(phase(), DevicePhase::Ready);
+    // That two turns are enough is shown on a virtual clock; here a busy machine may answer late.
+    EXPECT_TRUE(turns_until([&] { return phase() != DevicePhase::Ready && felt_N() == 0.0; }))
+        << static_cast<int>(fault);
     set(Fault::None);
     EXPECT_TRUE(turns_until([&] { return phase() == DevicePhase::Ready && felt_N() > 0.9; }));
   }

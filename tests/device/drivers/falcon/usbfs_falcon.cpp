@@ -73,7 +73,7 @@ void UsbfsFalcon::unplug() {
 
 void UsbfsFalcon::stall_in() {
   const std::lock_guard lock(mutex_);
-  in_is_halted_ = true;
+  in_stalls_ = true;
 }
 
 void UsbfsFalcon::stall_out() {
@@ -170,7 +170,12 @@ void UsbfsFalcon::serve(Block& block) {
 }
 
 void UsbfsFalcon::fill_receipt(Block& block) {
-  if (in_is_halted_) return finish(block, -EPIPE, 0);
+  if (in_stalls_) {
+    in_stalls_ = false;
+    in_is_halted_ = true;
+    return finish(block, -EPIPE, 0);
+  }
+  if (in_is_halted_) return;
   auto bytes = bytes_of(block.buffer);
   std::size_t count = fake_.receive(bytes, std::chrono::milliseconds(0));
   if (count == 0 && Clock::now() - last_receipt_ >= latency_) {
@@ -214,9 +219,13 @@ UsbfsFalcon::Answer UsbfsFalcon::discard(UMockdevIoctlClient* client) {
 UsbfsFalcon::Answer UsbfsFalcon::clear_halt(UMockdevIoctlClient* client) {
   UMockdevIoctlData* endpoint =
       umockdev_ioctl_data_resolve(umockdev_ioctl_client_get_arg(client), 0, sizeof(unsigned), nullptr);
-  (endpoint->data[0] == kInEndpoint ? in_is_halted_ : out_is_halted_) = false;
-  ++cleared_halts_;
+  const bool is_in = endpoint->data[0] == kInEndpoint;
   umockdev_ioctl_data_unref(endpoint);
+  const bool is_queued =
+      std::any_of(blocks_.begin(), blocks_.end(), [&](const Block& b) { return b.is_receipt == is_in && !b.is_done; });
+  if (is_queued) return {-1, EBUSY};
+  (is_in ? in_is_halted_ : out_is_halted_) = false;
+  ++cleared_halts_;
   return {0, 0};
 }
 

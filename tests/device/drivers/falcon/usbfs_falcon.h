@@ -24,7 +24,8 @@ class UsbfsFalcon {
   void plug();
   /// As when the cable is pulled: what is queued ends, nothing more is taken.
   void unplug();
-  /// The endpoint refuses transfers until its halt is cleared.
+  /// The endpoint fails one transfer and takes no more until its halt is cleared, which is to be asked for while
+  /// nothing is queued on it: the kernel complains otherwise.
   void stall_in();
   void stall_out();
   /// Another program has the interface.
@@ -84,7 +85,7 @@ class UsbfsFalcon {
   std::chrono::milliseconds latency_{16};
   std::size_t most_queued_ = 0;
   int cleared_halts_ = 0;
-  bool is_plugged_ = false, in_is_halted_ = false, out_is_halted_ = false, another_has_it_ = false;
+  bool is_plugged_ = false, in_stalls_ = false, in_is_halted_ = false, out_is_halted_ = false, another_has_it_ = false;
 };
 
 }  // namespace myotact::device::falcon
