@@ -43,7 +43,7 @@ std::string hex(const std::vector<std::uint8_t>& bytes) {
 std::string script_bytes(const std::vector<std::uint8_t>& bytes) {
   std::string text;
   for (const std::uint8_t byte : bytes) {
-    if (byte <= 32) {
+    if (byte < 32) {
       text += {'^', static_cast<char>(byte + 64)};
     } else if (byte == '^') {
       text += "^`";
@@ -58,7 +58,10 @@ std::string script_bytes(const std::vector<std::uint8_t>& bytes) {
 std::string record(const std::string& product) {
   const std::string usb = "/devices/pci0000:00/0000:00:14.0/usb1/1-2";
   const std::string hid = fmt::format("{}/1-2:1.0/0003:256F:{}.0001", usb, product);
-  return fmt::format("P: {}/hidraw/hidraw0\nN: hidraw0\nE: DEVNAME=/dev/hidraw0\nE: SUBSYSTEM=hidraw\n\n", hid) +
+  return fmt::format(
+             "P: {}/hidraw/hidraw0\nN: hidraw0\nE: DEVNAME=/dev/hidraw0\nE: SUBSYSTEM=hidraw\n"
+             "L: device=../../../0003:256F:{}.0001\n\n",
+             hid, product) +
          fmt::format(
              "P: {}\nE: HID_ID=0003:0000256F:0000{}\nE: HID_NAME=3Dconnexion SpaceMouse Compact\nE: HID_UNIQ=\n"
              "E: SUBSYSTEM=hid\nH: report_descriptor={}\n\n",
@@ -73,8 +76,8 @@ std::string record(const std::string& product) {
 class Hidraw : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (!umockdev_in_mock_environment()) GTEST_SKIP() << "run by umockdev-wrapper";
     bed_ = umockdev_testbed_new();
+    if (!umockdev_in_mock_environment()) GTEST_SKIP() << "run by umockdev-wrapper";
   }
   void TearDown() override {
     if (bed_ != nullptr) g_object_unref(bed_);
