@@ -8,7 +8,7 @@ namespace myotact::device::spacemouse {
 namespace {
 
 constexpr std::uint16_t kLogitech = 0x046D;  // who made them first
-constexpr std::uint16_t k3Dconnexion = 0x256F;
+constexpr std::uint16_t kConnexion = 0x256F;
 constexpr std::uint16_t kGenericDesktop = 1;  // usage page
 constexpr std::uint16_t kMultiAxis = 8;       // usage
 
@@ -31,16 +31,16 @@ constexpr std::array kModels = {Model{kLogitech, 0xC603, "SpaceMouse Plus XT"},
                                 Model{kLogitech, 0xC629, "SpacePilot Pro"},
                                 Model{kLogitech, 0xC62B, "SpaceMouse Pro"},
                                 Model{kLogitech, 0xC640, "NuLOOQ"},
-                                Model{k3Dconnexion, 0xC62E, "SpaceMouse Wireless (cable)"},
-                                Model{k3Dconnexion, 0xC62F, "SpaceMouse Wireless (receiver)"},
-                                Model{k3Dconnexion, 0xC631, "SpaceMouse Pro Wireless (cable)"},
-                                Model{k3Dconnexion, 0xC632, "SpaceMouse Pro Wireless (receiver)"},
-                                Model{k3Dconnexion, 0xC633, "SpaceMouse Enterprise"},
-                                Model{k3Dconnexion, 0xC635, "SpaceMouse Compact"},
-                                Model{k3Dconnexion, 0xC636, "SpaceMouse Module"},
-                                Model{k3Dconnexion, 0xC638, "SpaceMouse Pro Wireless BT"},
-                                Model{k3Dconnexion, 0xC63A, "SpaceMouse Wireless BT"},
-                                Model{k3Dconnexion, 0xC652, "Universal Receiver"}};
+                                Model{kConnexion, 0xC62E, "SpaceMouse Wireless (cable)"},
+                                Model{kConnexion, 0xC62F, "SpaceMouse Wireless (receiver)"},
+                                Model{kConnexion, 0xC631, "SpaceMouse Pro Wireless (cable)"},
+                                Model{kConnexion, 0xC632, "SpaceMouse Pro Wireless (receiver)"},
+                                Model{kConnexion, 0xC633, "SpaceMouse Enterprise"},
+                                Model{kConnexion, 0xC635, "SpaceMouse Compact"},
+                                Model{kConnexion, 0xC636, "SpaceMouse Module"},
+                                Model{kConnexion, 0xC638, "SpaceMouse Pro Wireless BT"},
+                                Model{kConnexion, 0xC63A, "SpaceMouse Wireless BT"},
+                                Model{kConnexion, 0xC652, "Universal Receiver"}};
 
 }  // namespace
 
