@@ -52,6 +52,9 @@ class WebSocketLink : public ServiceLink {
  private:
   using Socket = websocket::stream<beast::tcp_stream>;
 
+  /// Runs handlers until `finished`; one that makes it so must be on its way.
+  template <class Finished>
+  void run_until(const Finished& finished);
   /// Runs until `finished` or for `wait`. By a timer: the wait of the context itself is in whole milliseconds.
   template <class Finished>
   bool run(const Finished& finished, std::chrono::nanoseconds wait);
@@ -74,6 +77,14 @@ class WebSocketLink : public ServiceLink {
 };
 
 template <class Finished>
+void WebSocketLink::run_until(const Finished& finished) {
+  while (!finished()) {
+    context_.restart();
+    context_.run_one();
+  }
+}
+
+template <class Finished>
 bool WebSocketLink::run(const Finished& finished, std::chrono::nanoseconds wait) {
   context_.restart();
   context_.poll();
@@ -85,15 +96,9 @@ bool WebSocketLink::run(const Finished& finished, std::chrono::nanoseconds wait)
     is_waiting = false;
     is_late = !failure;
   });
-  while (!finished() && !is_late) {
-    context_.restart();
-    context_.run_one();
-  }
+  run_until([&] { return finished() || is_late; });
   timer_.cancel();
-  while (is_waiting) {
-    context_.restart();
-    context_.run_one();
-  }
+  run_until([&] { return !is_waiting; });
   return finished();
 }
 
@@ -104,10 +109,7 @@ Failure WebSocketLink::finish(const Start& start, std::chrono::nanoseconds wait)
   start([&](Failure failure) { result = failure; });
   if (run(is_finished, wait)) return *result;
   drop();  // the handler is called all the same, with a failure
-  while (!is_finished()) {
-    context_.restart();
-    context_.run_one();
-  }
+  run_until(is_finished);
   return beast::error::timeout;
 }
 
@@ -210,10 +212,7 @@ void WebSocketLink::close() noexcept {
       finish([&](auto done) { socket_->async_close(websocket::close_code::normal, std::move(done)); }, kCloseWait);
     }
     drop();
-    while (is_reading_) {
-      context_.restart();
-      context_.run_one();
-    }
+    run_until([this] { return !is_reading_; });
   } catch (const std::exception&) {  // out of memory: the stream goes with whatever it holds
   }
   socket_.reset();
