@@ -20,7 +20,8 @@ inline DeviceProfile inverse3_profile() {
   profile.peak_force_N = 10.0;
   profile.continuous_force_N = 3.3;
   profile.max_stiffness_N_m = 1000.0;
-  profile.delay_ticks = 1;  // the force goes out with the next exchange
+  profile.delay_ticks = 1;                   // the force goes out with the next exchange
+  profile.workspace_m = {0.17, 0.17, 0.17};  // the cube in a sphere of 0.15 m, which the same port sets (uncertain)
   return profile;
 }
 

@@ -29,6 +29,8 @@ SpaceMouseDevice::SpaceMouseDevice(std::string name, PortOpener opener, const Mo
   profile_.shows_force_only = true;
   profile_.resolution_m = 0.0;                          // the lag makes positions continuous
   profile_.continuous_force_N = profile_.peak_force_N;  // no motor that could grow hot
+  const double reach_m = settings.mode == MotionMode::Rate ? settings.half_workspace_m : settings.full_offset_m;
+  profile_.workspace_m.fill(2.0 * reach_m);
 }
 
 void SpaceMouseDevice::open() {

@@ -58,6 +58,7 @@ TEST_F(SpaceMouse, ClosedItIsNotConnectedAndStandsStill) {
   EXPECT_EQ(device_.report().phase, DevicePhase::Closed);
   EXPECT_THAT(tick().stylus_velocity_world_m_s, ElementsAre(0, 0, 0));
   EXPECT_TRUE(device_.profile().shows_force_only);
+  EXPECT_THAT(device_.profile().workspace_m, ElementsAre(0.2, 0.2, 0.2)) << "the cube in which a rate moves";
 }
 
 TEST_F(SpaceMouse, TheLightIsOnWhileItIsOpen) {
