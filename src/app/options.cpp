@@ -12,8 +12,8 @@
 
 namespace myotact::app {
 
-scene::Overrides overrides_of(const Options& options) {
-  scene::Overrides overrides;
+Overrides overrides_of(const Options& options) {
+  Overrides overrides;
   for (const std::string& pair : options.set) {
     const std::size_t equals = pair.find('=');
     if (equals == std::string::npos || equals == 0) {

@@ -55,7 +55,7 @@ struct Options {
   double stiffness_N_m = 800.0;
   double friction = 0.3;
   double rate_hz = 1000.0;
-  std::string bind = "127.0.0.1";  // serve, as the seven below
+  std::string bind = "127.0.0.1";          // serve, as the seven below
   std::optional<std::string> test_device;  // devices: the one to be checked with a person's help
   std::uint16_t port = 7480;
   std::uint16_t websocket_port = 7481;
@@ -68,7 +68,7 @@ struct Options {
 };
 
 /// --set and --device as overrides of the scene. Throws Error Usage for a --set without "=".
-scene::Overrides overrides_of(const Options& options);
+Overrides overrides_of(const Options& options);
 
 /// The scene of the command line with --set, --device and --workers applied.
 scene::Scene scene_of(const Options& options);

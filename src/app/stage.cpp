@@ -93,7 +93,7 @@ view::WindowSettings Stage::window_settings(const Options& options) const {
   view::WindowSettings settings;
   settings.facts = facts_of(scene_);
   settings.facts.file = options.scene;
-  const scene::Overrides overrides = overrides_of(options);
+  const Overrides overrides = overrides_of(options);
   if (const auto tissue = overrides.find("tissue.default"); tissue != overrides.end()) {
     settings.facts.tissue = tissue->second;
   }

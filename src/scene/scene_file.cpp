@@ -1,7 +1,6 @@
 #include "scene/scene_file.h"
 
 #include <algorithm>
-#include <string_view>
 
 #include <fmt/format.h>
 
@@ -30,30 +29,9 @@ std::filesystem::path scenes_folder() {
   return data_folder() / "assets" / "scenes";
 }
 
-/// The value as JSON; what is none is taken as a text.
-nlohmann::json value_of(const std::string& value) {
-  try {
-    return parse_json(value, "");
-  } catch (const Error&) {
-    return value;
-  }
-}
-
-/// The place that `tissue.default` means; what is missing on the way is made.
-nlohmann::json& place_of(std::string_view dotted, nlohmann::json& scene) {
-  nlohmann::json* place = &scene;
-  for (std::size_t point = dotted.find('.'); point != std::string_view::npos; point = dotted.find('.')) {
-    place = &(*place)[std::string(dotted.substr(0, point))];
-    if (!place->is_object()) *place = nlohmann::json::object();
-    dotted.remove_prefix(point + 1);
-  }
-  return (*place)[std::string(dotted)];
-}
-
-/// --set key=value becomes a key of the scene, a.b=value one of the object a. Returns the scene as text, for
-/// recordings.
+/// Returns the scene as text, for recordings.
 std::string apply_overrides(nlohmann::json& scene, const Overrides& overrides) {
-  for (const auto& [key, value] : overrides) place_of(key, scene) = value_of(value);
+  override_values(scene, overrides);
   try {
     return scene.dump();
   } catch (const nlohmann::json::exception&) {  // the file itself was checked when it was parsed

@@ -3,12 +3,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "anatomy/specimen.h"
+#include "core/overrides.h"
 #include "core/vector.h"
 #include "haptics/force_methods.h"
 #include "haptics/texture_set.h"
@@ -73,9 +73,6 @@ struct Scene {
   std::vector<ScriptAction> script;  // by time
   std::string source_text;           // the file as read, for recordings
 };
-
-/// What the command line overrides in a scene: keys of --set, e.g. "specimen", "dt_s", "tissue.default".
-using Overrides = std::map<std::string, std::string>;
 
 /// Reads a built-in scene by name or a scene file by path. Throws Error NoInput (names the built-in ones) or BadData.
 Scene load_scene(const std::string& name_or_path, const Overrides& overrides = {});

@@ -1,7 +1,6 @@
 #include "device/drivers/vendor_library.h"
 
 #include <dlfcn.h>
-
 #include <fmt/format.h>
 
 #include "core/error.h"

@@ -93,7 +93,7 @@ Comparison feel_again(const std::filesystem::path& path) {
 
 GoalFigures measure_replay(Effort effort) {
   const TemporaryFile file;
-  scene::Overrides overrides;
+  Overrides overrides;
   if (effort == Effort::Short) overrides["tissue.default"] = "line";
   record(scene::load_scene("elbow", overrides), effort == Effort::Short ? 6.0 : 3600.0, file.path());
   const Comparison same = feel_again(file.path());

@@ -1,0 +1,29 @@
+#include "device/drivers/driver_table.h"
+
+#include <algorithm>
+
+#include "device/drivers/falcon/falcon_driver.h"
+#include "device/drivers/inverse/inverse_driver.h"
+#include "device/drivers/spacemouse/spacemouse_driver.h"
+
+namespace myotact::device {
+
+std::vector<std::unique_ptr<Driver>> make_drivers(const DeviceSettings& settings) {
+  std::vector<std::unique_ptr<Driver>> drivers;
+  drivers.push_back(std::make_unique<falcon::FalconDriver>(settings.falcon));
+  drivers.push_back(std::make_unique<inverse::InverseDriver>(settings.inverse));
+  drivers.push_back(std::make_unique<spacemouse::SpaceMouseDriver>(settings.spacemouse));
+  return drivers;
+}
+
+const std::vector<std::string>& driver_names() {
+  static const std::vector<std::string> kNames = {"falcon", "inverse3", "spacemouse"};
+  return kNames;
+}
+
+bool is_on_the_table(const std::string& device) {
+  const std::string family = device.substr(0, device.find(':'));
+  return std::find(driver_names().begin(), driver_names().end(), family) != driver_names().end();
+}
+
+}  // namespace myotact::device

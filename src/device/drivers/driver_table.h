@@ -1,0 +1,21 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "device/drivers/device_settings.h"
+#include "device/hardware_device.h"
+
+namespace myotact::device {
+
+/// Every family of devices on the table, in the order of "myotact devices".
+std::vector<std::unique_ptr<Driver>> make_drivers(const DeviceSettings& settings);
+
+/// Names of the families: "falcon", "touch"; a device is named by its family, the second one "falcon:2".
+const std::vector<std::string>& driver_names();
+
+/// Whether this names a device on the table, plugged in or not.
+bool is_on_the_table(const std::string& device);
+
+}  // namespace myotact::device
