@@ -1,13 +1,17 @@
 #include <iostream>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "app/device_calibration.h"
 #include "app/device_check.h"
+#include "app/equipment.h"
 #include "app/guarded_motors.h"
 #include "app/interruption.h"
 #include "app/options.h"
 #include "core/error.h"
+#include "core/text.h"
 #include "device/profile_file.h"
 #include "device/simulated_device.h"
 
@@ -15,41 +19,135 @@ namespace myotact::app {
 
 namespace {
 
-struct KnownDevice {
-  const char* name;
-  const char* what;
+/// A row of the table.
+struct Row {
+  device::DeviceFinding finding;
+  std::string driver;
+  double rate_Hz = 0.0;  // of exchanges with it, at most
+  std::optional<device::DeviceProfile> limits = {};
 };
 
-// Every device of this version works without hardware; drivers are added here with what they see.
-constexpr KnownDevice kDevices[] = {
-    {"simulated", "a simulated hand on a simulated 3-axis device, follows the scene's script"},
-    {"mouse", "the mouse moves the stylus in the window; forces are shown, not felt"},
-};
+std::vector<Row> devices_without_hardware() {
+  return {{{"simulated", "a simulated hand on a simulated 3-axis device, follows the scene's script", true, "", ""},
+           "simulated",
+           1000.0,
+           device::simulated_profile("simulated")},
+          {{"mouse", "the mouse moves the stylus in the window; forces are shown, not felt", true, "", ""},
+           "mouse",
+           60.0}};  // once a picture
+}
 
-int test_device(const std::string& name) {
-  GuardedMotors guarded;  // first: the watchdog is forked off before there are threads
-  watch_for_interruption();
-  if (name != "simulated" && !name.starts_with("simulated:")) {
-    throw Error(ExitStatus::Unavailable,
-                "--test " + name + ": there is no such device; \"myotact devices\" lists those that can be tested");
+Row row_of(device::Driver& driver, const device::DeviceFinding& finding) {
+  Row row{finding, driver.name(), device::nominal_rate_Hz(driver.name())};
+  if (!finding.ready) return row;
+  try {
+    row.limits = driver.make(finding.name)->profile();
+  } catch (const Error& failure) {  // taken or unplugged since it was found
+    row.finding.ready = false;
+    row.finding.cause = failure.what();
   }
+  return row;
+}
+
+std::vector<Row> rows_of(const Options& options) {
+  std::vector<Row> rows = devices_without_hardware();
+  for (const auto& driver : device::make_drivers(device_settings_of(options))) {
+    for (const device::DeviceFinding& finding : driver->find()) rows.push_back(row_of(*driver, finding));
+  }
+  return rows;
+}
+
+nlohmann::json row_json(const Row& row) {
+  nlohmann::json json = {{"name", row.finding.name},
+                         {"what", row.finding.title},
+                         {"driver", row.driver},
+                         {"available", row.finding.ready},
+                         {"rate_Hz", row.rate_Hz}};
+  if (row.limits && !row.limits->shows_force_only) {
+    json["peak_force_N"] = row.limits->peak_force_N;
+    json["continuous_force_N"] = row.limits->continuous_force_N;
+    json["max_stiffness_N_m"] = row.limits->max_stiffness_N_m;
+    json["workspace_m"] = row.limits->workspace_m;
+  }
+  if (!row.finding.ready) {
+    json["cause"] = row.finding.cause;
+    json["remedy"] = row.finding.remedy;
+  }
+  return json;
+}
+
+std::string limits_text(const Row& row) {
+  if (!row.limits || row.limits->shows_force_only) return "-";
+  return fmt::format("{:.1f} N, {:.0f} N/m", row.limits->peak_force_N, row.limits->max_stiffness_N_m);
+}
+
+void print_table(const std::vector<Row>& rows) {
+  constexpr const char* kFormat = "{:<18} {:<10} {:>8}  {:<17} {}\n";
+  std::cout << fmt::format(kFormat, "name", "state", "rate", "limits", "what");
+  for (const Row& row : rows) {
+    std::cout << fmt::format(kFormat, row.finding.name, row.finding.ready ? "ready" : "not ready",
+                             fmt::format("{:.0f} Hz", row.rate_Hz), limits_text(row), row.finding.title);
+    if (!row.finding.cause.empty()) std::cout << "    why:    " << row.finding.cause << '\n';
+    if (!row.finding.remedy.empty()) std::cout << "    remedy: " << row.finding.remedy << '\n';
+  }
+}
+
+int test_simulated(const std::string& name, GuardedMotors& guarded, LineInput& answers) {
   device::SimulatedDevice device(name, Vec3::Zero(), device::simulated_profile(name));
   device.drive(guarded.motors[0]);
+  return check_device(device, nullptr, &guarded.watchdog, answers, std::cout) ? 0 : 1;
+}
+
+int test_device(const Options& options, const std::string& name) {
+  GuardedMotors guarded;  // first: the watchdog is forked off before there are threads
+  watch_for_interruption();
   LineInput answers(STDIN_FILENO);
-  const bool is_right = check_device(device, &guarded.watchdog, answers, std::cout);
-  return interruption() != 0 ? interruption() : (is_right ? 0 : 1);
+  int status = 0;
+  if (name == "simulated" || name.starts_with("simulated:")) {
+    status = test_simulated(name, guarded, answers);
+  } else {
+    const auto device = make_device(device_settings_of(options), name);
+    device->open();
+    device::PlacedDevice placed(*device, {});
+    status = check_device(placed, device.get(), nullptr, answers, std::cout) ? 0 : 1;
+  }
+  return interruption() != 0 ? interruption() : status;
+}
+
+int calibrate(const Options& options, const std::string& name) {
+  watch_for_interruption();
+  const device::DeviceSettings settings = device_settings_of(options);
+  const auto device = make_device(settings, name);
+  std::optional<ForceScale> scale;
+  if (name.starts_with("falcon")) {
+    scale = {settings.falcon.exchange.counts_per_Nm, device::kLowestFalconScale, device::kHighestFalconScale};
+  }
+  LineInput answers(STDIN_FILENO);
+  device->open();
+  const auto found = calibrate_device(*device, scale, answers, std::cout);
+  const bool is_ready = device->report().phase == device::DevicePhase::Ready;
+  device->close();
+  if (found) {
+    const std::filesystem::path file = device::device_settings_file();
+    device::keep_device_settings(file, {{"falcon.counts_per_Nm", to_text(*found)}});
+    std::cout << fmt::format("\nThe force scale is {:.0f} now; {} keeps it.\n", *found, file.string());
+  }
+  return interruption() != 0 ? interruption() : (is_ready ? 0 : 1);
 }
 
 }  // namespace
 
 int devices(const Options& options) {
-  if (options.test_device) return test_device(*options.test_device);
-  nlohmann::json list = nlohmann::json::array();
-  for (const KnownDevice& device : kDevices) {
-    list.push_back({{"name", device.name}, {"what", device.what}, {"available", true}});
-    if (!options.json) std::cout << device.name << "\tready\t" << device.what << '\n';
+  if (options.test_device) return test_device(options, *options.test_device);
+  if (options.calibrate_device) return calibrate(options, *options.calibrate_device);
+  const std::vector<Row> rows = rows_of(options);
+  if (options.json) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const Row& row : rows) list.push_back(row_json(row));
+    std::cout << list.dump(2) << '\n';
+  } else {
+    print_table(rows);
   }
-  if (options.json) std::cout << list.dump(2) << '\n';
   std::cout << std::flush;
   return 0;
 }

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
+#include "app/equipment.h"
 #include "app/guarded_motors.h"
 #include "app/interruption.h"
 #include "app/network_options.h"
@@ -25,6 +26,8 @@
 namespace myotact::app {
 
 namespace {
+
+constexpr double kForever_s = 1e12;
 
 /// What a hand did far from the simulation: the columns of samples.csv that are its own.
 struct HandRun {
@@ -58,28 +61,32 @@ nlohmann::json link_json(remote::FreeHand& hand) {
           {"missed_ticks", hand.thread().missed_count()}};
 }
 
-nlohmann::json feel_free(const Options& options, const scene::Scene& scene, remote::ScriptedDevice& device,
-                         GuardedMotors& guarded, HandRun& run) {
-  device.device().drive(guarded.motors[0]);
+nlohmann::json feel_free(const Options& options, const scene::Scene& scene, remote::ScriptedDevice& scripted,
+                         GuardedMotors& guarded, const Equipment& equipment, HandRun& run) {
+  const std::unique_ptr<device::PlacedDevice> on_table =
+      equipment.empty() ? nullptr : equipment.place(scene.tools[0].device, scene, 0);
+  if (!on_table) scripted.device().drive(guarded.motors[0]);
+  device::Device& device = on_table ? static_cast<device::Device&>(*on_table) : scripted.device();
   net::ClientSettings settings;
   settings.server = server_of(options);
   settings.hello.role = net::Role::Student;
   settings.hello.wants.hand = true;
   settings.hello.token = own_token();
   settings.hello.name = "feel";
-  remote::FreeHand hand(settings, device.device(), scene.tools[0], &guarded.watchdog);
+  remote::FreeHand hand(settings, device, scene.tools[0], on_table ? nullptr : &guarded.watchdog,
+                        equipment.servo_clock());
   if (!hand.loop().notice().empty()) spdlog::warn("{}", hand.loop().notice());
   hand.start();
   if (!hand.thread().refused().empty()) spdlog::warn("{}", hand.thread().refused());
   const auto start = std::chrono::steady_clock::now();
-  const double end_s = options.seconds.value_or(device.script_end_s());
+  const double end_s = options.seconds.value_or(on_table ? kForever_s : scripted.script_end_s());
   for (double time_s = 0.0; time_s < end_s && interruption() == 0;) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    device.begin_step(time_s);
-    device.move_to(time_s);
+    scripted.begin_step(time_s);
+    scripted.move_to(time_s);
     for (haptics::HapticTick tick; hand.loop().ticks().pop(tick);) {
-      run.add(1e-3 * static_cast<double>(run.ticks), tick, device.limb());
+      run.add(1e-3 * static_cast<double>(run.ticks), tick, scripted.limb());
     }
     if (hand.client().status().is_final) throw Error(ExitStatus::Unavailable, hand.client().status().why);
   }
@@ -93,16 +100,23 @@ int feel(const Options& options) {
   std::optional<GuardedMotors> guarded;
   guarded.emplace();  // first: the watchdog is forked off before there are threads
   const net::SceneAnswer answer = net::ask_scene(server_of(options), own_token());
-  const scene::Scene scene = remote::scene_of_message(answer.scene_json);
+  scene::Scene scene = remote::scene_of_message(answer.scene_json);
+  take_devices(options, scene);
+  const Equipment equipment(options);
+  if (!equipment.empty() && answer.welcome.lockstep) {
+    throw Error(ExitStatus::Usage, "--device: the server runs in lockstep, and a hand moves on the wall clock");
+  }
   make_writable_folder(options.out);
   watch_for_interruption();
-  remote::ScriptedDevice device(scene, 0);
+  scene::Scene scripted = scene;
+  if (!equipment.empty()) scripted.tools[0].device = "simulated";  // its hand is not heeded
+  remote::ScriptedDevice device(scripted, 0);
   HandRun run(scene.tools[0], options.every);
   nlohmann::json report;
   if (answer.welcome.lockstep) {
     feel_in_lockstep(options, scene, device, run);
   } else {
-    report["link"] = feel_free(options, scene, device, *guarded, run);
+    report["link"] = feel_free(options, scene, device, *guarded, equipment, run);
   }
   const scene::ToolExtremes& reached = run.extremes.tools[0];
   report.update({{"scene", scene.name},

@@ -20,9 +20,10 @@ using myotact::app::Options;
 
 void add_common(CLI::App& command, Options& options) {
   command
-      .add_option(
-          "--device", options.devices,
-          "one device a tool: simulated, simulated:touch (another profile) or mouse; two tools: simulated,simulated")
+      .add_option("--device", options.devices,
+                  "one device a tool: simulated, simulated:touch (another profile), mouse, or one of \"myotact "
+                  "devices\"; two tools: "
+                  "NAME,NAME; for a certain hand: left=NAME")
       ->delimiter(',');
   command.add_option("--set", options.set,
                      "override a key of the scene: key=value, e.g. dt_s=0.005 or tissue.default=line");
@@ -212,6 +213,8 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
   CLI::App* devices = program.add_subcommand("devices", "which devices there are, and why one does not open");
   devices->add_option("--test", options.test_device,
                       "check one with you: reach, buttons, a gentle push along each axis, rate");
+  devices->add_option("--calibrate", options.calibrate_device,
+                      "calibrate one with you: what it asks for, and its force scale where that is a setting");
   add_common(*devices, options);
   bind(devices, myotact::app::devices);
 }

@@ -7,10 +7,54 @@
 #include "core/error.h"
 #include "core/number_list.h"
 #include "core/text.h"
+#include "device/drivers/driver_table.h"
 #include "device/profile_file.h"
 #include "scene/recording_header.h"
 
 namespace myotact::app {
+
+namespace {
+
+const std::vector<std::string> kWithoutHardware = {"simulated", "mouse"};
+
+void check_name(const std::string& name) {
+  if (name.starts_with("simulated:")) {
+    device::simulated_profile(name);  // throws where there is none
+    return;
+  }
+  if (device::is_on_the_table(name)) return;
+  if (std::find(kWithoutHardware.begin(), kWithoutHardware.end(), name) != kWithoutHardware.end()) return;
+  std::vector<std::string> known = kWithoutHardware;
+  known.insert(known.end(), device::driver_names().begin(), device::driver_names().end());
+  throw Error(ExitStatus::Unavailable, "--device " + name + ": there is no such device; \"myotact devices\" lists " +
+                                           join(known) + " (nearest: " + nearest_word(name, known) + ")");
+}
+
+/// The tool that a device is for: of the hand that is said, else the next one.
+std::size_t tool_of(scene::Scene& scene, const NamedDevice& device, std::size_t place) {
+  if (device.hand.empty()) return place;
+  if (scene.tools.size() == 1) scene.tools[0].hand = device.hand;  // a left-handed person leads with the left one
+  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
+    if (scene.tools[t].hand == device.hand) return t;
+  }
+  return place;
+}
+
+void give_devices(const std::vector<NamedDevice>& devices, scene::Scene& scene) {
+  std::vector<bool> taken(scene.tools.size(), false);
+  for (std::size_t d = 0; d < devices.size(); ++d) {
+    const std::size_t tool = tool_of(scene, devices[d], d);
+    if (taken[tool]) {
+      throw Error(ExitStatus::Usage, fmt::format("--device: the {} hand gets two devices; say of each of them which "
+                                                 "hand it is for, as left=touch,right=touch:2",
+                                                 scene.tools[tool].hand));
+    }
+    taken[tool] = true;
+    scene.tools[tool].device = devices[d].name;
+  }
+}
+
+}  // namespace
 
 Overrides overrides_of(const Options& options) {
   Overrides overrides;
@@ -24,30 +68,44 @@ Overrides overrides_of(const Options& options) {
   return overrides;
 }
 
-scene::Scene scene_of(const Options& options) {
-  scene::Scene scene = scene::load_scene(options.scene, overrides_of(options));
-  scene.settings.workers = options.workers;
-  if (options.devices.size() > scene.tools.size()) {
+std::vector<NamedDevice> named_devices(const Options& options) {
+  std::vector<NamedDevice> devices;
+  for (const std::string& text : options.devices) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) {
+      devices.push_back({"", text});
+      continue;
+    }
+    devices.push_back({text.substr(0, equals), text.substr(equals + 1)});
+    if (devices.back().hand == "left" || devices.back().hand == "right") continue;
+    throw Error(ExitStatus::Usage, "--device " + text + ": must be NAME, left=NAME or right=NAME");
+  }
+  return devices;
+}
+
+void take_devices(const Options& options, scene::Scene& scene) {
+  const std::vector<NamedDevice> devices = named_devices(options);
+  if (devices.size() > scene.tools.size()) {
     throw Error(
         ExitStatus::Usage,
         fmt::format("--device: {} devices named, but the scene \"{}\" has {} tool{}; name one a tool, in the order "
                     "of the scene's /tools",
-                    options.devices.size(), scene.name, scene.tools.size(), scene.tools.size() == 1 ? "" : "s"));
+                    devices.size(), scene.name, scene.tools.size(), scene.tools.size() == 1 ? "" : "s"));
   }
-  static const std::vector<std::string> kKnown = {"simulated", "mouse"};
-  for (const std::string& name : options.devices) {
-    if (name.starts_with("simulated:")) {
-      device::simulated_profile(name);  // throws where there is none
-      continue;
-    }
-    if (std::find(kKnown.begin(), kKnown.end(), name) != kKnown.end()) continue;
-    throw Error(ExitStatus::Unavailable, "--device " + name + ": there is no such device; \"myotact devices\" lists " +
-                                             join(kKnown) + " (nearest: " + nearest_word(name, kKnown) + ")");
-  }
-  if (std::count(options.devices.begin(), options.devices.end(), "mouse") > 1) {
+  for (const NamedDevice& device : devices) check_name(device.name);
+  if (std::count_if(devices.begin(), devices.end(), [](const NamedDevice& device) { return device.name == "mouse"; }) >
+      1) {
     throw Error(ExitStatus::Usage, "--device: there is one mouse; name it once");
   }
-  for (std::size_t t = 0; t < options.devices.size(); ++t) scene.tools[t].device = options.devices[t];
+  give_devices(devices, scene);
+}
+
+scene::Scene scene_of(const Options& options) {
+  Overrides overrides = overrides_of(options);
+  std::erase_if(overrides, [](const auto& pair) { return device::is_device_setting(pair.first); });
+  scene::Scene scene = scene::load_scene(options.scene, overrides);
+  scene.settings.workers = options.workers;
+  take_devices(options, scene);
   scene::set_seed(scene, options.seed);
   return scene;
 }

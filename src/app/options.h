@@ -55,8 +55,9 @@ struct Options {
   double stiffness_N_m = 800.0;
   double friction = 0.3;
   double rate_hz = 1000.0;
-  std::string bind = "127.0.0.1";          // serve, as the seven below
-  std::optional<std::string> test_device;  // devices: the one to be checked with a person's help
+  std::optional<std::string> test_device;       // devices: the one to be checked with a person's help
+  std::optional<std::string> calibrate_device;  // devices: the one to be calibrated with a person's help
+  std::string bind = "127.0.0.1";               // serve, as the seven below
   std::uint16_t port = 7480;
   std::uint16_t websocket_port = 7481;
   bool no_websocket = false;
@@ -67,8 +68,19 @@ struct Options {
   std::string role;                    // view, at that server; empty: a student's with a hand, else a viewer's
 };
 
-/// --set and --device as overrides of the scene. Throws Error Usage for a --set without "=".
+/// --set. Throws Error Usage for one without "=".
 Overrides overrides_of(const Options& options);
+
+/// One of --device: NAME, or HAND=NAME.
+struct NamedDevice {
+  std::string hand;  // "left" or "right"; empty: not said
+  std::string name;
+};
+/// Throws Error Usage: a hand that nobody has.
+std::vector<NamedDevice> named_devices(const Options& options);
+
+/// --device for the tools of a scene. Throws Error: Unavailable for one that is not known, Usage for too many.
+void take_devices(const Options& options, scene::Scene& scene);
 
 /// The scene of the command line with --set, --device and --workers applied.
 scene::Scene scene_of(const Options& options);

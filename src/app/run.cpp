@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
-#include "app/guarded_motors.h"
+#include "app/hands.h"
 #include "app/interruption.h"
 #include "app/options.h"
 #include "app/picture.h"
@@ -19,6 +19,7 @@
 #include "app/timing_report.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/text.h"
 #include "device/profile_file.h"
 #include "device/simulated_device.h"
 #include "haptics/faults.h"
@@ -120,18 +121,11 @@ RunSummary run_lockstep(const Options& options, const scene::Scene& scene, simul
 }
 
 nlohmann::json run_free(const Options& options, const scene::Scene& scene, simulation::Simulation& simulation,
-                        GuardedMotors& guarded, RunSummary& summary) {
-  const auto recorder = open_recorder(options, scene, simulated_profiles(scene));
-  std::vector<std::unique_ptr<device::SimulatedDevice>> devices;
-  std::vector<scene::ToolDevice> tools;
-  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
-    const std::string& name = scene.tools[t].device;
-    devices.push_back(std::make_unique<device::SimulatedDevice>(name, scene::start_of_hand(scene, t),
-                                                                device::simulated_profile(name)));
-    devices.back()->drive(guarded.motors[t]);
-    tools.push_back({devices.back().get(), devices.back().get()});
-  }
-  scene::FreeSession session(scene, simulation, tools, recorder.get(), &guarded.watchdog);
+                        GuardedMotors& guarded, const Equipment& equipment, RunSummary& summary) {
+  const Hands hands(scene, scene.tools.size(), guarded, equipment);
+  const auto recorder = open_recorder(options, scene, hands.profiles());
+  scene::FreeSession session(scene, simulation, hands.devices(), recorder.get(),
+                             hands.has_simulated() ? &guarded.watchdog : nullptr, equipment.servo_clock());
   summary.notice = session.notice();
   const double end_s = options.seconds.value_or(session.script_end_s());
   session.start();
@@ -219,7 +213,13 @@ nlohmann::json measure_stiffness(const Options& options, const scene::Scene& sce
 int run(const Options& options) {
   std::optional<GuardedMotors> guarded;
   if (options.realtime) guarded.emplace();  // first: the watchdog is forked off before there are threads
-  const scene::Scene scene = scene_of(options);
+  scene::Scene scene = scene_of(options);
+  const Equipment equipment(options);
+  if (!equipment.empty() && !options.realtime) {
+    throw Error(ExitStatus::Usage, "--device " + join(options.devices) +
+                                       ": a hand moves on the wall clock; add --realtime, or use the window");
+  }
+  leave_hands_to_people(scene, scene.tools.size());
   const std::vector<double> levels = levels_of(options);
   check_picture(scene, picture_of(options));
   make_writable_folder(options.out);
@@ -230,7 +230,7 @@ int run(const Options& options) {
   {
     simulation::Simulation simulation(scene.specimen, scene.settings);
     if (options.realtime) {
-      timing = run_free(options, scene, simulation, *guarded, summary);
+      timing = run_free(options, scene, simulation, *guarded, equipment, summary);
     } else {
       summary = run_lockstep(options, scene, simulation);
     }

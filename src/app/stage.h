@@ -4,32 +4,20 @@
 #include <memory>
 #include <vector>
 
-#include "app/guarded_motors.h"
+#include "app/hands.h"
 #include "app/joint_watch.h"
 #include "app/options.h"
-#include "device/mouse_device.h"
-#include "device/simulated_device.h"
 #include "scene/free_session.h"
 #include "simulation/simulation.h"
 #include "view/window.h"
 
 namespace myotact::app {
 
-/// The devices of a scene's tools, and which of them the script moves.
-struct Hands {
-  Hands(const Options& options, const scene::Scene& scene, GuardedMotors& guarded);
-
-  std::size_t led;            // the tool that the mouse moves; none: as many as there are tools
-  device::MouseDevice mouse;  // of that one
-  std::vector<std::unique_ptr<device::SimulatedDevice>> simulated;
-  std::vector<scene::ToolDevice> devices;  // one a tool
-};
-
 /// A scene on the wall clock with all that belongs to it. Another scene is another stage, built while this one runs.
 class Stage {
  public:
-  /// Loads and builds, which takes seconds; any thread. Throws Error. `guarded` outlives it.
-  Stage(const Options& options, GuardedMotors& guarded);
+  /// Loads and builds, which takes seconds; any thread. Throws Error. `guarded` and `equipment` outlive it.
+  Stage(const Options& options, GuardedMotors& guarded, const Equipment& equipment);
   ~Stage();
 
   scene::Scene& scene() { return scene_; }

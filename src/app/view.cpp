@@ -137,7 +137,8 @@ struct Built {
 /// The window and what it shows: one stage that runs and, after a wish for another, the next one being built.
 class Performance {
  public:
-  explicit Performance(const Options& options) : options_(options), report_(options.report_state), next_(begin()) {}
+  explicit Performance(const Options& options)
+      : options_(options), equipment_(options), report_(options.report_state), next_(begin()) {}
 
   ~Performance() {
     view::on_display_loss({});
@@ -170,7 +171,7 @@ class Performance {
     return std::async(std::launch::async, [this, options]() -> Built {
       if (options.connect) return {nullptr, nullptr, std::make_unique<MirrorStage>(options)};
       if (options.recording) return {nullptr, std::make_unique<ReplayStage>(options), nullptr};
-      return {std::make_unique<Stage>(options, guarded_), nullptr, nullptr};
+      return {std::make_unique<Stage>(options, guarded_, equipment_), nullptr, nullptr};
     });
   }
 
@@ -267,6 +268,7 @@ class Performance {
 
   GuardedMotors guarded_;                // first: the watchdog is forked off before there are threads
   Options options_;                      // of the command line
+  Equipment equipment_;                  // opened once; scenes come and go
   Options building_;                     // of the newest stage
   std::optional<view::SavedWork> work_;  // that it is to begin with
   WindowReport report_;

@@ -9,10 +9,10 @@
 namespace myotact::remote {
 
 FreeHand::FreeHand(const net::ClientSettings& settings, device::Device& device, const scene::ToolSettings& tool,
-                   realtime::Watchdog* watchdog)
+                   realtime::Watchdog* watchdog, device::ServoClock* servo)
     : loop_(device, scene::haptic_settings(tool)),
       client_(settings, {&loop_.tool_states(), &loop_.models()}),
-      thread_(loop_, watchdog) {
+      thread_(loop_, watchdog, servo) {
   loop_.prepare(realtime::steady_now_ns());
   client_.on_stop([this] { loop_.stop_forces(true); });
   client_.start();

@@ -72,9 +72,9 @@ struct ToolDevice {
 class FreeSession {
  public:
   /// `devices`: one a tool of the scene. All references must outlive the session. Throws Error.
-  /// `watchdog`: of all devices, told of every tick; null: none.
+  /// `watchdog`: of all devices, told of every tick; null: none. `servo`: whose ticks these are; null: our own.
   FreeSession(const Scene& scene, simulation::Simulation& simulation, std::span<const ToolDevice> devices,
-              RecordingWriter* recorder, realtime::Watchdog* watchdog = nullptr);
+              RecordingWriter* recorder, realtime::Watchdog* watchdog = nullptr, device::ServoClock* servo = nullptr);
   ~FreeSession();
 
   void start();

@@ -21,8 +21,7 @@ void read_falcon(const JsonValue& value, falcon::FalconSettings& settings) {
   JsonObject fields(value);
   settings.firmware = fields.string_or("firmware", settings.firmware.string());
   if (const auto scale = fields.find("counts_per_Nm")) {
-    settings.exchange.counts_per_Nm =
-        scale->number_between(100.0, 20'000.0);  // 18 000: the maker's peak, see exchange.h
+    settings.exchange.counts_per_Nm = scale->number_between(kLowestFalconScale, kHighestFalconScale);
   }
   if (const auto peak = fields.find("peak_force_N")) {
     settings.exchange.peak_force_N = peak->number_between(0.1, 10.0);  // makers' and users' figures are below

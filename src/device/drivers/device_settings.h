@@ -12,6 +12,9 @@
 
 namespace myotact::device {
 
+/// Range of falcon.counts_per_Nm: the maker's peak force would need 18 000 (exchange.h).
+inline constexpr double kLowestFalconScale = 100.0, kHighestFalconScale = 20'000.0;
+
 /// How a device lies on the table and what its motion is in the world.
 struct TablePlacement {
   Vec3 turn_deg = Vec3::Zero();  // about its right, up and towards axes in this order: a device that stands turned

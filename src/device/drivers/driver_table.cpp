@@ -21,6 +21,12 @@ const std::vector<std::string>& driver_names() {
   return kNames;
 }
 
+double nominal_rate_Hz(const std::string& family) {
+  if (family == "inverse3") return 4000.0;
+  if (family == "spacemouse") return 125.0;
+  return 1000.0;
+}
+
 bool is_on_the_table(const std::string& device) {
   const std::string family = device.substr(0, device.find(':'));
   return std::find(driver_names().begin(), driver_names().end(), family) != driver_names().end();

@@ -1,0 +1,65 @@
+#include "app/device_calibration.h"
+
+#include <cmath>
+#include <ostream>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "app/device_bench.h"
+#include "app/interruption.h"
+#include "core/text.h"
+#include "device/placed_device.h"
+
+namespace myotact::app {
+
+namespace {
+
+/// A balance for kitchens or anglers tells a weight of 200 g to a few per cent, and no motor is warmed by it.
+constexpr double kWeighed_N = 2.0;
+constexpr double kGrams_N = 1e3 / 9.81;
+
+std::optional<double> weigh(DeviceBench& bench, const ForceScale& scale, LineInput& answers, std::ostream& out) {
+  out << fmt::format(
+             "The force scale is {:.0f} now. To weigh it: hook a spring balance to the grip, hold the balance above "
+             "the\n"
+             "device with the grip in the middle of its reach, and set the balance to zero. The device will then pull\n"
+             "down with {:.0f} N (about {:.0f} g). Type yes to allow it: ",
+             scale.value, kWeighed_N, kWeighed_N * kGrams_N)
+      << std::flush;
+  if (bench.wait_for_line(answers) != "yes") {
+    out << "\nno force was sent, the scale stays\n";
+    return std::nullopt;
+  }
+  bench.pull_with(-kWeighed_N * Vec3::UnitY());
+  out << "\nEnter what the balance shows, in newtons (grams times 0.00981): " << std::flush;
+  const std::string answer = bench.wait_for_line(answers).value_or("");
+  bench.let_go();
+  const auto measured_N = parse_number(answer);
+  const auto found = measured_N ? corrected(scale, kWeighed_N, *measured_N) : std::nullopt;
+  if (!found) {
+    out << fmt::format("\n\"{}\" is no force between {:.2f} and {:.1f} N, the scale stays {:.0f}\n", answer,
+                       kWeighed_N * scale.value / scale.highest, kWeighed_N * scale.value / scale.lowest, scale.value);
+  }
+  return found;
+}
+
+}  // namespace
+
+std::optional<double> corrected(const ForceScale& scale, double wanted_N, double measured_N) {
+  const double found = scale.value * wanted_N / measured_N;
+  if (!std::isfinite(found) || found < scale.lowest || found > scale.highest) return std::nullopt;
+  return found;
+}
+
+std::optional<double> calibrate_device(device::HardwareDevice& device, const std::optional<ForceScale>& scale,
+                                       LineInput& answers, std::ostream& out) {
+  device::PlacedDevice placed(device, {});
+  DeviceBench bench(placed, &device, nullptr);
+  if (!bench.wait_until_ready(answers, out)) return std::nullopt;
+  out << device.name() << " is calibrated and ready.\n" << std::flush;
+  if (!scale) return std::nullopt;
+  return weigh(bench, *scale, answers, out);
+}
+
+}  // namespace myotact::app

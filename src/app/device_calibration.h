@@ -1,0 +1,28 @@
+#pragma once
+
+#include <iosfwd>
+#include <optional>
+
+#include "app/line_input.h"
+#include "device/hardware_device.h"
+
+namespace myotact::app {
+
+/// A device's counts for a unit of force, which its maker does not publish.
+struct ForceScale {
+  double value = 0.0;                  // now
+  double lowest = 0.0, highest = 0.0;  // that is believed
+};
+
+/// The guided calibration of one device ("myotact devices --calibrate"): the person is told what the device wants until
+/// it is ready, and then, where its force `scale` is a setting, weighs its pull with a spring balance. Returns the
+/// scale that was found; nothing: there is none to be found, the person did not want it or a signal came. Throws Error
+/// Unavailable.
+std::optional<double> calibrate_device(device::HardwareDevice& device, const std::optional<ForceScale>& scale,
+                                       LineInput& answers, std::ostream& out);
+
+/// The scale with which a device that showed `measured_N` for `wanted_N` would have shown what was wanted; nothing
+/// where that is outside the range or no number.
+std::optional<double> corrected(const ForceScale& scale, double wanted_N, double measured_N);
+
+}  // namespace myotact::app

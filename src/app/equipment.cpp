@@ -1,0 +1,97 @@
+#include "app/equipment.h"
+
+#include <algorithm>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "scene/conductor.h"
+
+namespace myotact::app {
+
+namespace {
+
+constexpr double kRadians = 3.14159265358979323846 / 180.0;
+
+/// Columns: the picture's right, up and towards the eye in the lateral view (world: x cranial, y left, z up).
+Mat3 world_from_lateral_view(bool left_limb) {
+  const double way = left_limb ? 1.0 : -1.0;
+  Mat3 turn;
+  turn << Vec3(-way, 0.0, 0.0), Vec3(0.0, 0.0, 1.0), Vec3(0.0, way, 0.0);
+  return turn;
+}
+
+Mat3 turned(const Vec3& angles_deg) {
+  const Vec3 angles_rad = kRadians * angles_deg;
+  return (Eigen::AngleAxisd(angles_rad.z(), Vec3::UnitZ()) * Eigen::AngleAxisd(angles_rad.y(), Vec3::UnitY()) *
+          Eigen::AngleAxisd(angles_rad.x(), Vec3::UnitX()))
+      .toRotationMatrix();
+}
+
+device::TablePlacement placement_of(const device::DeviceSettings& settings, const std::string& name) {
+  const auto own = settings.placements.find(name);
+  return own == settings.placements.end() ? device::TablePlacement{} : own->second;
+}
+
+}  // namespace
+
+device::DeviceSettings device_settings_of(const Options& options) {
+  Overrides overrides;
+  for (const auto& [key, value] : overrides_of(options)) {
+    if (device::is_device_setting(key)) overrides[key] = value;
+  }
+  return device::read_device_settings(device::device_settings_file(), overrides);
+}
+
+std::unique_ptr<device::HardwareDevice> make_device(const device::DeviceSettings& settings, const std::string& name) {
+  for (const auto& driver : device::make_drivers(settings)) {
+    if (name.substr(0, name.find(':')) == driver->name()) return driver->make(name);
+  }
+  const auto& known = device::driver_names();
+  throw Error(ExitStatus::Unavailable, fmt::format("there is no device \"{}\"; known: {} (nearest: {})", name,
+                                                   join(known), nearest_word(name, known)));
+}
+
+Equipment::Equipment(const Options& options) {
+  const std::vector<NamedDevice> named = named_devices(options);
+  const auto is_here = [](const NamedDevice& device) { return device::is_on_the_table(device.name); };
+  if (std::none_of(named.begin(), named.end(), is_here)) return;
+  settings_ = device_settings_of(options);
+  for (const NamedDevice& device : named) {
+    if (!is_here(device)) continue;
+    if (has(device.name)) {
+      throw Error(ExitStatus::Usage, fmt::format("--device: {0} is named twice; the second device of its kind is "
+                                                 "{0}:2, as \"myotact devices\" lists it",
+                                                 device.name));
+    }
+    auto made = make_device(settings_, device.name);
+    made->open();
+    devices_.emplace(device.name, std::move(made));
+  }
+}
+
+Equipment::~Equipment() {
+  for (const auto& [name, device] : devices_) device->close();
+}
+
+std::unique_ptr<device::PlacedDevice> Equipment::place(const std::string& name, const scene::Scene& scene,
+                                                       std::size_t tool) const {
+  const device::TablePlacement on_table = placement_of(settings_, name);
+  device::Placement placement;
+  placement.world_from_device = world_from_lateral_view(scene.specimen.side != "right") * turned(on_table.turn_deg);
+  placement.middle_world_m = scene::start_of_hand(scene, tool);
+  placement.scale = on_table.scale;
+  placement.bubble_radius_m = on_table.bubble_radius_m;
+  return std::make_unique<device::PlacedDevice>(device(name), placement);
+}
+
+device::ServoClock* Equipment::servo_clock() const {
+  for (const auto& [name, device] : devices_) {
+    if (device::ServoClock* servo = device->servo_clock()) return servo;
+  }
+  return nullptr;
+}
+
+}  // namespace myotact::app

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/options.h"
+#include "device/drivers/driver_table.h"
+#include "device/placed_device.h"
+
+namespace myotact::app {
+
+/// The device file with what --set says of devices. Throws Error BadData.
+device::DeviceSettings device_settings_of(const Options& options);
+
+/// The device of that name, closed. Throws Error Unavailable: not known, or why it cannot be opened and what to do.
+std::unique_ptr<device::HardwareDevice> make_device(const device::DeviceSettings& settings, const std::string& name);
+
+/// The devices on the table that --device names: opened once, kept over all scenes of a program, closed at its end.
+class Equipment {
+ public:
+  /// Opens them, which takes seconds. Throws Error: Unavailable with cause and remedy, Usage for one named twice.
+  explicit Equipment(const Options& options);
+  ~Equipment();
+  Equipment(const Equipment&) = delete;
+  Equipment& operator=(const Equipment&) = delete;
+
+  bool empty() const { return devices_.empty(); }
+  bool has(const std::string& name) const { return devices_.contains(name); }
+  device::HardwareDevice& device(const std::string& name) const { return *devices_.at(name); }
+  /// One of them in the world of this scene: the middle of its workspace where the tool's hand begins, its right, up
+  /// and towards the person as in the lateral view, and what the settings say of it. Not longer than this.
+  std::unique_ptr<device::PlacedDevice> place(const std::string& name, const scene::Scene& scene,
+                                              std::size_t tool) const;
+  /// Whose ticks the devices want; null: nobody's.
+  device::ServoClock* servo_clock() const;
+
+ private:
+  device::DeviceSettings settings_;
+  std::map<std::string, std::unique_ptr<device::HardwareDevice>> devices_;
+};
+
+}  // namespace myotact::app

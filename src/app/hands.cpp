@@ -1,0 +1,41 @@
+#include "app/hands.h"
+
+#include "device/profile_file.h"
+
+namespace myotact::app {
+
+Hands::Hands(const scene::Scene& scene, std::size_t led, GuardedMotors& guarded, const Equipment& equipment)
+    : led_(led), mouse_(scene::start_of_hand(scene, led < scene.tools.size() ? led : 0)) {
+  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
+    const std::string& name = scene.tools[t].device;
+    if (t == led) {
+      devices_.push_back({&mouse_});
+    } else if (equipment.has(name)) {
+      placed_.push_back(equipment.place(name, scene, t));
+      devices_.push_back({placed_.back().get()});
+    } else {
+      simulated_.push_back(std::make_unique<device::SimulatedDevice>(name, scene::start_of_hand(scene, t),
+                                                                     device::simulated_profile(name)));
+      simulated_.back()->drive(guarded.motors[t]);
+      devices_.push_back({simulated_.back().get(), simulated_.back().get()});
+    }
+  }
+}
+
+std::vector<device::DeviceProfile> Hands::profiles() const {
+  std::vector<device::DeviceProfile> profiles;
+  for (const scene::ToolDevice& tool : devices_) profiles.push_back(tool.device->profile());
+  return profiles;
+}
+
+bool is_persons(const scene::Scene& scene, std::size_t tool, std::size_t led) {
+  return tool == led || device::is_on_the_table(scene.tools[tool].device);
+}
+
+void leave_hands_to_people(scene::Scene& scene, std::size_t led) {
+  std::erase_if(scene.script, [&](const scene::ScriptAction& action) {
+    return scene::moves_hand(action.deed) && is_persons(scene, action.tool, led);
+  });
+}
+
+}  // namespace myotact::app
