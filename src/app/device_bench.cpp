@@ -27,14 +27,14 @@ DeviceBench::DeviceBench(device::Device& device, device::HardwareDevice* on_tabl
   thread_.start();
 }
 
-bool DeviceBench::wait_until_ready(LineInput& answers, std::ostream& out) {
+bool DeviceBench::wait_until_ready(std::ostream& out) {
   std::string told;
   while (on_table_ != nullptr && on_table_->report().phase != device::DevicePhase::Ready) {
     const std::string hint = on_table_->report().hint;
     if (hint != told && !hint.empty()) out << hint << '\n' << std::flush;
     told = hint;
     run(kPeriod);
-    if (interruption() != 0 || (answers.next(std::chrono::milliseconds(0)), answers.ended())) return false;
+    if (interruption() != 0) return false;
   }
   return true;
 }

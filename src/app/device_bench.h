@@ -22,9 +22,8 @@ class DeviceBench {
   /// outlive this. Throws Error Unavailable.
   DeviceBench(device::Device& device, device::HardwareDevice* on_table, realtime::Watchdog* watchdog);
 
-  /// Tells the person what the device wants of them until it is ready. False: interruption() said so, or the answers
-  /// ended, first.
-  bool wait_until_ready(LineInput& answers, std::ostream& out);
+  /// Tells the person what the device wants of them until it is ready. False: interruption() said so first.
+  bool wait_until_ready(std::ostream& out);
   /// For that long: pulls as told, and looks.
   void run(std::chrono::milliseconds duration);
   /// The line that the person enters; nothing: a signal came, or there is nobody.

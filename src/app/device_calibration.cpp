@@ -19,6 +19,14 @@ namespace {
 constexpr double kWeighed_N = 2.0;
 constexpr double kGrams_N = 1e3 / 9.81;
 
+/// The scale with which a device that showed `measured_N` for `wanted_N` would have shown what was wanted; nothing
+/// where that is outside the range or no number.
+std::optional<double> corrected(const ForceScale& scale, double wanted_N, double measured_N) {
+  const double found = scale.value * wanted_N / measured_N;
+  if (!std::isfinite(found) || found < scale.lowest || found > scale.highest) return std::nullopt;
+  return found;
+}
+
 std::optional<double> weigh(DeviceBench& bench, const ForceScale& scale, LineInput& answers, std::ostream& out) {
   out << fmt::format(
              "The force scale is {:.0f} now. To weigh it: hook a spring balance to the grip, hold the balance above "
@@ -46,17 +54,11 @@ std::optional<double> weigh(DeviceBench& bench, const ForceScale& scale, LineInp
 
 }  // namespace
 
-std::optional<double> corrected(const ForceScale& scale, double wanted_N, double measured_N) {
-  const double found = scale.value * wanted_N / measured_N;
-  if (!std::isfinite(found) || found < scale.lowest || found > scale.highest) return std::nullopt;
-  return found;
-}
-
 std::optional<double> calibrate_device(device::HardwareDevice& device, const std::optional<ForceScale>& scale,
                                        LineInput& answers, std::ostream& out) {
   device::PlacedDevice placed(device, {});
   DeviceBench bench(placed, &device, nullptr);
-  if (!bench.wait_until_ready(answers, out)) return std::nullopt;
+  if (!bench.wait_until_ready(out)) return std::nullopt;
   out << device.name() << " is calibrated and ready.\n" << std::flush;
   if (!scale) return std::nullopt;
   return weigh(bench, *scale, answers, out);

@@ -21,8 +21,4 @@ struct ForceScale {
 std::optional<double> calibrate_device(device::HardwareDevice& device, const std::optional<ForceScale>& scale,
                                        LineInput& answers, std::ostream& out);
 
-/// The scale with which a device that showed `measured_N` for `wanted_N` would have shown what was wanted; nothing
-/// where that is outside the range or no number.
-std::optional<double> corrected(const ForceScale& scale, double wanted_N, double measured_N);
-
 }  // namespace myotact::app

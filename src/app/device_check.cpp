@@ -52,7 +52,7 @@ bool check_force(DeviceBench& bench, LineInput& answers, std::ostream& out) {
 bool check_device(device::Device& device, device::HardwareDevice* on_table, realtime::Watchdog* watchdog,
                   LineInput& answers, std::ostream& out) {
   DeviceBench bench(device, on_table, watchdog);
-  if (!bench.wait_until_ready(answers, out)) return false;
+  if (!bench.wait_until_ready(out)) return false;
   bench.run(kRamp);
   out << "1. Reach: move the stylus to every end of its reach and press each button, then press Enter.\n" << std::flush;
   bench.wait_for_line(answers);

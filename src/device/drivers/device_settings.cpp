@@ -34,6 +34,9 @@ void read_inverse(const JsonValue& value, inverse::InverseSettings& settings) {
   if (const auto port = fields.find("port")) {
     settings.port = static_cast<std::uint16_t>(port->integer_between(1, 65535));
   }
+  if (const auto port = fields.find("version_port")) {
+    settings.version_port = static_cast<std::uint16_t>(port->integer_between(1, 65535));
+  }
   if (const auto form = fields.find("force_key")) {
     const std::string key = form->one_of({"by_version", "values", "vector"});
     settings.form = key == "values"   ? inverse::CommandForm::Values
@@ -113,7 +116,8 @@ bool is_device_setting(const std::string& key) {
 DeviceSettings read_device_settings(const std::filesystem::path& file, const Overrides& overrides) {
   nlohmann::json json = settings_json(file);
   override_values(json, overrides);
-  return settings_of(json, file.empty() ? "--set" : file);
+  const bool is_read = !file.empty() && std::filesystem::exists(file);
+  return settings_of(json, is_read ? file : "--set");
 }
 
 void keep_device_settings(const std::filesystem::path& file, const Overrides& values) {
