@@ -15,7 +15,7 @@ namespace myotact::device {
 namespace {
 
 constexpr int kSchema = 1;
-constexpr std::array kSections = {"falcon", "inverse3", "placement", "spacemouse"};
+constexpr std::array kSections = {"falcon", "inverse3", "placement", "spacemouse", "touch"};
 
 void read_falcon(const JsonValue& value, falcon::FalconSettings& settings) {
   JsonObject fields(value);
@@ -68,6 +68,19 @@ void read_spacemouse(const JsonValue& value, spacemouse::MotionSettings& setting
   fields.finish();
 }
 
+void read_touch(const JsonValue& value, touch::TouchSettings& settings) {
+  JsonObject fields(value);
+  settings.library = fields.string_or("library", settings.library);
+  if (const auto names = fields.find("configurations")) {
+    settings.configurations = names->strings();
+    if (settings.configurations.empty()) throw names->error("must name one device at least; \"\" is the default one");
+  }
+  if (const auto stiffness = fields.find("max_stiffness_N_m")) {
+    settings.max_stiffness_N_m = stiffness->number_between(10.0, 5000.0);
+  }
+  fields.finish();
+}
+
 TablePlacement read_placement(const JsonValue& value) {
   JsonObject fields(value);
   TablePlacement placement;
@@ -92,6 +105,7 @@ DeviceSettings settings_of(const nlohmann::json& json, const std::filesystem::pa
   if (const auto falcon = root.find("falcon")) read_falcon(*falcon, settings.falcon);
   if (const auto inverse = root.find("inverse3")) read_inverse(*inverse, settings.inverse);
   if (const auto spacemouse = root.find("spacemouse")) read_spacemouse(*spacemouse, settings.spacemouse);
+  if (const auto touch = root.find("touch")) read_touch(*touch, settings.touch);
   if (const auto placements = root.find("placement")) {
     for (const auto& [name, value] : JsonObject(*placements).entries()) {
       settings.placements[name] = read_placement(value);

@@ -9,6 +9,7 @@
 #include "device/drivers/falcon/falcon_device.h"
 #include "device/drivers/inverse/settings.h"
 #include "device/drivers/spacemouse/motion.h"
+#include "device/drivers/touch/settings.h"
 
 namespace myotact::device {
 
@@ -27,6 +28,7 @@ struct DeviceSettings {
   falcon::FalconSettings falcon;
   inverse::InverseSettings inverse;
   spacemouse::MotionSettings spacemouse;
+  touch::TouchSettings touch;
   std::map<std::string, TablePlacement> placements;  // by the name of --device, "touch" or "touch:2"
 };
 

@@ -5,11 +5,13 @@
 #include "device/drivers/falcon/falcon_driver.h"
 #include "device/drivers/inverse/inverse_driver.h"
 #include "device/drivers/spacemouse/spacemouse_driver.h"
+#include "device/drivers/touch/touch_driver.h"
 
 namespace myotact::device {
 
 std::vector<std::unique_ptr<Driver>> make_drivers(const DeviceSettings& settings) {
   std::vector<std::unique_ptr<Driver>> drivers;
+  drivers.push_back(std::make_unique<touch::TouchDriver>(settings.touch));
   drivers.push_back(std::make_unique<falcon::FalconDriver>(settings.falcon));
   drivers.push_back(std::make_unique<inverse::InverseDriver>(settings.inverse));
   drivers.push_back(std::make_unique<spacemouse::SpaceMouseDriver>(settings.spacemouse));
@@ -17,7 +19,7 @@ std::vector<std::unique_ptr<Driver>> make_drivers(const DeviceSettings& settings
 }
 
 const std::vector<std::string>& driver_names() {
-  static const std::vector<std::string> kNames = {"falcon", "inverse3", "spacemouse"};
+  static const std::vector<std::string> kNames = {"touch", "falcon", "inverse3", "spacemouse"};
   return kNames;
 }
 

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "device/device.h"
+#include "device/drivers/touch/hdapi.h"
+
+namespace myotact::device::touch {
+
+/// One device in the servo thread.
+class ServoClient {
+ public:
+  virtual ~ServoClient() = default;
+  virtual void begin_frame(std::uint64_t now_ns) noexcept = 0;
+  /// `is_last`: no force from here on.
+  virtual void end_frame(bool is_last) noexcept = 0;
+};
+
+/// The scheduler of the maker's library, which a process has once: in each of its ticks all devices begin their frames,
+/// our loops tick, and all end their frames.
+///
+///   servo thread: begin_frame of each --> tick --> end_frame of each
+class Servo : public ServoClock {
+ public:
+  explicit Servo(const Hdapi& api) : api_(api) {}  // outlives this
+  ~Servo() override { stop(); }
+
+  void start(std::function<void(std::uint64_t now_ns)> tick) override;
+  void stop() noexcept override;
+  bool is_ticking() const noexcept { return is_ticking_; }
+
+  bool is_in_use() const noexcept { return !clients_.empty(); }
+
+  /// While it does not tick; remove() stops it.
+  void add(ServoClient& client);
+  void remove(ServoClient& client) noexcept;
+
+ private:
+  static unsigned int on_tick(void* self) noexcept;
+  void tick() noexcept;
+  void wait_for_last_frame() const noexcept;
+
+  const Hdapi& api_;
+  std::vector<ServoClient*> clients_;
+  std::function<void(std::uint64_t)> tick_;
+  unsigned long handle_ = 0;
+  std::atomic<bool> is_ticking_{false};
+  std::atomic<bool> stopping_{false};
+  std::atomic<bool> sent_last_{false};
+};
+
+}  // namespace myotact::device::touch

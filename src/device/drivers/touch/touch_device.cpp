@@ -1,0 +1,178 @@
+#include "device/drivers/touch/touch_device.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "realtime/periodic_loop.h"
+
+namespace myotact::device::touch {
+
+namespace {
+
+constexpr std::uint64_t kWindow_ns = 1'000'000'000;
+constexpr std::uint64_t kSilence_ns = 500'000'000;  // of a servo thread that should tick: its device is gone
+constexpr std::uint64_t kFramesBetweenLooks = 100;  // at calibration and motors: a tenth of a second
+
+/// As assets/devices/touch.json, whose sources hold here, too; what the device tells itself comes over it.
+DeviceProfile touch_profile(const TouchSettings& settings) {
+  DeviceProfile profile;
+  profile.max_stiffness_N_m = settings.max_stiffness_N_m;
+  profile.inertia_kg = 0.045;
+  profile.coulomb_N = 0.2;
+  profile.resolution_m = 5.5e-5;
+  return profile;
+}
+
+}  // namespace
+
+Trouble trouble_of(const Hdapi& api, Code error) {
+  const char* text = api.error_string(error);
+  Trouble trouble{fmt::format("it does not open: {} ({:#06x})", text == nullptr ? "error" : text, error), ""};
+  trouble.remedy = error == kAlreadyOpen
+                       ? "end the other program that uses it"
+                       : "see to its cable and its power, try the maker's own test program, and let this computer's "
+                         "user open it by assets/devices/udev/70-myotact.rules";
+  return trouble;
+}
+
+TouchDevice::TouchDevice(std::string name, std::string configuration, const TouchSettings& settings,
+                         std::shared_ptr<TouchLibrary> library)
+    : name_(std::move(name)),
+      configuration_(std::move(configuration)),
+      library_(std::move(library)),
+      profile_(touch_profile(settings)) {}
+
+void TouchDevice::open() {
+  if (handle_ != kNoDevice) return;
+  if (library_->servo.is_ticking()) {
+    throw Error(ExitStatus::Unavailable, name_ + ": another Touch is being felt; open both before the first is");
+  }
+  api().take_error();
+  handle_ = api().init_device(configuration_.empty() ? nullptr : configuration_.c_str());
+  const Code error = api().take_error();
+  if (error != kNone || handle_ == kNoDevice) {
+    if (handle_ != kNoDevice) api().disable_device(handle_);
+    handle_ = kNoDevice;
+    const Trouble trouble = trouble_of(api(), error);
+    throw Error(ExitStatus::Unavailable, fmt::format("{}: {}; {}", name_, trouble.cause, trouble.remedy));
+  }
+  learn_profile();
+  api().enable(kForceOutput);
+  api().take_error();
+  raw_ = {};
+  raw_.calibration = kCalibrationNeedsInput;  // until it was asked for
+  end_error_ = kNone;
+  frames_ = counted_ = counted_from_ns_ = 0;
+  phase_ = DevicePhase::Opening;
+  library_->servo.add(*this);
+}
+
+/// What is no sensible number is not taken.
+void TouchDevice::learn_profile() {
+  const auto number = [&](Code parameter, double lowest, double highest, double fallback) {
+    double value = 0.0;
+    api().get_doublev(parameter, &value);
+    return api().take_error() == kNone && value >= lowest && value <= highest ? value : fallback;
+  };
+  profile_.peak_force_N = number(kNominalMaxForce, 0.1, 100.0, profile_.peak_force_N);
+  profile_.continuous_force_N = number(kNominalContinuous, 0.05, profile_.peak_force_N,
+                                       std::min(profile_.continuous_force_N, profile_.peak_force_N));
+  std::array<double, 6> corners_mm{};
+  api().get_doublev(kUsableWorkspace, corners_mm.data());
+  const Vec3 lowest_mm(corners_mm[0], corners_mm[1], corners_mm[2]);
+  const Vec3 edges_mm = Vec3(corners_mm[3], corners_mm[4], corners_mm[5]) - lowest_mm;
+  constexpr double kSmallest_mm = 10.0, kLargest_mm = 2000.0;
+  const bool is_one = api().take_error() == kNone && lowest_mm.allFinite() && edges_mm.allFinite() &&
+                      edges_mm.minCoeff() >= kSmallest_mm && edges_mm.maxCoeff() <= kLargest_mm;
+  if (is_one) profile_.workspace_m = to_array(Vec3(1e-3 * edges_mm));
+  judge_ = FrameJudge(is_one ? Vec3(lowest_mm + 0.5 * edges_mm) : Vec3::Zero());
+}
+
+void TouchDevice::close() noexcept {
+  if (handle_ == kNoDevice) return;
+  library_->servo.remove(*this);
+  api().disable_device(handle_);
+  api().take_error();
+  handle_ = kNoDevice;
+  phase_ = DevicePhase::Closed;
+}
+
+void TouchDevice::write(const messages::DeviceCommand& command) noexcept {
+  wanted_N_ = command.force_world_N;
+}
+
+void TouchDevice::begin_frame(std::uint64_t now_ns) noexcept {
+  api().begin_frame(handle_);
+  api().get_doublev(kPosition, raw_.position_mm.data());
+  api().get_doublev(kVelocity, raw_.velocity_mm_s.data());
+  api().get_integerv(kButtons, &raw_.buttons);
+  if (frames_ % kFramesBetweenLooks == 0) {
+    look_after_calibration();
+    look_after_motors();
+  }
+  const Code begin_error = api().take_error();
+  raw_.error = begin_error != kNone ? begin_error : end_error_;
+  judge_.take(raw_, now_ns);
+  phase_ = judge_.phase();
+  hint_ = judge_.hint();
+  wanted_N_ = {};  // what is not written in this frame is no force
+  ++frames_;
+  count_rate(now_ns);
+  framed_ns_ = now_ns;
+}
+
+void TouchDevice::end_frame(bool is_last) noexcept {
+  const Vec3 force_N = is_last ? Vec3::Zero() : judge_.allowed(wanted_N_, profile_.peak_force_N);
+  api().make_current(handle_);
+  api().set_doublev(kForce, force_N.data());
+  api().end_frame(handle_);
+  end_error_ = api().take_error();
+}
+
+/// A calibration that the library can bring up to date by itself is; the position may leap by it, so that no force
+/// comes before it was asked for again.
+void TouchDevice::look_after_calibration() noexcept {
+  raw_.calibration = api().check_calibration();
+  if (raw_.calibration == kCalibrated) return;
+  raw_.style = api().check_calibration_style();
+  if (raw_.calibration != kCalibrationNeedsUpdate) return;
+  for (const Code style : {kInkwell, kAutomatic, kEncoderReset}) {
+    if ((raw_.style & style) == 0) continue;
+    api().update_calibration(style);
+    return;
+  }
+}
+
+void TouchDevice::look_after_motors() noexcept {
+  std::array<double, 6> warmth{};
+  api().get_doublev(kMotorTemperature, warmth.data());
+  const bool is_told = std::all_of(warmth.begin(), warmth.end(), [](double motor) { return std::isfinite(motor); });
+  warmth_ = is_told ? std::clamp(*std::max_element(warmth.begin(), warmth.end()), 0.0, 1.0) : -1.0;
+}
+
+void TouchDevice::count_rate(std::uint64_t now_ns) noexcept {
+  if (counted_from_ns_ == 0) counted_from_ns_ = now_ns;
+  ++counted_;
+  if (now_ns - counted_from_ns_ < kWindow_ns) return;
+  rate_Hz_ = 1e9 * static_cast<double>(counted_) / static_cast<double>(now_ns - counted_from_ns_);
+  counted_ = 0;
+  counted_from_ns_ = now_ns;
+}
+
+DeviceReport TouchDevice::report() const noexcept {
+  DeviceReport report{phase_, rate_Hz_, warmth_, hint_};
+  if (report.phase == DevicePhase::Closed) return {};
+  const std::uint64_t framed_ns = framed_ns_;
+  if (library_->servo.is_ticking() && framed_ns != 0 && realtime::steady_now_ns() > framed_ns + kSilence_ns) {
+    report.phase = DevicePhase::Lost;
+    report.rate_Hz = 0.0;
+    report.hint = "The device's servo loop has stopped: plug the device in again and start anew.";
+  }
+  return report;
+}
+
+}  // namespace myotact::device::touch
