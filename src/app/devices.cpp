@@ -114,15 +114,28 @@ int test_device(const Options& options, const std::string& name) {
   return interruption() != 0 ? interruption() : status;
 }
 
+/// A device that moves by itself to find out where it is must be let.
+bool may_move_itself(const std::string& name, LineInput& answers) {
+  if (!name.starts_with("force_dimension")) return false;
+  std::cout << "The device may move by itself through its whole reach to find out where it is. Take your hands away.\n"
+               "Type yes to allow it: "
+            << std::flush;
+  std::optional<std::string> line;
+  while (!line && interruption() == 0) line = answers.next(std::chrono::milliseconds(50));
+  std::cout << '\n';
+  return line == "yes";
+}
+
 int calibrate(const Options& options, const std::string& name) {
   watch_for_interruption();
-  const device::DeviceSettings settings = device_settings_of(options);
+  LineInput answers(STDIN_FILENO);
+  device::DeviceSettings settings = device_settings_of(options);
+  settings.force_dimension.initialises_itself = may_move_itself(name, answers);
   const auto device = make_device(settings, name);
   std::optional<ForceScale> scale;
   if (name.starts_with("falcon")) {
     scale = {settings.falcon.exchange.counts_per_Nm, device::kLowestFalconScale, device::kHighestFalconScale};
   }
-  LineInput answers(STDIN_FILENO);
   device->open();
   const auto found = calibrate_device(*device, scale, answers, std::cout);
   const bool is_ready = device->report().phase == device::DevicePhase::Ready;

@@ -15,7 +15,7 @@ namespace myotact::device {
 namespace {
 
 constexpr int kSchema = 1;
-constexpr std::array kSections = {"falcon", "inverse3", "placement", "spacemouse", "touch"};
+constexpr std::array kSections = {"falcon", "force_dimension", "inverse3", "placement", "spacemouse", "touch"};
 
 void read_falcon(const JsonValue& value, falcon::FalconSettings& settings) {
   JsonObject fields(value);
@@ -26,6 +26,14 @@ void read_falcon(const JsonValue& value, falcon::FalconSettings& settings) {
   if (const auto peak = fields.find("peak_force_N")) {
     settings.exchange.peak_force_N = peak->number_between(0.1, 10.0);  // makers' and users' figures are below
   }
+  fields.finish();
+}
+
+void read_force_dimension(const JsonValue& value, force_dimension::ForceDimensionSettings& settings) {
+  JsonObject fields(value);
+  settings.library = fields.string_or("library", settings.library);
+  settings.gravity_compensation = fields.boolean_or("gravity_compensation", settings.gravity_compensation);
+  settings.initialises_itself = fields.boolean_or("initialises_itself", settings.initialises_itself);
   fields.finish();
 }
 
@@ -103,6 +111,7 @@ DeviceSettings settings_of(const nlohmann::json& json, const std::filesystem::pa
   root.at("schema").integer_between(kSchema, kSchema);
   DeviceSettings settings;
   if (const auto falcon = root.find("falcon")) read_falcon(*falcon, settings.falcon);
+  if (const auto dhd = root.find("force_dimension")) read_force_dimension(*dhd, settings.force_dimension);
   if (const auto inverse = root.find("inverse3")) read_inverse(*inverse, settings.inverse);
   if (const auto spacemouse = root.find("spacemouse")) read_spacemouse(*spacemouse, settings.spacemouse);
   if (const auto touch = root.find("touch")) read_touch(*touch, settings.touch);

@@ -7,6 +7,7 @@
 #include "core/overrides.h"
 #include "core/vector.h"
 #include "device/drivers/falcon/falcon_device.h"
+#include "device/drivers/force_dimension/settings.h"
 #include "device/drivers/inverse/settings.h"
 #include "device/drivers/spacemouse/motion.h"
 #include "device/drivers/touch/settings.h"
@@ -26,6 +27,7 @@ struct TablePlacement {
 /// What a lab knows of its devices and the program cannot: files, calibrations, placement.
 struct DeviceSettings {
   falcon::FalconSettings falcon;
+  force_dimension::ForceDimensionSettings force_dimension;
   inverse::InverseSettings inverse;
   spacemouse::MotionSettings spacemouse;
   touch::TouchSettings touch;

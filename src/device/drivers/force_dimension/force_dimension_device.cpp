@@ -1,0 +1,169 @@
+#include "device/drivers/force_dimension/force_dimension_device.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "device/drivers/force_dimension/models.h"
+#include "realtime/periodic_loop.h"
+#include "realtime/real_time_thread.h"
+
+namespace myotact::device::force_dimension {
+
+namespace {
+
+constexpr std::uint64_t kExchange_ns = 500'000;       // twice a tick: no force waits longer than that
+constexpr std::uint64_t kPoseLife_ns = 30'000'000;    // as a stale model: FORMATS, force gate
+constexpr std::uint64_t kGivenUp_ns = 2'000'000'000;  // of a device that answers with errors alone
+constexpr std::uint64_t kRateWindow_ns = 1'000'000'000;
+constexpr std::uint64_t kExchangesBetweenLooks = 20;  // at the status: a hundredth of a second
+constexpr auto kLookAgain = std::chrono::milliseconds(500);
+
+}  // namespace
+
+ForceDimensionDevice::ForceDimensionDevice(std::string name, int number, const ForceDimensionSettings& settings,
+                                           std::shared_ptr<DhdLibrary> library)
+    : name_(std::move(name)),
+      number_(static_cast<char>(number)),
+      settings_(settings),
+      library_(std::move(library)),
+      profile_(profile_of(model_of(0), 0.0)) {}
+
+bool ForceDimensionDevice::open_on_library() noexcept {
+  if (api().open_id(number_) < 0) return false;
+  if (settings_.initialises_itself && api().initialise != nullptr && !api().is_initialised(number_)) {
+    api().initialise(number_);  // that it failed shows in the status
+  }
+  api().set_gravity_compensation(settings_.gravity_compensation ? 1 : 0, number_);
+  api().set_brakes(0, number_);
+  if (api().emulate_button != nullptr) api().emulate_button(1, number_);
+  api().set_force(0.0, 0.0, 0.0, number_);
+  api().enable_force(1, number_);
+  return true;
+}
+
+/// Brakes, where it has them, slow the grip's fall once nothing carries it.
+void ForceDimensionDevice::close_on_library() noexcept {
+  api().set_force(0.0, 0.0, 0.0, number_);
+  api().enable_force(0, number_);
+  api().set_brakes(1, number_);
+  api().close(number_);
+}
+
+void ForceDimensionDevice::open() {
+  if (thread_.joinable()) return;
+  std::atomic<bool>& is_open = library_->is_open[static_cast<std::size_t>(number_)];
+  if (is_open.exchange(true)) throw Error(ExitStatus::Unavailable, name_ + ": this program has it open already");
+  phase_ = DevicePhase::Opening;
+  if (!open_on_library()) {
+    is_open = false;
+    phase_ = DevicePhase::Closed;
+    throw Error(ExitStatus::Unavailable,
+                fmt::format("{}: it does not open: {}; end other programs that use it, see to its cable and its power, "
+                            "and let this computer's user open it by assets/devices/udev/70-myotact.rules",
+                            name_, api().error_text()));
+  }
+  profile_ = profile_of(model_of(api().system_type(number_)), api().max_force(number_));
+  stopping_ = false;
+  thread_ = std::thread([this] {
+    realtime::name_this_thread("force_dimension");
+    realtime::make_this_thread_real_time();
+    run();
+  });
+}
+
+void ForceDimensionDevice::close() noexcept {
+  if (!thread_.joinable()) return;
+  stopping_ = true;
+  thread_.join();
+  library_->is_open[static_cast<std::size_t>(number_)] = false;
+  phase_ = DevicePhase::Closed;
+  hint_ = "";
+  is_ready_ = false;
+}
+
+void ForceDimensionDevice::run() noexcept {
+  for (;;) {
+    exchange_until_gone();
+    close_on_library();
+    if (stopping_) return;
+    poses_.publish({});
+    phase_ = DevicePhase::Lost;
+    hint_ = "The device does not answer: see to its cable and its power.";
+    rate_Hz_ = 0.0;
+    while (!open_on_library()) {
+      if (stopping_) return;
+      std::this_thread::sleep_for(kLookAgain);
+    }
+  }
+}
+
+void ForceDimensionDevice::exchange_until_gone() noexcept {
+  Exchange exchange(profile_.peak_force_N);
+  realtime::PeriodicLoop beat(kExchange_ns);
+  beat.start();
+  std::uint64_t window_ns = realtime::steady_now_ns(), begun_ns = window_ns, exchanges = 0, counted = 0;
+  while (!stopping_) {
+    beat.wait();
+    if (exchanges % kExchangesBetweenLooks == 0) exchange.take(read_status());
+    ++exchanges;
+    const RawState state = read_state();
+    const std::uint64_t now_ns = realtime::steady_now_ns();
+    exchange.take(state, now_ns);
+    forces_.update();
+    const Vec3 force_N = exchange.allowed(forces_.front(), now_ns);
+    api().set_force(force_N.x(), force_N.y(), force_N.z(), number_);  // zeros, too: they carry the device's weight
+    if (exchange.may_enable(now_ns)) api().enable_force(1, number_);
+    tell(exchange);
+    if (now_ns - std::max(exchange.heard_ns(), begun_ns) > kGivenUp_ns) return;
+    if (now_ns - window_ns < kRateWindow_ns) continue;
+    rate_Hz_ = 1e9 * static_cast<double>(exchanges - counted) / static_cast<double>(now_ns - window_ns);
+    window_ns = now_ns;
+    counted = exchanges;
+  }
+}
+
+RawState ForceDimensionDevice::read_state() const noexcept {
+  RawState state;
+  Vec3& p = state.position_m;
+  Vec3& v = state.velocity_m_s;
+  const int position = api().get_position(&p.x(), &p.y(), &p.z(), number_);
+  const int velocity = api().get_velocity(&v.x(), &v.y(), &v.z(), number_);
+  state.result = std::min(position, velocity);
+  state.buttons = api().button_mask(number_);
+  return state;
+}
+
+RawStatus ForceDimensionDevice::read_status() const noexcept {
+  std::array<int, kStatusLength> raw{};
+  if (api().get_status(raw.data(), number_) < 0) return {.is_connected = false};
+  const bool is_initialised = api().is_initialised != nullptr ? api().is_initialised(number_) : raw[kInitialised] != 0;
+  return {raw[kPower] != 0, raw[kConnected] != 0, is_initialised, raw[kForceIsOn] != 0, raw[kForceOffCause]};
+}
+
+void ForceDimensionDevice::tell(const Exchange& exchange) noexcept {
+  poses_.publish({exchange.state(), exchange.phase() == DevicePhase::Ready});
+  phase_ = exchange.phase();
+  hint_ = exchange.hint();
+}
+
+messages::DeviceState ForceDimensionDevice::read(std::uint64_t now_ns) noexcept {
+  read_ns_ = now_ns;
+  poses_.update();
+  const Pose& pose = poses_.front();
+  const std::uint64_t at_ns = pose.state.sampled_at_ns;
+  is_ready_ = pose.is_ready && (now_ns < at_ns || now_ns - at_ns <= kPoseLife_ns);
+  return pose.state;
+}
+
+void ForceDimensionDevice::write(const messages::DeviceCommand& command) noexcept {
+  forces_.publish({is_ready_ ? command.force_world_N : std::array<double, 3>{}, read_ns_});
+}
+
+DeviceReport ForceDimensionDevice::report() const noexcept {
+  return {phase_, rate_Hz_, -1.0, hint_};
+}
+
+}  // namespace myotact::device::force_dimension

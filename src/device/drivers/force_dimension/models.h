@@ -1,0 +1,21 @@
+#pragma once
+
+#include "device/device.h"
+
+namespace myotact::device::force_dimension {
+
+struct Model {
+  const char* title;
+  double peak_force_N;
+  double max_stiffness_N_m;
+  double reach_radius_m;  // of the ball that its grip reaches
+};
+
+/// By the number that dhdGetSystemType tells; one that is not known: the weakest limits of all. (reference: types of
+/// the SDK's header, limits as CHAI3D lists them)
+Model model_of(int system_type);
+
+/// What such a device bears; never more than the library says itself, where it says a force.
+DeviceProfile profile_of(const Model& model, double told_max_force_N);
+
+}  // namespace myotact::device::force_dimension
