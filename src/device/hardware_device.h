@@ -1,24 +1,16 @@
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "device/device.h"
+#include "messages/device_report.h"
 
 namespace myotact::device {
 
-/// How far a device on the table is from being felt with. Only Ready answers connected() with true.
-enum class DevicePhase : std::uint8_t { Closed, Opening, NeedsCalibration, Ready, Lost };
-
-/// What a panel shows of a device.
-struct DeviceReport {
-  DevicePhase phase = DevicePhase::Closed;
-  double rate_Hz = 0.0;   // exchanges with the device in the last second
-  double warmth = -1.0;   // of the hottest motor, 0 cold .. 1 as hot as it may get; below 0: the device does not tell
-  const char* hint = "";  // what the person is to do now, a sentence of static text; empty: nothing
-};
+using messages::DevicePhase;
+using messages::DeviceReport;
 
 /// A device on the table. What it says and is told is in its own frame: x to the right of the person who sits before
 /// it, y up, z towards that person, metres from the middle of its workspace. In phases other than Ready it takes no

@@ -74,6 +74,7 @@ void PlacedDevice::drive_bubble(const Vec3& on_table_m, double dt_s) noexcept {
 
 messages::DeviceState PlacedDevice::read(std::uint64_t now_ns) noexcept {
   messages::DeviceState state = device_.read(now_ns);
+  if (asked_clutch_) state.buttons |= messages::kClutchButton;
   const Vec3 on_table_m = to_vec3(state.stylus_position_world_m);
   if (!on_table_m.allFinite()) return state;  // the loop sees what is wrong with it
   const double dt_s = now_ns > last_ns_ ? std::min(1e-9 * static_cast<double>(now_ns - last_ns_), kLongestTick_s) : 0.0;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <string>
 
 #include "core/vector.h"
@@ -40,6 +42,11 @@ class PlacedDevice : public Device {
   messages::DeviceState read(std::uint64_t now_ns) noexcept override;
   void write(const messages::DeviceCommand& command) noexcept override;
 
+  /// Any thread. Held: as if the device's own clutch button were down, for devices that have too few.
+  void ask_clutch(bool held) noexcept { asked_clutch_ = held; }
+  /// Any thread: whether the last read() found it held, here or on the device.
+  bool is_clutched() const noexcept { return is_clutched_; }
+
  private:
   void follow_clutch(bool clutched, const Vec3& on_table_m) noexcept;
   void drive_bubble(const Vec3& on_table_m, double dt_s) noexcept;
@@ -51,7 +58,8 @@ class PlacedDevice : public Device {
   DeviceProfile profile_;
   Vec3 middle_m_;  // of the workspace, in the world
   Vec3 held_at_m_ = Vec3::Zero();
-  bool is_clutched_ = false;
+  std::atomic<bool> asked_clutch_{false};
+  std::atomic<bool> is_clutched_{false};
   bool feels_force_ = false;
   std::uint64_t last_ns_ = 0;
 };

@@ -6,6 +6,7 @@
 #include <imgui.h>
 #include <nlohmann/json.hpp>
 
+#include "view/panels/device_part.h"
 #include "view/ui/controls.h"
 
 namespace myotact::view {
@@ -46,7 +47,7 @@ Json scene_json(const ViewControls& controls) {
   const char* drive = scene.drive == Drive::Script ? "script" : scene.drive == Drive::Levels ? "levels" : "balance";
   return {{"drive", drive},           {"flexors", scene.flexors},       {"extensors", scene.extensors},
           {"common", scene.common},   {"difference", scene.difference}, {"hold_posture", scene.hold_posture},
-          {"gravity", scene.gravity}, {"paused", controls.paused}};
+          {"gravity", scene.gravity}, {"paused", controls.paused},      {"clutch", controls.clutch}};
 }
 
 Json frame_json(const PanelContext& context) {
@@ -64,6 +65,20 @@ Json frame_json(const PanelContext& context) {
                      {"forces_stopped", tool.forces_stopped}});
   }
   return {{"time_s", context.frame.time_s}, {"notice", context.frame.notice}, {"joints", joints}, {"tools", tools}};
+}
+
+Json devices_json(const std::vector<DeviceNews>& devices) {
+  Json all = Json::array();
+  for (const DeviceNews& device : devices) {
+    all.push_back({{"name", device.name},
+                   {"hand", device.left ? "left" : "right"},
+                   {"phase", phase_name(device.report.phase)},
+                   {"rate_hz", device.report.rate_Hz},
+                   {"warmth", device.report.warmth},
+                   {"hint", device.report.hint},
+                   {"clutched", device.clutched}});
+  }
+  return all;
 }
 
 /// Where the middles of muscles' skins and lines are on the screen [pixels of the window], whatever hides them.
@@ -113,6 +128,7 @@ std::string describe(const PanelContext& context, const Layout& layout, const Sh
               {"scene", scene_json(context.controls)},
               {"frame", frame_json(context)},
               {"pictures_per_s", ImGui::GetIO().Framerate},
+              {"devices", devices_json(context.news.devices)},
               {"places", places_json(context, layout.scene)},
               {"scene_box", {scene.x, scene.y, scene.width, scene.height}},
               {"controls", controls}}

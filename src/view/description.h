@@ -15,7 +15,7 @@ struct ShownMoment {
 };
 
 /// What a picture showed, as JSON: parts that are selected, hidden and faded by key, what is set of the scene, what the
-/// frame holds of joints and tools, the controls with their places, and the picture's number.
+/// frame holds of joints and tools, the devices on the table, the controls with their places, and the picture's number.
 std::string describe(const PanelContext& context, const Layout& layout, const ShownMoment& moment);
 
 }  // namespace myotact::view

@@ -40,7 +40,7 @@ std::string bare_name(int key) {
 }  // namespace
 
 bool is_held(KeyAction action) {
-  return action == KeyAction::GrabLine || action == KeyAction::GrabBone;
+  return action == KeyAction::GrabLine || action == KeyAction::GrabBone || action == KeyAction::Clutch;
 }
 
 std::string key_name(int key, int mods) {
@@ -72,6 +72,7 @@ const std::vector<KeyBinding>& key_bindings() {
       {GLFW_KEY_P, 0, KeyAction::Pull, "keys.pull"},
       {GLFW_KEY_G, 0, KeyAction::GrabLine, "keys.grab_line"},
       {GLFW_KEY_B, 0, KeyAction::GrabBone, "keys.grab_bone"},
+      {GLFW_KEY_C, 0, KeyAction::Clutch, "keys.clutch"},
       {GLFW_KEY_1, 0, KeyAction::Lateral, "keys.lateral"},
       {GLFW_KEY_2, 0, KeyAction::Medial, "keys.medial"},
       {GLFW_KEY_3, 0, KeyAction::Cranial, "keys.cranial"},

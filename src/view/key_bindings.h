@@ -32,6 +32,7 @@ enum class KeyAction {
   Redo,
   GrabLine,
   GrabBone,
+  Clutch,
   StopForces,
   EnableForces,
   Screenshot,

@@ -12,6 +12,7 @@
 #include "view/description.h"
 #include "view/limb_bounds.h"
 #include "view/panels/class_panel.h"
+#include "view/panels/device_part.h"
 #include "view/panels/help.h"
 #include "view/panels/see_panel.h"
 #include "view/panels/status_bar.h"
@@ -205,12 +206,12 @@ void ShownScene::draw_panels(const messages::SceneFrame& now, GlfwWindow& window
   pointer_.free_orbit = settings.free_orbit;
   pointer_.preset = settings.mouse;
   if (area_step_ != 0) focus_next_area(layout_, std::exchange(area_step_, 0));
+  hold_buttons(window);
   draw_areas(present);
   if (asks.free_orbit) {
     settings.free_orbit = pointer_.free_orbit;
     keep(settings, message);
   }
-  hold_buttons(window);
   handle_keys(asks, window);
   if (!(timeline_.looks_back() || replays()) || pointer_.mode() == PointerMode::Look) {  // the past cannot be touched
     pointer_.update(seen, layout_.scene, renderer_.superficial());
@@ -229,6 +230,7 @@ void ShownScene::draw_panels(const messages::SceneFrame& now, GlfwWindow& window
                 *ImGui::GetBackgroundDrawList());
   timeline_.draw_past_banner(layout_.scene);
   if (replays()) draw_banner(layout_.scene, ui::tr("keep.replaying"));
+  if (is_clutched(present) && !timeline_.looks_back()) draw_banner(layout_.scene, ui::tr("devices.clutched"));
 }
 
 /// The scene's area is given in the window's pixels from the top, the framebuffer's from below.

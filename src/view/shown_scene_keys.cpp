@@ -134,6 +134,7 @@ void ShownScene::act(KeyAction action, WindowAsks& asks, GlfwWindow& window) {
       return window.toggle_full_screen();
     case KeyAction::GrabLine:
     case KeyAction::GrabBone:
+    case KeyAction::Clutch:
       return;  // held: read in hold_buttons()
     default:
       asks.standard_view = view_of(action);
@@ -155,12 +156,16 @@ void ShownScene::handle_keys(WindowAsks& asks, GlfwWindow& window) {
   }
 }
 
+/// Before the panels, where the clutch may be held too.
 void ShownScene::hold_buttons(const GlfwWindow& window) {
   controls_.hand_buttons = 0;
+  controls_.clutch = false;
   if (ImGui::GetIO().WantTextInput) return;
   for (const KeyBinding& binding : keys_) {
     if (!is_held(binding.action) || !window.is_down(binding.key)) continue;
-    controls_.hand_buttons |= binding.action == KeyAction::GrabLine ? messages::kGrabButton : messages::kGrabBoneButton;
+    if (binding.action == KeyAction::GrabLine) controls_.hand_buttons |= messages::kGrabButton;
+    if (binding.action == KeyAction::GrabBone) controls_.hand_buttons |= messages::kGrabBoneButton;
+    if (binding.action == KeyAction::Clutch) controls_.clutch = !news.devices.empty();
   }
 }
 

@@ -21,6 +21,7 @@ struct ViewControls {
   bool hand_moves = false;           // the mouse is the hand now
   std::array<double, 3> hand_world_m{};
   std::uint32_t hand_buttons = 0;
+  bool clutch = false;  // held: hands on devices move, their tools stay
 };
 
 }  // namespace myotact::view

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "view/panels/device_part.h"
 #include "view/part_actions.h"
 #include "view/tool_drawing.h"
 #include "view/ui/controls.h"
@@ -117,6 +118,13 @@ void FeelPanel::draw_gauge(const messages::ToolFrame& tool) {
 }
 
 void FeelPanel::draw(PanelContext& context) {
+  const bool on_table = !context.news.devices.empty();
+  if (on_table) draw_devices(context);
+  draw_tools(context);
+  if (!on_table) draw_devices(context);  // nothing to know there
+}
+
+void FeelPanel::draw_tools(PanelContext& context) {
   const auto& tools = context.frame.tools;
   for (std::size_t t = 0; t < tools.size() && t < context.facts.device_peaks_N.size(); ++t) {
     draw_force(tools[t], context.facts.device_peaks_N[t], tools.size() == 1);

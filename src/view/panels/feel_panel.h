@@ -7,7 +7,8 @@
 
 namespace myotact::view {
 
-/// What the hand feels now, beside what its device can give and what the teacher wants, and of what it is made.
+/// What the hand feels now, beside what its device can give and what the teacher wants, and of what it is made; how the
+/// devices on the table are.
 class FeelPanel {
  public:
   explicit FeelPanel(const anatomy::Specimen& specimen) : map_(specimen) {}
@@ -18,6 +19,7 @@ class FeelPanel {
   const PressureMap& map() const { return map_; }
 
  private:
+  void draw_tools(PanelContext& context);
   void draw_gauge(const messages::ToolFrame& tool);
 
   PressureMap map_;

@@ -4,6 +4,7 @@
 
 #include <imgui.h>
 
+#include "view/panels/device_part.h"
 #include "view/ui/controls.h"
 #include "view/ui/text.h"
 
@@ -35,12 +36,28 @@ void NewsStrip::draw_too_slow(PanelContext& context) const {
   if (ui::button("news.use_lines")) context.asks.wish = SceneWish{context.facts.file, "line", {}};
 }
 
+void NewsStrip::draw_devices(const PanelContext& context) const {
+  for (const DeviceNews& device : context.news.devices) {
+    if (!wants_a_person(device.report)) continue;
+    const std::string text = sentence_about(device);
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_PlotHistogramHovered));
+    ui::paragraph(text);
+    ImGui::PopStyleColor();
+    ui::note_control("news.device", text);
+  }
+}
+
 void NewsStrip::draw(PanelContext& context, const Area& scene, std::string& message) {
   count_slow_time(context);
   const bool slow = slow_s_ > kPatience_s;
   const bool silent = context.news.silence_s > kSilence_s;
   const std::string& notice = context.frame.notice;
-  if (scene.empty() || (message.empty() && !context.news.opening && notice.empty() && !slow && !silent)) return;
+  const std::vector<DeviceNews>& devices = context.news.devices;
+  const bool waits =
+      std::any_of(devices.begin(), devices.end(), [](const auto& d) { return wants_a_person(d.report); });
+  if (scene.empty() || (message.empty() && !context.news.opening && notice.empty() && !slow && !silent && !waits)) {
+    return;
+  }
   const float em = ImGui::GetFontSize();
   constexpr float kWidest_em = 46.0f;  // a sentence in two lines or three
   const float width = std::min(scene.width, kWidest_em * em);
@@ -63,6 +80,7 @@ void NewsStrip::draw(PanelContext& context, const Area& scene, std::string& mess
     ui::note_control("news.silence", text);
   }
   if (slow && !silent) draw_too_slow(context);
+  draw_devices(context);
   if (!notice.empty()) ui::paragraph(notice);  // last: it comes and goes, and what is clicked must not move for it
   ImGui::End();
 }

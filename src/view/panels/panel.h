@@ -7,6 +7,7 @@
 
 #include "anatomy/part_facts.h"
 #include "anatomy/specimen.h"
+#include "messages/device_report.h"
 #include "messages/scene_frame.h"
 #include "view/joint_readings.h"
 #include "view/part.h"
@@ -35,11 +36,20 @@ struct SceneFacts {
   std::vector<std::string> scenes;  // that can be opened by name
 };
 
+/// Of one device on the table.
+struct DeviceNews {
+  std::string name;   // as --device takes it
+  bool left = false;  // hand
+  messages::DeviceReport report;
+  bool clutched = false;  // its clutch is held, here or on the device
+};
+
 /// What the session is about.
 struct SessionNews {
   bool recording = false;
-  bool opening = false;    // another scene is being built
-  double silence_s = 0.0;  // since the simulation told anything: a step that does not end
+  bool opening = false;                  // another scene is being built
+  double silence_s = 0.0;                // since the simulation told anything: a step that does not end
+  std::vector<DeviceNews> devices = {};  // on the table: neither mouse nor simulated ones
 };
 
 /// A scene to be opened.

@@ -1,33 +1,23 @@
 #include "view/panels/toolbar.h"
 
-#include <algorithm>
 #include <array>
 #include <utility>
 
 #include <imgui.h>
 
+#include "view/panels/force_buttons.h"
 #include "view/ui/controls.h"
 
 namespace myotact::view {
 
 namespace {
 
-bool forces_stopped(const messages::SceneFrame& frame) {
-  return std::any_of(frame.tools.begin(), frame.tools.end(),
-                     [](const messages::ToolFrame& tool) { return tool.forces_stopped; });
-}
-
-/// Red, and always at the same place.
+/// Always at the same place.
 void draw_force_switch(PanelContext& context) {
   const bool stopped = forces_stopped(context.frame);
-  const ImVec4 red(0.72f, 0.11f, 0.11f, 1.0f), brighter(0.85f, 0.16f, 0.16f, 1.0f);
-  ImGui::PushStyleColor(ImGuiCol_Button, red);
-  ImGui::PushStyleColor(ImGuiCol_ButtonHovered, brighter);
-  ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0f, 1.0f, 1.0f, 1.0f));
-  if (ui::button(stopped ? "toolbar.forces_on" : "toolbar.forces_off")) {
+  if (red_button(stopped ? "toolbar.forces_on" : "toolbar.forces_off")) {
     ++(stopped ? context.controls.arms : context.controls.stops);
   }
-  ImGui::PopStyleColor(3);
 }
 
 void draw_modes(Pointer& pointer) {

@@ -67,6 +67,13 @@ bool button(const char* key) {
   return pressed;
 }
 
+bool hold_button(const char* key) {
+  ImGui::Button(label(key).c_str());
+  const bool held = ImGui::IsItemActive();
+  finish(key, held ? "on" : "off");
+  return held;
+}
+
 bool toggle_button(const char* key, bool on) {
   if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
   const bool pressed = ImGui::Button(label(key).c_str());

@@ -11,6 +11,8 @@
 namespace myotact::view::ui {
 
 bool button(const char* key);
+/// True for as long as it is pressed.
+bool hold_button(const char* key);
 /// Looks pressed while `on`.
 bool toggle_button(const char* key, bool on);
 bool checkbox(const char* key, bool& value);
