@@ -78,6 +78,7 @@ view::WindowSettings Stage::window_settings(const Options& options) const {
   settings.facts.device_peaks_N.clear();
   for (const device::DeviceProfile& profile : hands_.profiles()) {
     settings.facts.device_peaks_N.push_back(profile.peak_force_N);
+    settings.facts.shows_force_only.push_back(profile.shows_force_only);
   }
   settings.hand_start_world_m = to_array(start_of_led_hand(scene_, hands_.led()));
   settings.start = start_of(scene_);

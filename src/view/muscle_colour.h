@@ -21,6 +21,7 @@ struct Legend {
   struct Entry {
     const char* key = "";  // of its text
     MuscleTint tint;
+    bool thread = false;  // in place of a colour: what joins hand and tool
   };
   const char* title_key = "";
   const char* unit_key = "";  // empty: without

@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include "view/seen_parts.h"
+#include "view/tool_drawing.h"
 #include "view/ui/text.h"
 
 namespace myotact::view {
@@ -87,6 +88,14 @@ void draw_swatch(const Sheet& sheet, const glm::vec2& corner, const glm::vec2& s
   sheet.list.AddRect(to_im(corner), to_im(corner + size), to_im(sheet.ink(), 0.45f));
 }
 
+/// As from a hand to its tool.
+void draw_thread(const Sheet& sheet, const glm::vec2& corner) {
+  const float em = sheet.em(), middle = corner.y + 0.5f * em;
+  const ImU32 colour = to_im(glm::vec3(kThread), kThread.a);
+  sheet.list.AddLine(ImVec2(corner.x, middle), ImVec2(corner.x + kSwatch * em, middle), colour, 0.1f * em);
+  sheet.list.AddCircleFilled(ImVec2(corner.x + kDot * em, middle), kDot * em, colour);
+}
+
 void draw_scale_of_colours(const Sheet& sheet, const Legend& legend, const glm::vec2& corner) {
   const float em = sheet.em();
   const auto steps = legend.scale.size() - 1;
@@ -127,7 +136,7 @@ float draw_legend(const Sheet& sheet, const Legend& legend) {
   if (!legend.scale.empty()) draw_scale_of_colours(sheet, legend, at);
   at.y += scale_height;
   for (const auto& entry : legend.entries) {
-    draw_swatch(sheet, at, {kSwatch * em, em}, entry.tint);
+    entry.thread ? draw_thread(sheet, at) : draw_swatch(sheet, at, {kSwatch * em, em}, entry.tint);
     sheet.write({at.x + (kSwatch + 0.5f) * em, at.y}, ui::tr(entry.key));
     at.y += row;
   }
@@ -233,7 +242,9 @@ void SceneOverlay::draw(const OverlaidScene& scene, const Area& area, ImDrawList
   if (area.empty()) return;
   const Sheet sheet{scene, area, list};
   list.PushClipRect(ImVec2(area.x, area.y), ImVec2(area.x + area.width, area.y + area.height));
-  const float legend_height = draw_legend(sheet, legend_of(scene.specimen, scene.view));
+  Legend legend = legend_of(scene.specimen, scene.view);
+  if (scene.tools_lag) legend.entries.push_back({"see.thread", {}, true});
+  const float legend_height = draw_legend(sheet, legend);
   if (!scene.view.names_hidden) draw_labels(sheet, legend_height, placed_, wishes_);
   draw_scale_bar(sheet);
   list.PopClipRect();

@@ -294,7 +294,15 @@ void SceneRenderer::draw_lines_and_tools(const Picture& picture) {
   scratch_.vertices.clear();
   scratch_.indices.clear();
   const glm::vec3 middle_m = 0.5f * (box_.lowest_m + box_.highest_m);
-  for (const messages::ToolFrame& tool : picture.frame.tools) add_tool(scratch_, tool, middle_m);
+  for (std::size_t t = 0; t < picture.frame.tools.size(); ++t) {
+    const messages::ToolFrame& tool = picture.frame.tools[t];
+    const auto& force_only = picture.extras.shows_force_only;
+    if (t < force_only.size() && force_only[t]) {
+      add_tool_held_back(scratch_, tool, picture.frame, middle_m);
+    } else {
+      add_tool(scratch_, tool, middle_m);
+    }
+  }
   upload_and_draw(tools_, GL_TRIANGLES);
   surface_program_.set("opacity", kSeenThroughLine);
   glDepthFunc(GL_GREATER);

@@ -32,6 +32,7 @@ struct SceneExtras {
   int joint = 0;  // whose stiffness is shared out among the muscles
   std::span<const SceneMark> marks;
   std::span<const std::vector<float>> pressures_Pa;  // muscles x skin vertices, for MuscleColour::Pressure
+  std::vector<bool> shows_force_only;                // as in SceneFacts
   glm::vec3 background{0.955f, 0.96f, 0.965f};
 };
 

@@ -226,8 +226,10 @@ void ShownScene::draw_panels(const messages::SceneFrame& now, GlfwWindow& window
   history_.note(state_, ImGui::IsAnyItemActive() || ImGui::IsAnyMouseDown() || turn_.share < 1.0f);
   ViewState named = state_.view;
   named.labels = named.labels || big_type_;
-  overlay_.draw({*specimen_, shown, named, renderer_.superficial(), {}, SceneExtras{}.background}, layout_.scene,
-                *ImGui::GetBackgroundDrawList());
+  const bool tools_lag = std::count(facts_.shows_force_only.begin(), facts_.shows_force_only.end(), true) > 0 &&
+                         (controls_.hand_moves || !news.devices.empty());
+  overlay_.draw({*specimen_, shown, named, renderer_.superficial(), {}, SceneExtras{}.background, tools_lag},
+                layout_.scene, *ImGui::GetBackgroundDrawList());
   timeline_.draw_past_banner(layout_.scene);
   if (replays()) draw_banner(layout_.scene, ui::tr("keep.replaying"));
   if (is_clutched(present) && !timeline_.looks_back()) draw_banner(layout_.scene, ui::tr("devices.clutched"));
@@ -247,6 +249,7 @@ void ShownScene::draw_limb(int width, int height) {
   extras.joint = facts_.joint;
   extras.hovered = hovered_;
   extras.pressures_Pa = feel_.map().peaks_Pa();
+  extras.shows_force_only = facts_.shows_force_only;
   renderer_.draw(*shown_, state_.view, viewport(width, height), extras);
 }
 

@@ -1,7 +1,10 @@
 #include "view/tool_drawing.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include "view/posing.h"
 
@@ -12,9 +15,10 @@ namespace {
 // Okabe-Ito, which the colour-blind can tell apart.
 constexpr glm::vec3 kRight{0.00f, 0.62f, 0.45f}, kLeft{0.00f, 0.45f, 0.70f};
 constexpr glm::vec4 kRightForce{0.84f, 0.37f, 0.00f, 1.0f}, kLeftForce{0.80f, 0.47f, 0.65f, 1.0f};
-constexpr glm::vec4 kDevice{0.10f, 0.10f, 0.12f, 0.55f};
 constexpr glm::vec4 kGrip{0.80f, 0.18f, 0.12f, 1.0f};
 constexpr float kRod_m = 0.9e-3f;                                 // radius of what joins hand and grip
+constexpr float kThread_m = 0.5e-3f;                              // radius of what joins hand and tool
+constexpr float kGrip_N_m = 300.0f;                               // grab_stiffness_N_m of haptics/muscle_line_drag
 constexpr float kConeLength_m = 0.035f, kConeRadius_m = 3.5e-3f;  // of a stylus
 constexpr float kJawLength_m = 0.018f, kShaftLength_m = 0.045f;   // of a clamp
 constexpr float kThinnestArrow_m = 0.9e-3f, kJawRadius_m = 1.4e-3f;
@@ -60,6 +64,25 @@ void add_body(DrawMesh& mesh, const messages::ToolFrame& tool, const glm::vec3& 
   }
 }
 
+glm::vec3 nearest_on(const std::vector<std::array<double, 3>>& line_m, const glm::vec3& place_m) {
+  glm::vec3 nearest_m = to_glm(line_m.front());
+  for (std::size_t i = 0; i + 1 < line_m.size(); ++i) {
+    const glm::vec3 from_m = to_glm(line_m[i]), way_m = to_glm(line_m[i + 1]) - from_m;
+    const float share = glm::dot(place_m - from_m, way_m) / std::max(glm::dot(way_m, way_m), 1e-12f);
+    const glm::vec3 there_m = from_m + std::clamp(share, 0.0f, 1.0f) * way_m;
+    if (glm::distance(there_m, place_m) < glm::distance(nearest_m, place_m)) nearest_m = there_m;
+  }
+  return nearest_m;
+}
+
+/// From the hand to the tool that holds a line: as the simulated grip gives way, but no farther than the line at rest,
+/// which lies `way_m` from the hand.
+glm::vec3 lag_m(const messages::ToolFrame& tool, const glm::vec3& way_m) {
+  const glm::vec3 force_N = to_glm(tool.parts.line) / static_cast<float>(std::max(tool.force_scale, 1e-6));
+  const float length_m = glm::length(force_N) / kGrip_N_m, farthest_m = glm::length(way_m);
+  return length_m > farthest_m ? way_m : force_N / kGrip_N_m;
+}
+
 }  // namespace
 
 glm::vec3 tool_colour(const messages::ToolFrame& tool) {
@@ -70,14 +93,27 @@ void add_tool(DrawMesh& mesh, const messages::ToolFrame& tool, const glm::vec3& 
   const glm::vec3 proxy_m = to_glm(tool.proxy_world_m), device_m = to_glm(tool.tool_world_m);
   const auto radius_m = static_cast<float>(tool.radius_m);
   add_body(mesh, tool, middle_m);
-  add_sphere(mesh, device_m, 0.6f * radius_m, kDevice);
+  add_sphere(mesh, device_m, 0.6f * radius_m, kThread);
   if (tool.grabbed_body >= 0) {
     const glm::vec3 grip_m = to_glm(tool.grip_world_m);
     add_sphere(mesh, grip_m, radius_m, kGrip);
-    add_tube(mesh, grip_m, device_m, kRod_m, kDevice);
+    add_tube(mesh, grip_m, device_m, kRod_m, kThread);
   }
   add_arrow(mesh, proxy_m, proxy_m + kArrowLength_m_N * to_glm(tool.force_world_N),
             std::max(0.4f * radius_m, kThinnestArrow_m), tool.left ? kLeftForce : kRightForce);
+}
+
+void add_tool_held_back(DrawMesh& mesh, const messages::ToolFrame& tool, const messages::SceneFrame& frame,
+                        const glm::vec3& middle_m) {
+  messages::ToolFrame held = tool;
+  if (const auto line = static_cast<std::size_t>(tool.grabbed_line);
+      tool.grabbed_line >= 0 && line < frame.lines_world_m.size() && !frame.lines_world_m[line].empty()) {
+    const glm::vec3 hand_m = to_glm(tool.tool_world_m);
+    const glm::vec3 place_m = hand_m + lag_m(tool, nearest_on(frame.lines_world_m[line], hand_m) - hand_m);
+    held.proxy_world_m = {double(place_m.x), double(place_m.y), double(place_m.z)};
+  }
+  add_tool(mesh, held, middle_m);
+  add_thread(mesh, to_glm(held.proxy_world_m), to_glm(held.tool_world_m), kThread_m, kThread);
 }
 
 }  // namespace myotact::view

@@ -94,7 +94,8 @@ void GuiTest::SetUp() {
   if (!missing.empty()) GTEST_SKIP() << "not installed:" << missing << " (packages xvfb, xdotool, imagemagick)";
 }
 
-GuiProgram::GuiProgram(const std::string& name, const std::string& arguments, const std::string& environment)
+GuiProgram::GuiProgram(const std::string& name, const std::string& arguments, const std::string& environment,
+                       const std::string& program)
     : folder_(std::filesystem::path(MYOTACT_GUI_PICTURES) / name) {
   std::filesystem::remove_all(folder_);
   std::filesystem::create_directories(folder_ / "home");
@@ -110,8 +111,8 @@ GuiProgram::GuiProgram(const std::string& name, const std::string& arguments, co
   std::ofstream(folder_ / "home/config/myotact/settings.json") << R"({"schema": 1, "tour_done": true})";
   program_ = std::make_unique<Child>(
       "env DISPLAY=" + display_name_ + " HOME=" + home + " XDG_CONFIG_HOME=" + home + "/config XDG_DATA_HOME=" + home +
-          "/data XDG_STATE_HOME=" + home + "/state " + environment + " " + MYOTACT_PROGRAM + " view " + arguments +
-          " --out " + (folder_ / "out").string() + " --report-state " + (folder_ / "state.json").string(),
+          "/data XDG_STATE_HOME=" + home + "/state " + environment + " " + program + " view " + arguments + " --out " +
+          (folder_ / "out").string() + " --report-state " + (folder_ / "state.json").string(),
       folder_ / "log");
   const bool drawn = wait_for([&] { return !program_->running() || !state().is_null(); }, 120.0);
   if (!drawn || !program_->running()) throw std::runtime_error("no window: " + log());

@@ -44,7 +44,9 @@ class GuiProgram {
  public:
   /// `name`: of the folder that keeps its pictures and logs. Waits until the first pictures are drawn.
   /// The display has 1280 x 800 pixels. Throws when there is no window after two minutes.
-  GuiProgram(const std::string& name, const std::string& arguments, const std::string& environment = "");
+  /// `program`: in place of myotact, with the same arguments.
+  GuiProgram(const std::string& name, const std::string& arguments, const std::string& environment = "",
+             const std::string& program = MYOTACT_PROGRAM);
 
   /// What it shows now: of the newest report.
   nlohmann::json state() const;

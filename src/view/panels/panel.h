@@ -30,6 +30,7 @@ struct SceneFacts {
   std::string tissue;                       // of all muscles, as asked for; empty: as the scene says
   std::string note;                         // what a person should know about its settings
   std::vector<double> device_peaks_N{3.3};  // of the tools' devices
+  std::vector<bool> shows_force_only;       // of the tools' devices, as of a mouse; none: all move the hand
   double replay_s = 0.0;                    // length of the recording that is played; 0: the scene is simulated
   int joint = 0;                            // that is watched: co-contracted, or the first
   std::vector<Preset> presets;

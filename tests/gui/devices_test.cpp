@@ -1,0 +1,109 @@
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "gui/gui_program.h"
+
+// What the window shows of devices on the table, and what a person does to them there. The devices are those of
+// device_window.cpp.
+
+namespace myotact {
+namespace {
+
+using nlohmann::json;
+using testing::GuiProgram;
+
+class DevicesTest : public testing::GuiTest {};
+
+bool clutched(const json& state) {
+  return state["scene"]["clutch"].get<bool>();
+}
+
+bool stopped(const json& state) {
+  return state["frame"]["tools"][0]["forces_stopped"].get<bool>();
+}
+
+std::string box_text(const json& state, const std::string& control) {
+  for (const json& shown : state["controls"]) {
+    if (shown["key"] == control) return shown["box"].dump();
+  }
+  return "";
+}
+
+TEST_F(DevicesTest, OneThatIsGoneIsToldOnEveryTabAndInEveryLanguage) {
+  GuiProgram gui("devices", "", "", MYOTACT_DEVICE_WINDOW);
+  ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.shows("devices.warmth"); }));
+  EXPECT_EQ(gui.value_of("devices.hint"), "Plug the Falcon in again, with its power.");
+  EXPECT_EQ(gui.value_of("devices.warmth"), "0.62");
+  EXPECT_EQ(gui.state()["devices"][0]["phase"], "lost");
+  EXPECT_EQ(gui.state()["devices"][1]["hand"], "left");
+  gui.screenshot("english");
+  gui.resize(900, 600);
+  EXPECT_TRUE(gui.shows("devices.hint") && gui.shows("devices.stop") && gui.shows("devices.clutch"));
+  gui.screenshot("english_small");
+  gui.resize(1280, 800);
+  gui.key("ctrl+6");
+  EXPECT_TRUE(gui.wait_until([&](const json&) { return !gui.shows("devices.hint") && gui.shows("news.device"); }));
+  gui.click("comfort.language");
+  gui.click("comfort.language.de");
+  EXPECT_TRUE(gui.wait_until([&](const json&) {
+    return gui.value_of("news.device").find("Stecken Sie den Falcon wieder ein") != std::string::npos;
+  }));
+  gui.key("ctrl+1");
+  ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.shows("devices.hint"); }));
+  gui.screenshot("german");
+  gui.resize(900, 600);
+  gui.screenshot("german_small");
+}
+
+TEST_F(DevicesTest, TheClutchIsHeldByButtonOrKeyAndNotByALetterThatIsTyped) {
+  GuiProgram gui("devices_clutch", "", "", MYOTACT_DEVICE_WINDOW);
+  ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.shows("devices.clutch"); }));
+  const json at = json::parse(box_text(gui.state(), "devices.clutch"));
+  gui.move_to(at[0].get<double>() + 5.0, at[1].get<double>() + 5.0);
+  EXPECT_FALSE(clutched(gui.state()));
+  gui.press();
+  EXPECT_TRUE(gui.wait_until(clutched));
+  EXPECT_TRUE(gui.shows("devices.clutched"));
+  gui.screenshot("held");
+  gui.release();
+  EXPECT_TRUE(gui.wait_until([](const json& state) { return !clutched(state); }));
+  gui.key_down("c");
+  EXPECT_TRUE(gui.wait_until(clutched));
+  gui.key_up("c");
+  EXPECT_TRUE(gui.wait_until([](const json& state) { return !clutched(state); }));
+  gui.click("find.search");
+  gui.key_down("c");
+  EXPECT_FALSE(clutched(gui.state()));
+  gui.key_up("c");
+}
+
+TEST_F(DevicesTest, ForcesAreStoppedAndEnabledBesideTheDevices) {
+  GuiProgram gui("devices_stop", "", "", MYOTACT_DEVICE_WINDOW);
+  gui.click("devices.arm");  // nothing to enable
+  EXPECT_FALSE(stopped(gui.state()));
+  gui.click("devices.stop");
+  EXPECT_TRUE(gui.wait_until(stopped));
+  EXPECT_TRUE(gui.shows("toolbar.forces_on"));
+  gui.click("devices.stop");  // once more changes nothing
+  EXPECT_TRUE(stopped(gui.state()));
+  gui.click("devices.arm");
+  EXPECT_TRUE(gui.wait_until([](const json& state) { return !stopped(state); }));
+}
+
+TEST_F(DevicesTest, WithoutAnyTheClutchDoesNothing) {
+  GuiProgram gui("no_devices", "particle");
+  ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.shows("devices.clutch"); }));
+  EXPECT_TRUE(gui.state()["devices"].empty());
+  gui.key_down("c");
+  EXPECT_FALSE(clutched(gui.state()));
+  gui.key_up("c");
+  const json at = json::parse(box_text(gui.state(), "devices.clutch"));
+  gui.move_to(at[0].get<double>() + 5.0, at[1].get<double>() + 5.0);
+  gui.press();
+  EXPECT_FALSE(clutched(gui.state()));
+  gui.release();
+}
+
+}  // namespace
+}  // namespace myotact
