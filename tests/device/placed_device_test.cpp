@@ -117,6 +117,33 @@ TEST(PlacedDevice, TheToolStaysWhileTheClutchIsHeldAndGoesOnFromThere) {
   EXPECT_NEAR((placed.read() - before_m).norm(), 0.02, 1e-12);
 }
 
+TEST(PlacedDevice, AClutchThatIsAskedForIsTheButtonOfTheDevice) {
+  Placed placed(turned(2.0));
+  placed.table.put({0.05, 0.0, 0.0}, messages::kGrabButton);
+  const Vec3 before_m = placed.read();
+  EXPECT_FALSE(placed.device.is_clutched());
+  placed.device.ask_clutch(true);
+  for (int tick = 0; tick < 100; ++tick) {
+    placed.table.put({0.05 - 1e-3 * tick, 0.0, 0.0}, messages::kGrabButton);
+    EXPECT_TRUE(placed.read().isApprox(before_m, 1e-12)) << tick;
+  }
+  EXPECT_TRUE(placed.device.is_clutched());
+  EXPECT_EQ(placed.device.read(placed.now_ns).buttons, messages::kGrabButton | messages::kClutchButton);
+  placed.device.ask_clutch(false);
+  EXPECT_TRUE(placed.read().isApprox(before_m, 1e-12));
+  EXPECT_FALSE(placed.device.is_clutched());
+  placed.table.put({-0.039, 0.0, 0.0}, messages::kClutchButton);  // the device's own goes on working
+  placed.read();
+  EXPECT_TRUE(placed.device.is_clutched());
+}
+
+TEST(PlacedDevice, AClutchThatIsAskedForReachesTheGateWhateverThePositionIs) {
+  Placed placed(turned(2.0));
+  placed.table.put({std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0});
+  placed.device.ask_clutch(true);
+  EXPECT_EQ(placed.device.read(placed.now_ns).buttons, messages::kClutchButton);
+}
+
 Placement bubble(double radius_m) {
   Placement placement;
   placement.bubble_radius_m = radius_m;

@@ -63,6 +63,15 @@ TEST(ChosenKeysOfSettings, TakeThePlaceOfTheFirstOnes) {
   EXPECT_EQ(binding_of(exchanged, GLFW_KEY_Z, GLFW_MOD_CONTROL)->action, KeyAction::Redo);
 }
 
+TEST(ChosenKeysOfSettings, MoveTheClutchWhichStaysOneToBeHeld) {
+  const std::vector<KeyBinding> bindings = bindings_with(read(R"({"clutch": "X"})"));
+  const KeyBinding* clutch = binding_of(bindings, GLFW_KEY_X, 0);
+  ASSERT_NE(clutch, nullptr);
+  EXPECT_EQ(clutch->action, KeyAction::Clutch);
+  EXPECT_EQ(name_of(*clutch), "X (hold)");
+  EXPECT_EQ(binding_of(bindings, GLFW_KEY_C, 0), nullptr);
+}
+
 TEST(ChosenKeysOfSettings, ThatCannotBeAreRefusedByName) {
   EXPECT_NE(error_of(R"({"serach": "F7"})").find("\"serach\""), std::string::npos);
   EXPECT_NE(error_of(R"({"search": "Strg+K"})").find("\"Strg+K\" is no key"), std::string::npos);
@@ -72,6 +81,7 @@ TEST(ChosenKeysOfSettings, ThatCannotBeAreRefusedByName) {
   EXPECT_NE(error_of(R"({"search": "Shift+Esc"})"), "");         // Esc stops the forces with any modifier
   EXPECT_NE(error_of(R"({"stop_forces": "F7"})"), "");           // stays where everyone finds it
   EXPECT_NE(error_of(R"({"grab_line": "Ctrl+K"})"), "");         // is held while Ctrl moves the hand
+  EXPECT_NE(error_of(R"({"clutch": "Ctrl+K"})"), "");            // is held, too
   EXPECT_NE(error_of(R"([])"), "");
 }
 

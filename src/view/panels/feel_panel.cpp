@@ -45,6 +45,12 @@ std::string bones_of(const PanelContext& context, int body) {
   return names;
 }
 
+/// A device on the table is in that hand; else the mouse is, and has to be told how.
+bool is_on_table(const PanelContext& context, const messages::ToolFrame& tool) {
+  const std::vector<DeviceNews>& devices = context.news.devices;
+  return std::any_of(devices.begin(), devices.end(), [&](const DeviceNews& d) { return d.left == tool.left; });
+}
+
 /// What is touched or held, in words.
 void draw_touched(const PanelContext& context, const messages::ToolFrame& tool) {
   const auto name = [&](PartKind kind, int index) { return name_of(context.specimen, {kind, index}, context.view); };
@@ -55,8 +61,13 @@ void draw_touched(const PanelContext& context, const messages::ToolFrame& tool) 
   if (tool.grabbed_body >= 0) return ui::paragraph(ui::tr("feel.holds_bone"));
   if (tool.touched_muscle >= 0)
     return ui::paragraph(ui::tr("feel.touches", name(PartKind::Muscle, tool.touched_muscle)));
-  if (!context.frame.springs_world_m.empty()) return ui::paragraph(ui::tr("feel.on_spring"));
-  if (!tool.in_contact) return ui::paragraph(ui::tr("feel.touches_nothing"));
+  const bool on_table = is_on_table(context, tool);
+  if (!context.frame.springs_world_m.empty()) {
+    return ui::paragraph(ui::tr(on_table ? "feel.device_on_spring" : "feel.on_spring"));
+  }
+  if (!tool.in_contact) {
+    return ui::paragraph(ui::tr(on_table ? "feel.device_touches_nothing" : "feel.touches_nothing"));
+  }
   ui::paragraph(ui::tr("feel.touches_bone", bones_of(context, tool.touched_body)));
 }
 
@@ -119,7 +130,10 @@ void FeelPanel::draw_gauge(const messages::ToolFrame& tool) {
 
 void FeelPanel::draw(PanelContext& context) {
   const bool on_table = !context.news.devices.empty();
-  if (on_table) draw_devices(context);
+  if (on_table) {
+    draw_devices(context);
+    ImGui::Spacing();
+  }
   draw_tools(context);
   if (!on_table) draw_devices(context);  // nothing to know there
 }
