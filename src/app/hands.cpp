@@ -11,8 +11,8 @@ Hands::Hands(const scene::Scene& scene, std::size_t led, GuardedMotors& guarded,
     if (t == led) {
       devices_.push_back({&mouse_});
     } else if (equipment.has(name)) {
-      placed_.push_back(equipment.place(name, scene, t));
-      devices_.push_back({placed_.back().get()});
+      placed_.push_back({&equipment.device(name), equipment.place(name, scene, t), t});
+      devices_.push_back({placed_.back().in_world.get()});
     } else {
       simulated_.push_back(std::make_unique<device::SimulatedDevice>(name, scene::start_of_hand(scene, t),
                                                                      device::simulated_profile(name)));
@@ -26,6 +26,19 @@ std::vector<device::DeviceProfile> Hands::profiles() const {
   std::vector<device::DeviceProfile> profiles;
   for (const scene::ToolDevice& tool : devices_) profiles.push_back(tool.device->profile());
   return profiles;
+}
+
+std::vector<view::DeviceNews> Hands::news(const scene::Scene& scene) const {
+  std::vector<view::DeviceNews> news;
+  for (const Placed& placed : placed_) {
+    news.push_back({placed.device->name(), scene.tools[placed.tool].hand == "left", placed.device->report(),
+                    placed.in_world->is_clutched()});
+  }
+  return news;
+}
+
+void Hands::ask_clutch(bool held) const {
+  for (const Placed& placed : placed_) placed.in_world->ask_clutch(held);
 }
 
 bool is_persons(const scene::Scene& scene, std::size_t tool, std::size_t led) {

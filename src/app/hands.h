@@ -10,6 +10,7 @@
 #include "device/placed_device.h"
 #include "device/simulated_device.h"
 #include "scene/free_session.h"
+#include "view/panels/panel.h"
 
 namespace myotact::app {
 
@@ -24,13 +25,22 @@ class Hands {
   std::vector<device::DeviceProfile> profiles() const;
   device::MouseDevice& mouse() { return mouse_; }
   std::size_t led() const { return led_; }
+  /// What the window shows of those on the table. `scene`: the one that these are for.
+  std::vector<view::DeviceNews> news(const scene::Scene& scene) const;
+  /// Of those on the table, as if held on the device itself.
+  void ask_clutch(bool held) const;
   bool has_simulated() const { return !simulated_.empty(); }
 
  private:
   std::size_t led_;
   device::MouseDevice mouse_;
   std::vector<std::unique_ptr<device::SimulatedDevice>> simulated_;
-  std::vector<std::unique_ptr<device::PlacedDevice>> placed_;
+  struct Placed {
+    device::HardwareDevice* device;
+    std::unique_ptr<device::PlacedDevice> in_world;
+    std::size_t tool;
+  };
+  std::vector<Placed> placed_;
   std::vector<scene::ToolDevice> devices_;
 };
 

@@ -63,6 +63,7 @@ Stage::Stage(const Options& options, GuardedMotors& guarded, const Equipment& eq
 Stage::~Stage() = default;
 
 void Stage::move_hand(const view::ViewControls& controls) {
+  hands_.ask_clutch(controls.clutch);
   hands_.mouse().set_pointer(to_vec3(controls.hand_world_m), controls.hand_buttons);
 }
 

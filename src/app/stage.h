@@ -26,6 +26,7 @@ class Stage {
     return watch_.read(frame, common, session_);
   }
   void move_hand(const view::ViewControls& controls);
+  std::vector<view::DeviceNews> device_news() const { return hands_.news(scene_); }
   /// `options`: what it was made with.
   view::WindowSettings window_settings(const Options& options) const;
 

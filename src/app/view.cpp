@@ -225,7 +225,7 @@ class Performance {
     if (last) window_.save_next_picture(options_.out / "window.png");
     if (shown_.stage) {
       const double silence_s = std::chrono::duration<double>(since - heard_).count();
-      window_.set_news({shown_.stage->session().recording(), next_.valid(), silence_s});
+      window_.set_news({shown_.stage->session().recording(), next_.valid(), silence_s, shown_.stage->device_news()});
       window_.set_readings(shown_.stage->readings(frame_, common_));
     } else if (shown_) {
       window_.set_news({false, next_.valid(), 0.0});
