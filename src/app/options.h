@@ -22,6 +22,7 @@ struct Options {
   std::filesystem::path out = "out";
   std::optional<std::filesystem::path> record;
   std::optional<std::filesystem::path> session;       // view: a saved work to begin with
+  std::optional<std::string> camera;                  // view: the device that turns it
   std::optional<std::filesystem::path> report_state;  // view: what the window shows, as JSON, kept up to date
   bool json = false;
   std::string log_level = "info";

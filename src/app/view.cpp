@@ -11,6 +11,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "app/camera_device.h"
 #include "app/interruption.h"
 #include "app/mirror_stage.h"
 #include "app/options.h"
@@ -138,7 +139,9 @@ struct Built {
 class Performance {
  public:
   explicit Performance(const Options& options)
-      : options_(options), equipment_(options), report_(options.report_state), next_(begin()) {}
+      : options_(options), equipment_(options), report_(options.report_state), next_(begin()) {
+    if (options.camera) camera_.emplace(*options.camera, device_settings_of(options));
+  }
 
   ~Performance() {
     view::on_display_loss({});
@@ -230,6 +233,7 @@ class Performance {
     } else if (shown_) {
       window_.set_news({false, next_.valid(), 0.0});
     }
+    if (camera_) window_.push_view(camera_->push());
     const view::ViewControls& controls = window_.draw(frame_);
     if (shown_) report_.write(window_, frame_);
     leave_time_to_the_simulation(std::chrono::steady_clock::now() - since);
@@ -269,6 +273,7 @@ class Performance {
   GuardedMotors guarded_;                // first: the watchdog is forked off before there are threads
   Options options_;                      // of the command line
   Equipment equipment_;                  // opened once; scenes come and go
+  std::optional<CameraDevice> camera_;   // that turns the view
   Options building_;                     // of the newest stage
   std::optional<view::SavedWork> work_;  // that it is to begin with
   WindowReport report_;

@@ -51,6 +51,14 @@ void Camera::zoom(float factor) {
   distance_m = std::clamp(distance_m * factor, 0.02f, 20.0f);
 }
 
+void push_view(Camera& camera, const std::array<double, 3>& push, float dt_s) {
+  constexpr float kTurn_rad_s = 1.5f, kNearer_s = 1.2f;  // round the limb in four seconds, twice as near in half of one
+  const glm::vec3 part(static_cast<float>(push[0]), static_cast<float>(push[1]), static_cast<float>(push[2]));
+  if (part == glm::vec3(0.0f)) return;
+  camera.orbit(-kTurn_rad_s * dt_s * part.x, -kTurn_rad_s * dt_s * part.y);
+  camera.zoom(std::exp(-kNearer_s * dt_s * part.z));
+}
+
 Camera between(const Camera& from, const Camera& to, float share) {
   const auto mix = [&](auto a, auto b) { return a + share * (b - a); };
   Camera camera;

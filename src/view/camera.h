@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -35,6 +36,10 @@ struct Camera {
 struct ViewBox {
   glm::vec3 lowest_m{0.0f}, highest_m{0.0f};
 };
+
+/// What a device that turns the view does to it within `dt_s`, as if its cap were the limb: pushed to the right, up and
+/// towards the person, each -1 .. 1.
+void push_view(Camera& camera, const std::array<double, 3>& push, float dt_s);
 
 /// From the same side, so near and so placed that the box fills a picture of that width over height.
 Camera framed(const Camera& camera, const ViewBox& box, float aspect);

@@ -91,6 +91,12 @@ void ShownScene::go_on_turning() {
   state_.view.camera = between(turn_.from, turn_.to, turn_.share);
 }
 
+void ShownScene::push(const std::array<double, 3>& cap) {
+  if (cap == std::array<double, 3>{}) return;
+  turn_.share = 1.0f;
+  push_view(state_.view.camera, cap, ImGui::GetIO().DeltaTime);
+}
+
 void ShownScene::restore(const WorkState& earlier) {
   state_ = earlier;
   controls_.scene = earlier.scene;

@@ -63,6 +63,8 @@ class ShownScene {
   SessionNews news;
   std::string message;            // to be read by the person; empty: none
   std::optional<SceneWish> wish;  // of the person
+  /// By a device, for the time since the last picture.
+  void push(const std::array<double, 3>& cap);
   /// Saves the picture that the person asked for, and those of a film, from the framebuffer [pixels]; message says
   /// where.
   void take_picture(int width, int height);

@@ -96,6 +96,10 @@ void Window::set_news(const SessionNews& news) {
   if (impl_->scene) impl_->scene->news = news;
 }
 
+void Window::push_view(const std::array<double, 3>& cap) {
+  if (impl_->scene) impl_->scene->push(cap);
+}
+
 void Window::tell(const std::string& message) {
   (impl_->scene ? impl_->scene->message : impl_->message) = message;
 }

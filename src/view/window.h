@@ -41,6 +41,9 @@ class Window {
   /// What the panel says about the joint from the next picture on.
   void set_readings(const JointReadings& readings);
   void set_news(const SessionNews& news);
+  /// How far the cap of a device that turns the view is pushed: right, up, towards the person, each -1 .. 1. Once a
+  /// picture.
+  void push_view(const std::array<double, 3>& cap);
   /// A sentence for the person, shown until it has been read.
   void tell(const std::string& message);
   /// The scene that the person wants to be opened, once.

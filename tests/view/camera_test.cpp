@@ -51,5 +51,21 @@ TEST(ColourMap, RisesInBrightnessFromEndToEnd) {
   EXPECT_EQ(cividis(-1.0), cividis(0.0));
 }
 
+TEST(Camera, ADevicePushesTheViewAsIfItsCapWereTheLimb) {
+  Camera camera{{0.0f, 0.0f, 0.0f}, 0.5f, 0.1f, 1.0f};
+  const Camera before = camera;
+  push_view(camera, {0.0, 0.0, 0.0}, 0.1f);
+  EXPECT_EQ(camera, before);
+  push_view(camera, {1.0, 0.0, 0.0}, 0.1f);
+  EXPECT_LT(camera.azimuth_rad, before.azimuth_rad) << "to the right, as a drag to the right";
+  push_view(camera, {0.0, 1.0, 0.0}, 0.1f);
+  EXPECT_LT(camera.elevation_rad, before.elevation_rad);
+  push_view(camera, {0.0, 0.0, 1.0}, 0.1f);
+  EXPECT_LT(camera.distance_m, before.distance_m) << "towards the person: nearer";
+  for (int i = 0; i < 1000; ++i) push_view(camera, {1.0, 1.0, 1.0}, 0.1f);
+  EXPECT_GE(camera.elevation_rad, -Camera::kSteepest_rad);
+  EXPECT_GT(camera.distance_m, 0.0f);
+}
+
 }  // namespace
 }  // namespace myotact::view

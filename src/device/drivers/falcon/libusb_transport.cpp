@@ -19,6 +19,7 @@ constexpr unsigned kSendTimeout_ms = 50;
 constexpr auto kSendPatience = std::chrono::milliseconds(20);  // for one of the four sendings to land
 constexpr auto kLastSendPatience = std::chrono::milliseconds(100);
 constexpr auto kTakeBackPatience = std::chrono::seconds(1);
+constexpr auto kStallPatience = std::chrono::milliseconds(100);  // for the kernel to give back what it queued
 
 }  // namespace
 
@@ -38,7 +39,7 @@ LibusbTransport::LibusbTransport(UsbContext context, UsbHandle handle)
 
 LibusbTransport::~LibusbTransport() {
   const auto until = Clock::now() + kLastSendPatience;
-  while (any_sending_flies() && !is_gone_ && Clock::now() < until) handle_events(until);
+  while (any_flies(sendings_) && !is_gone_ && Clock::now() < until) handle_events(until);
   is_closing_ = true;
   const auto back = [](Flight& flight) {
     if (flight.flies) libusb_cancel_transfer(flight.transfer);
@@ -46,7 +47,7 @@ LibusbTransport::~LibusbTransport() {
   std::for_each(receipts_.begin(), receipts_.end(), back);
   std::for_each(sendings_.begin(), sendings_.end(), back);
   const auto end = Clock::now() + kTakeBackPatience;
-  while (any_flies() && Clock::now() < end) handle_events(end);
+  while ((any_flies(receipts_) || any_flies(sendings_)) && Clock::now() < end) handle_events(end);
   libusb_release_interface(handle_.get(), kUsbInterface);
   handle_.reset();  // what still flies is libusb's no more
   for (const Flight& flight : receipts_) libusb_free_transfer(flight.transfer);
@@ -65,7 +66,7 @@ void LibusbTransport::land(Flight& flight) noexcept {
     case LIBUSB_TRANSFER_COMPLETED:
       if (!is_receipt) return;
       keep(flight);
-      if (!is_closing_) fly(flight);
+      if (!is_closing_ && !in_is_stalled_) fly(flight);
       return;
     case LIBUSB_TRANSFER_NO_DEVICE:
       is_gone_ = true;
@@ -100,16 +101,25 @@ void LibusbTransport::queue_receipts() noexcept {
     if (!flight.flies && !is_gone_) fly(flight);
 }
 
-/// An endpoint that stalled takes nothing more until it is told to.
+void LibusbTransport::take_back(Flights& flights) noexcept {
+  for (Flight& flight : flights)
+    if (flight.flies) libusb_cancel_transfer(flight.transfer);
+  const auto until = Clock::now() + kStallPatience;
+  while (any_flies(flights) && Clock::now() < until) handle_events(until);
+}
+
+/// An endpoint that stalled takes nothing more until it is told to, which the kernel wants to hear while nothing is
+/// queued on it.
 void LibusbTransport::clear_stalls() noexcept {
-  const auto clear = [this](bool& is_stalled, unsigned char endpoint) {
+  const auto clear = [this](bool& is_stalled, unsigned char endpoint, Flights& flights) {
     if (!is_stalled) return;
+    take_back(flights);
     const int code = libusb_clear_halt(handle_.get(), endpoint);
     is_gone_ = is_gone_ || code == LIBUSB_ERROR_NO_DEVICE;
     is_stalled = code != LIBUSB_SUCCESS;
   };
-  clear(in_is_stalled_, kInEndpoint);
-  clear(out_is_stalled_, kOutEndpoint);
+  clear(in_is_stalled_, kInEndpoint, receipts_);
+  clear(out_is_stalled_, kOutEndpoint, sendings_);
 }
 
 void LibusbTransport::handle_events(Clock::time_point until) noexcept {
@@ -120,13 +130,8 @@ void LibusbTransport::handle_events(Clock::time_point until) noexcept {
   libusb_handle_events_timeout_completed(context_.get(), &most, nullptr);
 }
 
-bool LibusbTransport::any_sending_flies() const noexcept {
-  return std::any_of(sendings_.begin(), sendings_.end(), [](const Flight& flight) { return flight.flies; });
-}
-
-bool LibusbTransport::any_flies() const noexcept {
-  return any_sending_flies() ||
-         std::any_of(receipts_.begin(), receipts_.end(), [](const Flight& flight) { return flight.flies; });
+bool LibusbTransport::any_flies(const Flights& flights) noexcept {
+  return std::any_of(flights.begin(), flights.end(), [](const Flight& flight) { return flight.flies; });
 }
 
 bool LibusbTransport::request(std::uint8_t number, std::uint16_t value) noexcept {
@@ -160,8 +165,7 @@ std::size_t LibusbTransport::receive(std::span<std::uint8_t> bytes, std::chrono:
   const auto until = Clock::now() + patience;
   clear_stalls();
   queue_receipts();
-  while (count_ == 0 && !is_gone_ && Clock::now() < until)
-    handle_events(until);
+  while (count_ == 0 && !is_gone_ && Clock::now() < until) handle_events(until);
   if (count_ == 0) return 0;
   const Arrival& arrival = arrivals_[first_];
   const std::size_t count = std::min(arrival.count, bytes.size());

@@ -49,6 +49,7 @@ class LibusbTransport : public Transport {
     std::array<std::uint8_t, kTransferBytes> bytes{};
     bool flies = false;
   };
+  using Flights = std::array<Flight, 4>;
   /// What came in and was not yet asked for.
   struct Arrival {
     std::array<std::uint8_t, kTransferBytes> bytes{};
@@ -63,12 +64,12 @@ class LibusbTransport : public Transport {
   void clear_stalls() noexcept;
   Flight* idle_sending(Clock::time_point until) noexcept;
   void handle_events(Clock::time_point until) noexcept;
-  bool any_flies() const noexcept;
-  bool any_sending_flies() const noexcept;
+  void take_back(Flights& flights) noexcept;
+  static bool any_flies(const Flights& flights) noexcept;
 
   UsbContext context_;
   UsbHandle handle_;
-  std::array<Flight, 4> receipts_, sendings_;
+  Flights receipts_, sendings_;
   std::array<Arrival, 16> arrivals_;  // four times what is queued: who is slower wants the newest anyway
   std::size_t first_ = 0, count_ = 0;
   bool is_gone_ = false, is_closing_ = false;
