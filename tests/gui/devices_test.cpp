@@ -2,10 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "device/drivers/inverse/fake_inverse_service.h"
 #include "gui/gui_program.h"
 
 // What the window shows of devices on the table, and what a person does to them there. The devices are those of
-// device_window.cpp.
+// device_window.cpp, and an Inverse3 of a service of the test's.
 
 namespace myotact {
 namespace {
@@ -103,6 +104,36 @@ TEST_F(DevicesTest, WithoutAnyTheClutchDoesNothing) {
   gui.press();
   EXPECT_FALSE(clutched(gui.state()));
   gui.release();
+}
+
+TEST_F(DevicesTest, AnInverse3IsFeltClutchedStoppedLostAndFoundAgain) {
+  device::inverse::FakeInverseService service({"049D"});
+  const std::string port = std::to_string(service.port());
+  GuiProgram gui("device_inverse3",
+                 "spring --device left=inverse3 --set inverse3.port=" + port + " --set inverse3.version_port=" + port);
+  const auto phase_is = [](const char* phase) {
+    return [phase](const json& state) { return !state["devices"].empty() && state["devices"][0]["phase"] == phase; };
+  };
+  const auto is_felt = [&](const json&) { return service.received().last_N.norm() > 0.001; };
+  const auto is_not_felt = [&](const json&) { return service.received().last_N.norm() == 0.0; };
+  ASSERT_TRUE(gui.wait_until(phase_is("ready")));
+  EXPECT_EQ(gui.state()["devices"][0]["hand"], "left");
+  EXPECT_TRUE(gui.wait_until(is_felt));
+  gui.screenshot("felt");
+  gui.key_down("c");
+  EXPECT_TRUE(gui.wait_until(is_not_felt));
+  EXPECT_TRUE(gui.shows("devices.clutched"));
+  gui.key_up("c");
+  EXPECT_TRUE(gui.wait_until(is_felt));
+  service.set_manner(device::inverse::Manner::Silence);
+  EXPECT_TRUE(gui.wait_until(phase_is("lost")));
+  EXPECT_TRUE(gui.shows("devices.hint"));
+  gui.screenshot("lost");
+  service.set_manner(device::inverse::Manner::States);
+  EXPECT_TRUE(gui.wait_until(phase_is("ready")));
+  EXPECT_TRUE(gui.wait_until(is_felt));
+  gui.click("devices.stop");
+  EXPECT_TRUE(gui.wait_until(is_not_felt));
 }
 
 }  // namespace
