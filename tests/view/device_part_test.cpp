@@ -184,8 +184,8 @@ TEST_F(DevicePart, WithoutADeviceTheClutchIsGreyAndNothingElseIsAsked) {
 
 TEST(DeviceHints, OfEveryDriverAreTranslated) {
   namespace fs = std::filesystem;
-  // A driver hands a sentence over as `hint = "..."`, or names it first: `constexpr const char* kName = "... ...."`.
-  const std::regex hint(R"re((?:hint\w*\s*=|char\* k\w+\s*=)\s*"([A-Z][^"]* [^"]*\.)")re");
+  // What a driver tells a person begins with a capital and ends with a full stop; errors do neither.
+  const std::regex hint(R"re("([A-Z][^"]* [^"]*\.)")re");
   const ui::Catalogue english = ui::load_catalogue("en");
   int hints = 0;
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(MYOTACT_SOURCE_DIR) / "src/device/drivers")) {
@@ -196,7 +196,7 @@ TEST(DeviceHints, OfEveryDriverAreTranslated) {
           << entry.path() << ": assets/languages lack hint." << (*it)[1];
     }
   }
-  EXPECT_GT(hints, 3);
+  EXPECT_GT(hints, 20);
 }
 
 }  // namespace

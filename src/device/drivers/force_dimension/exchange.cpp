@@ -68,7 +68,7 @@ void Exchange::judge(std::uint64_t now_ns) noexcept {
     hint_ = "Switch the device on.";
   } else if (!status_.is_initialised) {
     phase_ = DevicePhase::NeedsCalibration;
-    hint_ = "The device does not know where it is: \"myotact devices --calibrate\" lets it find out.";
+    hint_ = "The device does not know where it is: calibrate it (myotact devices --calibrate).";
   } else if (now_ns < distrusted_until_ns_) {
     hint_ = "The device's answers are not to be believed for the moment.";
   } else if (!status_.force_is_on) {
