@@ -110,7 +110,7 @@ TEST_F(DevicePart, TellsEachDevicesHandPhaseRateWarmthAndWhatToDo) {
                    {"inverse3", true, {DevicePhase::Ready, 998.4, 0.62, ""}}};
   const auto devices = shown("devices.device");
   ASSERT_EQ(devices.size(), 2u);
-  EXPECT_EQ(devices[0], "falcon, right hand: no answer");
+  EXPECT_EQ(devices[0], "falcon, right hand: interrupted");
   EXPECT_EQ(devices[1], "inverse3, left hand: ready, 998 Hz");
   EXPECT_EQ(shown("devices.hint"), std::vector<std::string>{kUnplugged});
   EXPECT_EQ(shown("devices.warmth"), std::vector<std::string>{"0.62"});  // the Falcon does not tell
@@ -136,7 +136,7 @@ TEST_F(DevicePart, TheStripTellsOnlyWhatWaitsForAPerson) {
                    {"touch", true, {DevicePhase::NeedsCalibration}},
                    {"omega", false, {DevicePhase::Ready, 1000.0}},
                    {"sigma", false, {DevicePhase::Opening}}};
-  EXPECT_EQ(shown("news.device"), (std::vector<std::string>{"falcon, right hand: no answer. " + std::string(kUnplugged),
+  EXPECT_EQ(shown("news.device"), (std::vector<std::string>{"falcon, right hand: interrupted. " + std::string(kUnplugged),
                                                             "touch, left hand: to be calibrated."}));
   news_.devices.erase(news_.devices.begin(), news_.devices.begin() + 2);
   EXPECT_TRUE(shown("news.device").empty());
