@@ -35,6 +35,7 @@ namespace myotact::app {
 
 namespace {
 
+constexpr double kForever_s = 1e12;
 constexpr double kDegrees = 180.0 / 3.14159265358979323846;
 
 /// What is written at the end of a run, whichever way it ran.
@@ -127,7 +128,8 @@ nlohmann::json run_free(const Options& options, const scene::Scene& scene, simul
   scene::FreeSession session(scene, simulation, hands.devices(), recorder.get(),
                              hands.has_simulated() ? &guarded.watchdog : nullptr, equipment.servo_clock());
   summary.notice = session.notice();
-  const double end_s = options.seconds.value_or(session.script_end_s());
+  // A person's hand has no end; a signal ends it.
+  const double end_s = options.seconds.value_or(equipment.empty() ? session.script_end_s() : kForever_s);
   session.start();
   messages::SceneFrame frame;
   while (session.running() && interruption() == 0) {
