@@ -35,6 +35,12 @@ device::TablePlacement placement_of(const device::DeviceSettings& settings, cons
   return own == settings.placements.end() ? device::TablePlacement{} : own->second;
 }
 
+std::vector<NamedDevice> devices_on_the_table(const Options& options) {
+  std::vector<NamedDevice> named = named_devices(options);
+  std::erase_if(named, [](const NamedDevice& device) { return !device::is_on_the_table(device.name); });
+  return named;
+}
+
 }  // namespace
 
 device::DeviceSettings device_settings_of(const Options& options) {
@@ -54,13 +60,17 @@ std::unique_ptr<device::HardwareDevice> make_device(const device::DeviceSettings
                                                    join(known), nearest_word(name, known)));
 }
 
+void refuse_equipment(const Options& options, std::string_view why) {
+  const std::vector<NamedDevice> named = devices_on_the_table(options);
+  if (named.empty()) return;
+  throw Error(ExitStatus::Usage, fmt::format("--device {}: {}", named.front().name, why));
+}
+
 Equipment::Equipment(const Options& options) {
-  const std::vector<NamedDevice> named = named_devices(options);
-  const auto is_here = [](const NamedDevice& device) { return device::is_on_the_table(device.name); };
-  if (std::none_of(named.begin(), named.end(), is_here)) return;
+  const std::vector<NamedDevice> named = devices_on_the_table(options);
+  if (named.empty()) return;
   settings_ = device_settings_of(options);
   for (const NamedDevice& device : named) {
-    if (!is_here(device)) continue;
     if (has(device.name)) {
       throw Error(ExitStatus::Usage, fmt::format("--device: {0} is named twice; the second device of its kind is "
                                                  "{0}:2, as \"myotact devices\" lists it",

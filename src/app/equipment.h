@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/options.h"
@@ -17,6 +18,9 @@ device::DeviceSettings device_settings_of(const Options& options);
 
 /// The device of that name, closed. Throws Error Unavailable: not known, or why it cannot be opened and what to do.
 std::unique_ptr<device::HardwareDevice> make_device(const device::DeviceSettings& settings, const std::string& name);
+
+/// For a command that no hand on a device takes part in: throws Error Usage with `why` where --device names one.
+void refuse_equipment(const Options& options, std::string_view why);
 
 /// The devices on the table that --device names: opened once, kept over all scenes of a program, closed at its end.
 class Equipment {

@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include "anatomy/part_facts.h"
+#include "app/equipment.h"
 #include "app/options.h"
 #include "app/scripted_student.h"
 #include "core/data_folder.h"
@@ -61,6 +62,7 @@ void print_list() {
 
 /// The scene that the lesson names, as the file's error where there is none.
 scene::Scene scene_of_lesson(const Options& options, const learn::LessonHead& head) {
+  refuse_equipment(options, "a script takes the lesson here; take it by hand in \"myotact view\" with this --device");
   Options of_scene = options;
   of_scene.scene = head.scene;
   try {

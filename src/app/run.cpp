@@ -19,7 +19,6 @@
 #include "app/timing_report.h"
 #include "core/error.h"
 #include "core/file.h"
-#include "core/text.h"
 #include "device/profile_file.h"
 #include "device/simulated_device.h"
 #include "haptics/faults.h"
@@ -216,11 +215,10 @@ int run(const Options& options) {
   std::optional<GuardedMotors> guarded;
   if (options.realtime) guarded.emplace();  // first: the watchdog is forked off before there are threads
   scene::Scene scene = scene_of(options);
-  const Equipment equipment(options);
-  if (!equipment.empty() && !options.realtime) {
-    throw Error(ExitStatus::Usage, "--device " + join(options.devices) +
-                                       ": a hand moves on the wall clock; add --realtime, or use the window");
+  if (!options.realtime) {
+    refuse_equipment(options, "a hand moves on the wall clock; add --realtime, or use \"myotact view\"");
   }
+  const Equipment equipment(options);
   leave_hands_to_people(scene, scene.tools.size());
   const std::vector<double> levels = levels_of(options);
   check_picture(scene, picture_of(options));

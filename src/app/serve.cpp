@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
+#include "app/equipment.h"
 #include "app/interruption.h"
 #include "app/network_options.h"
 #include "app/options.h"
@@ -91,6 +92,7 @@ int serve_free(const Options& options, const scene::Scene& scene, const net::Doo
 }  // namespace
 
 int serve(const Options& options) {
+  refuse_equipment(options, "hands come from the clients here; connect one with \"myotact feel\" and this --device");
   scene::Scene scene = scene_of(options);
   if (options.hands && options.record && *options.hands != scene.tools.size()) {
     throw Error(

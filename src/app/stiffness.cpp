@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "app/equipment.h"
 #include "app/interruption.h"
 #include "app/options.h"
 #include "app/progress.h"
@@ -89,6 +90,7 @@ Shard shard_of(const std::string& text) {
 
 /// The scene with the co-contraction of the joint that is asked for.
 scene::Scene scene_to_sweep(const Options& options) {
+  refuse_equipment(options, "no hand takes part in a measurement; leave it out");
   scene::Scene scene = scene_of(options);
   if (scene.specimen.muscles.empty()) {
     throw bad_data(scene.name, "/specimen", "has no muscles that could stiffen a joint; name a limb, such as elbow");

@@ -65,6 +65,15 @@ TEST_F(OnTheTable, AVirtualClockHasNoHand) {
   EXPECT_EQ(service_.received().greatest_N, 0.0);
 }
 
+TEST_F(OnTheTable, NoDeviceIsTakenWhereNoHandIsFelt) {
+  for (const std::string command : {"serve spring", "lesson 2_pull_a_line", "stiffness elbow"}) {
+    const Outcome outcome = run(command + " --device inverse3" + out());
+    EXPECT_EQ(outcome.status, kUsage) << command;
+    EXPECT_THAT(outcome.output, HasSubstr("--device inverse3: ")) << command;
+  }
+  EXPECT_EQ(service_.received().greatest_N, 0.0);
+}
+
 TEST_F(OnTheTable, AHandIsGivenByName) {
   EXPECT_EQ(run("run spring --realtime --seconds 1 --device left=inverse3" + out()).status, 0);
   EXPECT_EQ(run("run spring --realtime --seconds 1 --device middle=inverse3" + out()).status, kUsage);
