@@ -36,6 +36,7 @@ Settings read_settings(const std::filesystem::path& file) {
   if (const auto theme = object.find("theme")) settings.light = theme->one_of({"dark", "light"}) == "light";
   if (const auto scale = object.find("scale")) settings.scale = scale->number_between(kSmallestScale, kLargestScale);
   settings.free_orbit = object.boolean_or("free_orbit", settings.free_orbit);
+  settings.tone = object.boolean_or("tone", settings.tone);
   settings.tour_done = object.boolean_or("tour_done", settings.tour_done);
   if (const auto mouse = object.find("mouse")) {
     const auto place = std::find(kMice.begin(), kMice.end(), mouse->one_of(kMice)) - kMice.begin();
@@ -67,6 +68,7 @@ void write_settings(const Settings& settings, const std::filesystem::path& file)
                                {"theme", settings.light ? "light" : "dark"},
                                {"scale", settings.scale},
                                {"free_orbit", settings.free_orbit},
+                               {"tone", settings.tone},
                                {"tour_done", settings.tour_done},
                                {"mouse", kMice[static_cast<std::size_t>(settings.mouse)]},
                                {"keys", settings.keys}};

@@ -15,6 +15,7 @@ struct Settings {
   double scale = 1.0;           // of everything written and clicked on, kSmallestScale .. kLargestScale
   bool free_orbit = false;      // a drag turns the limb any way
   bool tour_done = false;       // or skipped
+  bool tone = false;            // that rises with the force
   MousePreset mouse = MousePreset::ThreeButton;
   ChosenKeys keys = {};  // in place of the first ones
 

@@ -56,6 +56,8 @@ class ShownScene {
   double scale() const;
   const SceneFacts& facts() const { return facts_; }
   const ViewControls& controls() const { return controls_; }
+  /// The largest force that the last picture shows, as a share of what its device gives at most.
+  double share_of_force() const;
   std::string description(const messages::SceneFrame& now);
 
   JointReadings readings;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "view/shown_scene.h"
@@ -68,6 +69,16 @@ void ShownScene::set_big_type(bool on) {
 double ShownScene::scale() const {
   constexpr double kForAClass = 1.6;  // letters of 24 pixels on a projector of 720 or 800 lines
   return big_type_ ? std::max(settings.scale, kForAClass) : settings.scale;
+}
+
+double ShownScene::share_of_force() const {
+  if (shown_ == nullptr) return 0.0;
+  double share = 0.0;
+  for (std::size_t t = 0; t < shown_->tools.size() && t < facts_.device_peaks_N.size(); ++t) {
+    const auto& [x, y, z] = shown_->tools[t].force_world_N;
+    share = std::max(share, std::hypot(x, y, z) / facts_.device_peaks_N[t]);
+  }
+  return share;
 }
 
 }  // namespace myotact::view

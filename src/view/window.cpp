@@ -10,10 +10,12 @@
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
+#include "core/error.h"
 #include "view/glfw_window.h"
 #include "view/imgui_session.h"
 #include "view/settings.h"
 #include "view/shown_scene.h"
+#include "view/sound/speaker.h"
 #include "view/ui/controls.h"
 #include "view/ui/text.h"
 #include "view/window_pictures.h"
@@ -49,6 +51,7 @@ struct Window::Impl {
     ui::begin_controls();
     if (scene) {
       scene->draw_panels(frame, window);
+      sound_force();
     } else {
       draw_waiting(message);
     }
@@ -65,12 +68,24 @@ struct Window::Impl {
     glfwSwapBuffers(window.get());
   }
 
+  void sound_force() {
+    if (!scene->settings.tone) return speaker.reset();
+    try {
+      if (!speaker) speaker.emplace();
+      speaker->play(scene->share_of_force());
+    } catch (const Error& failure) {
+      scene->settings.tone = false;
+      scene->message = ui::tr("comfort.no_sound", failure.what());
+    }
+  }
+
   GlfwWindow window;
   ImGuiSession imgui;
   std::string settings_message;       // until a scene can show it
   Settings settings;                  // that the first scene starts with
   std::unique_ptr<ShownScene> scene;  // none before the first one is open
   std::string message;                // while there is none
+  std::optional<Speaker> speaker;     // while the person wants the tone
   std::optional<std::filesystem::path> screenshot;
 };
 

@@ -74,7 +74,7 @@ struct SettingsFile : testing::Test {
 
 TEST_F(SettingsFile, IsReadAsItWasWritten) {
   EXPECT_EQ(read_settings(file), Settings{});
-  const Settings liked{"de", true, 1.25, true, true, MousePreset::Blender, {{"search", "Ctrl+K"}}};
+  const Settings liked{"de", true, 1.25, true, true, true, MousePreset::Blender, {{"search", "Ctrl+K"}}};
   write_settings(liked, file);
   EXPECT_EQ(settings_or_defaults(file, message), liked);
   EXPECT_EQ(message, "");

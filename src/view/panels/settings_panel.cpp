@@ -51,6 +51,7 @@ void SettingsPanel::draw(Settings& settings, std::string& message) {
     changed = true;
   }
   changed = ui::checkbox("comfort.free_orbit", settings.free_orbit) || changed;
+  changed = ui::checkbox("comfort.tone", settings.tone) || changed;
   if (ui::button("comfort.tour")) {
     settings.tour_done = false;
     changed = true;
