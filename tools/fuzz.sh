@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Feeds made-up bytes to every reader of files and of the network, two at a time: for 30 s each, or SECONDS, or -runs=N inputs. Ends
-# with 1 when one crashes, leaks, hangs or breaks its promise; the bytes that did it are left in build/fuzz/findings/.
+# Feeds made-up bytes to every reader of files, of the network and of devices, two at a time: for 30 s each, or SECONDS,
+# or -runs=N inputs. Ends with 1 when one crashes, leaks, hangs or breaks its promise; the bytes that did it are left in build/fuzz/findings/.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -13,7 +13,7 @@ case "${1:-30}" in
   *) amount="-max_total_time=${1:-30}" ;;
 esac
 targets=("${@:2}")
-if [ ${#targets[@]} -eq 0 ]; then targets=(stl obj ply off vtk_surface vtk_tets tetgen medit json specimen lesson work marks wire local_model scene_frame); fi
+if [ ${#targets[@]} -eq 0 ]; then targets=(stl obj ply off vtk_surface vtk_tets tetgen medit json specimen lesson work marks wire local_model scene_frame inverse_messages device_bytes); fi
 
 install_missing "$project/tools/packages.txt" "$project/tools/packages-test.txt"
 build fuzz -- fuzz_targets

@@ -8,7 +8,9 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/json_reader.h"
+#include "core/text.h"
 #include "core/user_folder.h"
+#include "device/drivers/driver_table.h"
 
 namespace myotact::device {
 
@@ -16,6 +18,13 @@ namespace {
 
 constexpr int kSchema = 1;
 constexpr std::array kSections = {"falcon", "force_dimension", "inverse3", "placement", "spacemouse", "touch"};
+
+/// A vector whose numbers are within the limit, so that no turn or place beyond sense reaches the loop.
+Vec3 vector_within(const JsonValue& value, double limit) {
+  const Vec3 vector = value.vec3();
+  if (vector.cwiseAbs().maxCoeff() <= limit) return vector;
+  throw value.error(fmt::format("must be three numbers between {} and {}", -limit, limit));
+}
 
 void read_falcon(const JsonValue& value, falcon::FalconSettings& settings) {
   JsonObject fields(value);
@@ -51,7 +60,10 @@ void read_inverse(const JsonValue& value, inverse::InverseSettings& settings) {
                     : key == "vector" ? inverse::CommandForm::Vector
                                       : inverse::CommandForm::ByVersion;
   }
-  if (const auto middle = fields.find("workspace_middle_m")) settings.workspace_middle_service_m = middle->vec3();
+  if (const auto middle = fields.find("workspace_middle_m")) {
+    constexpr double kFarthest_m = 0.5;  // its arm is shorter
+    settings.workspace_middle_service_m = vector_within(*middle, kFarthest_m);
+  }
   if (const auto peak = fields.find("peak_force_N")) {
     settings.profile.peak_force_N = peak->number_between(0.1, 20.0);
     settings.profile.continuous_force_N = std::min(settings.profile.continuous_force_N, settings.profile.peak_force_N);
@@ -92,7 +104,7 @@ void read_touch(const JsonValue& value, touch::TouchSettings& settings) {
 TablePlacement read_placement(const JsonValue& value) {
   JsonObject fields(value);
   TablePlacement placement;
-  if (const auto turn = fields.find("turn_deg")) placement.turn_deg = turn->vec3();
+  if (const auto turn = fields.find("turn_deg")) placement.turn_deg = vector_within(*turn, 360.0);
   if (const auto scale = fields.find("scale")) placement.scale = scale->number_between(0.05, 20.0);
   if (const auto bubble = fields.find("bubble_m")) placement.bubble_radius_m = bubble->number_between(0.0, 1.0);
   fields.finish();
@@ -117,6 +129,11 @@ DeviceSettings settings_of(const nlohmann::json& json, const std::filesystem::pa
   if (const auto touch = root.find("touch")) read_touch(*touch, settings.touch);
   if (const auto placements = root.find("placement")) {
     for (const auto& [name, value] : JsonObject(*placements).entries()) {
+      if (!is_on_the_table(name)) {
+        throw value.error(
+            fmt::format("is no device; must be one of {}, or the second of its kind as touch:2 (nearest: {})",
+                        join(driver_names()), nearest_word(name, driver_names())));
+      }
       settings.placements[name] = read_placement(value);
     }
   }

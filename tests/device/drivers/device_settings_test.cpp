@@ -54,6 +54,9 @@ TEST(DeviceSettings, OutOfRangeAreRefusedWithPlaceAndRange) {
   EXPECT_THAT(refusal(nowhere, {{"falcon.counts_per_Nm", "1e6"}}), HasSubstr("/falcon/counts_per_Nm"));
   EXPECT_THAT(refusal(nowhere, {{"falcon.peak_force_N", "0"}}), HasSubstr("between 0.1 and 10"));
   EXPECT_THAT(refusal(nowhere, {{"placement.touch", "{\"scale\": 100}"}}), HasSubstr("/placement/touch/scale"));
+  EXPECT_THAT(refusal(nowhere, {{"placement.tuch", "{\"scale\": 1}"}}), HasSubstr("nearest: touch"));
+  EXPECT_THAT(refusal(nowhere, {{"placement.touch", "{\"turn_deg\": [0, 1e300, 0]}"}}), HasSubstr("-360 and 360"));
+  EXPECT_THAT(refusal(nowhere, {{"inverse3.workspace_middle_m", "[0, 7, 0]"}}), HasSubstr("-0.5 and 0.5"));
   EXPECT_THAT(refusal(nowhere, {{"spacemouse.axis_signs", "[1, 2, 1]"}}), HasSubstr("1 and -1"));
   EXPECT_THAT(refusal(nowhere, {{"inverse3.force_key", "vektor"}}), HasSubstr("vector"));
   EXPECT_THAT(refusal(nowhere, {{"falkon.firmware", "x"}}), HasSubstr("falcon"));
