@@ -26,9 +26,9 @@ struct WantedForce {
 ///
 ///   report --take()--> counts homed, no jump, legs meet --> position, slopes --command()--> motor counts
 ///
-/// Zero torque without all three legs homed, after 30 ms without a good report, for 100 ms after a leap of an encoder,
-/// for a force that is older than 20 ms or no number. An encoder that lies without leaping is not found out. Real-time
-/// safe; one thread.
+/// Zero torque without all three legs homed, after 10 ms without a good report, for 100 ms after a leap of an encoder
+/// or a homing, for legs that meet as no Falcon's do, for a force that is older than 20 ms or no number. An encoder
+/// that lies without any of that is not found out. Real-time safe; one thread.
 class Exchange {
  public:
   explicit Exchange(const ExchangeSettings& settings) : settings_(settings) {}
@@ -39,11 +39,13 @@ class Exchange {
   DevicePhase phase(std::uint64_t now_ns) const noexcept;
   const Vec3& position_m() const noexcept { return position_m_; }      // from the middle of the workspace
   const Vec3& velocity_m_s() const noexcept { return velocity_m_s_; }  // low-passed
+  /// When the report came that they are of; 0: none was good yet.
+  std::uint64_t reported_ns() const noexcept { return reported_ns_; }
   std::uint8_t buttons() const noexcept { return buttons_; }
   std::uint64_t refused_reports() const noexcept { return refused_; }
 
  private:
-  bool leaps(const Report& report, std::uint64_t now_ns) noexcept;
+  bool leaps(const Report& report, std::uint64_t now_ns) const noexcept;
   void refuse() noexcept;
   void place(const Vec3& grip_m, std::uint64_t now_ns) noexcept;
 
@@ -56,6 +58,7 @@ class Exchange {
   bool is_placed_ = false;  // position and slopes are of the newest report
   bool knows_counts_ = false;
   std::uint64_t distrusted_until_ns_ = 0;
+  std::uint64_t heard_ns_ = 0;     // when the newest report came, good or not
   std::uint64_t reported_ns_ = 0;  // when the newest good report came; 0: never
   std::uint64_t refused_ = 0;
 };

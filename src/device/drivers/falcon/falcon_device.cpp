@@ -79,15 +79,16 @@ void FalconDevice::open() {
   stopping_ = false;
   try {
     transport_ = start_transport();
+    thread_ = std::thread([this] {
+      realtime::name_this_thread("falcon");
+      realtime::make_this_thread_real_time();
+      run();
+    });
   } catch (...) {
+    transport_.reset();
     phase_ = DevicePhase::Closed;
     throw;
   }
-  thread_ = std::thread([this] {
-    realtime::name_this_thread("falcon");
-    realtime::make_this_thread_real_time();
-    run();
-  });
 }
 
 void FalconDevice::close() noexcept {
@@ -134,7 +135,8 @@ void FalconDevice::exchange_until_gone(Transport& transport) noexcept {
     const std::uint64_t now_ns = session.now_ns();
     const DevicePhase phase = exchange.phase(now_ns);
     phase_ = phase;
-    poses_.publish({{to_array(exchange.position_m()), to_array(exchange.velocity_m_s()), now_ns, exchange.buttons()},
+    poses_.publish({{to_array(exchange.position_m()), to_array(exchange.velocity_m_s()), exchange.reported_ns(),
+                     stylus_buttons(exchange.buttons())},
                     phase == DevicePhase::Ready});
     if (session.reports() != heard) {
       heard = session.reports();

@@ -33,7 +33,7 @@ class FalconDevice : public HardwareDevice {
 
   const std::string& name() const override { return name_; }
   const DeviceProfile& profile() const override { return profile_; }
-  void open() override;  // waits for the firmware: up to three seconds
+  void open() override;  // a second or two with its firmware; half a minute at most where it does not answer
   void close() noexcept override;
   bool connected() const noexcept override { return is_ready_; }
   messages::DeviceState read(std::uint64_t now_ns) noexcept override;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "device/own_place.h"
 
 namespace myotact::device::falcon {
 
@@ -13,16 +14,24 @@ namespace {
 
 constexpr const char* kTitle = "Novint Falcon";
 
-/// The device at a place in the list. As many must be there as when it was made: of two, the one that is left is not
-/// taken for the one that was unplugged. It may come back in another socket.
-std::unique_ptr<Transport> open_at(UsbBus& bus, std::size_t index, std::size_t count) {
+std::vector<std::string> places_of(const UsbListing& listing) {
+  std::vector<std::string> places;
+  for (const FalconOnUsb& falcon : listing.falcons) places.push_back(falcon.place);
+  return places;
+}
+
+/// The device that was at `own` when there were those of `then`.
+std::unique_ptr<Transport> open_own(UsbBus& bus, const std::string& own, const std::vector<std::string>& then) {
   const UsbListing listing = bus.list();
-  if (listing.falcons.size() < count) {
+  const std::vector<std::string> places = places_of(listing);
+  const auto index = own_place(places, own, then);
+  if (!index) {
     const std::string why = listing.trouble.cause.empty() ? "" : "; " + listing.trouble.cause;
-    throw Error(ExitStatus::Unavailable, fmt::format("{} of {} Falcons are plugged in{}; plug in what is missing",
-                                                     listing.falcons.size(), count, why));
+    throw Error(ExitStatus::Unavailable, fmt::format("{} of {} Falcons are plugged in, and none at USB {}{}; plug in "
+                                                     "what is missing",
+                                                     places.size(), then.size(), own, why));
   }
-  return bus.open(listing.falcons[index].place);
+  return bus.open(places[*index]);
 }
 
 }  // namespace
@@ -31,8 +40,11 @@ FalconDriver::FalconDriver(const FalconSettings& settings, std::shared_ptr<UsbBu
     : settings_(settings), bus_(std::move(bus)) {}
 
 std::vector<DeviceFinding> FalconDriver::find() {
+  return findings_of(bus_->list());
+}
+
+std::vector<DeviceFinding> FalconDriver::findings_of(const UsbListing& listing) const {
   std::vector<DeviceFinding> findings;
-  const UsbListing listing = bus_->list();
   for (const auto& [place, trouble] : listing.falcons) {
     const std::size_t number = findings.size() + 1;
     findings.push_back({number == 1 ? name_ : fmt::format("{}:{}", name_, number),
@@ -45,16 +57,18 @@ std::vector<DeviceFinding> FalconDriver::find() {
 }
 
 std::unique_ptr<HardwareDevice> FalconDriver::make(const std::string& name) {
-  const std::vector<DeviceFinding> findings = find();
+  const UsbListing listing = bus_->list();
+  const std::vector<DeviceFinding> findings = findings_of(listing);
   const auto found = std::find_if(findings.begin(), findings.end(), [&](const auto& row) { return row.name == name; });
   if (found == findings.end()) {
     throw Error(ExitStatus::Unavailable,
                 fmt::format("there is no device \"{}\"; the last one found is \"{}\"", name, findings.back().name));
   }
   if (!found->ready) throw Error(ExitStatus::Unavailable, fmt::format("{}: {}; {}", name, found->cause, found->remedy));
-  const auto index = static_cast<std::size_t>(found - findings.begin());
-  return std::make_unique<FalconDevice>(
-      name, settings_, [bus = bus_, index, count = findings.size()] { return open_at(*bus, index, count); });
+  const std::vector<std::string> places = places_of(listing);
+  const std::string& own = places[static_cast<std::size_t>(found - findings.begin())];
+  return std::make_unique<FalconDevice>(name, settings_,
+                                        [bus = bus_, own, places] { return open_own(*bus, own, places); });
 }
 
 }  // namespace myotact::device::falcon

@@ -19,6 +19,8 @@ class FalconDriver : public Driver {
   std::unique_ptr<HardwareDevice> make(const std::string& name) override;
 
  private:
+  std::vector<DeviceFinding> findings_of(const UsbListing& listing) const;
+
   const std::string name_ = "falcon";
   FalconSettings settings_;
   std::shared_ptr<UsbBus> bus_;  // the devices made use it, too

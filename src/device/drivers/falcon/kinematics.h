@@ -18,15 +18,16 @@ using Angles = std::array<double, 3>;  // [rad]
 /// Closed form; nothing: out of reach of a leg.
 std::optional<Angles> angles_of(const Vec3& grip_m) noexcept;
 
-/// By Newton's method from the middle of the workspace; nothing: the legs do not meet within 20 steps.
+/// By Newton's method from the middle of the workspace; nothing: the legs do not meet within 20 steps. Angles far
+/// outside the workspace may end where legs are folded the other way: angles_of() then gives others.
 std::optional<Vec3> grip_of(const Angles& angles_rad) noexcept;
 
-/// d angles / d grip [rad/m], by the implicit function of each leg's closure; nothing: a leg is stretched or folded, or
-/// a row is not finite.
+/// d angles / d grip [rad/m], by the implicit function of each leg's closure; nothing: a leg is stretched or folded so
+/// far that a row is not finite. Close to that it is large.
 std::optional<Mat3> angles_per_metre(const Vec3& grip_m, const Angles& angles_rad) noexcept;
 
-/// Torque of the arms [N m] that makes the force at the grip: J^T tau = F with J = d angles / d grip. Nothing: J is
-/// singular.
+/// Torque of the arms [N m] that makes the force at the grip: J^T tau = F with J = d angles / d grip. Nothing: it
+/// is not finite.
 std::optional<Vec3> torque_of(const Vec3& force_N, const Mat3& angles_per_metre) noexcept;
 
 /// An arm's angle by its encoder's count after homing [rad].

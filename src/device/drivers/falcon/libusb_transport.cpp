@@ -4,6 +4,8 @@
 #include <new>
 #include <utility>
 
+#include "device/drivers/falcon/packet.h"
+
 namespace myotact::device::falcon {
 
 namespace {
@@ -13,9 +15,9 @@ constexpr unsigned char kInEndpoint = 0x81, kOutEndpoint = 0x02;
 constexpr std::uint8_t kVendorRequest = LIBUSB_REQUEST_TYPE_VENDOR;  // to the device, without data: 0x40
 constexpr unsigned kRequestTimeout_ms = 1000;                        // as libnifalcon
 
-/// A command that the device did not take by then is old: it is taken back, and never pushes late. Ten times what the
-/// longest one, a block of the firmware, needs on the wire.
-constexpr unsigned kSendTimeout_ms = 50;
+/// A command to the motors that the device did not take by then is old: it is taken back, and never pushes late.
+constexpr unsigned kCommandTimeout_ms = 15;
+constexpr unsigned kBlockTimeout_ms = 50;  // for more bytes, a block of the firmware: ten times its time on the wire
 constexpr auto kSendPatience = std::chrono::milliseconds(20);  // for one of the four sendings to land
 constexpr auto kLastSendPatience = std::chrono::milliseconds(100);
 constexpr auto kTakeBackPatience = std::chrono::seconds(1);
@@ -33,7 +35,7 @@ LibusbTransport::LibusbTransport(UsbContext context, UsbHandle handle)
                               static_cast<int>(flight.bytes.size()), landed, &flight, timeout_ms);
   };
   for (Flight& flight : receipts_) prepare(flight, kInEndpoint, 0);
-  for (Flight& flight : sendings_) prepare(flight, kOutEndpoint, kSendTimeout_ms);
+  for (Flight& flight : sendings_) prepare(flight, kOutEndpoint, kBlockTimeout_ms);
   queue_receipts();
 }
 
@@ -158,6 +160,7 @@ bool LibusbTransport::send(std::span<const std::uint8_t> bytes) noexcept {
   if (flight == nullptr) return false;
   std::copy(bytes.begin(), bytes.end(), flight->bytes.begin());
   flight->transfer->length = static_cast<int>(bytes.size());
+  flight->transfer->timeout = bytes.size() <= kPacketBytes ? kCommandTimeout_ms : kBlockTimeout_ms;
   return fly(*flight);
 }
 

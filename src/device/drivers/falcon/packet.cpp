@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "device/drivers/falcon/transport.h"
+#include "messages/device.h"
 
 namespace myotact::device::falcon {
 
@@ -46,6 +47,12 @@ Packet framed() {
 }
 
 }  // namespace
+
+std::uint32_t stylus_buttons(std::uint8_t buttons) noexcept {
+  const auto as = [&](std::uint8_t button, std::uint32_t meaning) { return (buttons & button) != 0 ? meaning : 0u; };
+  return as(kCentre, messages::kGrabButton) | as(kPlus, messages::kGrabBoneButton) |
+         as(kMinus, messages::kClutchButton) | as(kFront, messages::kStopButton);
+}
 
 Packet encode(const Command& command) noexcept {
   Packet packet = framed();

@@ -22,14 +22,20 @@ struct Command {
   bool homes = true;                           // to count from its stops, as soon as the hand has been at them
 };
 
+inline constexpr std::uint8_t kPlus = 1, kFront = 2, kCentre = 4, kMinus = 8;  // buttons: right, front, middle, left
+
 /// From the device.
 struct Report {
   std::array<std::int16_t, 3> encoder_counts{};
   std::array<bool, 3> is_homed{};
-  std::uint8_t buttons = 0;  // bit 0 right (plus), 1 front, 2 middle, 3 left (minus)
+  std::uint8_t buttons = 0;  // of the ball grip: kPlus ...
 
   bool all_homed() const noexcept { return is_homed[0] && is_homed[1] && is_homed[2]; }
 };
+
+/// The bits of messages::DeviceState: the centre button takes hold of a muscle, plus of a bone, minus is the clutch,
+/// the front one stops.
+std::uint32_t stylus_buttons(std::uint8_t buttons) noexcept;
 
 Packet encode(const Command& command) noexcept;
 /// Nothing: not a report.

@@ -36,7 +36,9 @@ void Session::turn(const WantedForce& wanted) noexcept {
 }
 
 void Session::rest() noexcept {
-  transport_.send(encode(Command{{}, false}));
+  constexpr int kTries = 2;  // one that is not taken waited long enough for those before it to be taken back
+  for (int t = 0; t < kTries; ++t)
+    if (transport_.send(encode(Command{{}, false}))) return;
 }
 
 }  // namespace myotact::device::falcon

@@ -51,6 +51,7 @@ class HidrawBus : public HidBus {
     std::vector<HidEntry> entries;
     hid_device_info* const first = hid_enumerate(0, 0);
     for (const hid_device_info* info = first; info != nullptr; info = info->next) {
+      if (info->path == nullptr) continue;
       entries.push_back({info->path, info->vendor_id, info->product_id, info->usage_page, info->usage,
                          plain(info->manufacturer_string), plain(info->product_string), plain(info->serial_number),
                          access(info->path, R_OK | W_OK) == 0});

@@ -2,9 +2,8 @@
 
 #include <array>
 #include <chrono>
+#include <exception>
 #include <utility>
-
-#include "core/error.h"
 
 namespace myotact::device::spacemouse {
 
@@ -42,8 +41,13 @@ void SpaceMouseDevice::open() {
   counted_from_ns_ = steady_ns();
   reports_ = 0;
   closing_ = false;
+  try {
+    thread_ = std::thread([this] { watch(); });
+  } catch (...) {
+    port_.reset();
+    throw;
+  }
   phase_ = DevicePhase::Ready;
-  thread_ = std::thread([this] { watch(); });
 }
 
 void SpaceMouseDevice::close() noexcept {
@@ -100,7 +104,7 @@ void SpaceMouseDevice::lose() {
 void SpaceMouseDevice::find_again() {
   try {
     port_ = opener_();
-  } catch (const Error&) {
+  } catch (const std::exception&) {
     return;  // not plugged in yet
   }
   port_->write(light_report(true));

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "device/drivers/spacemouse/models.h"
 #include "device/drivers/spacemouse/spacemouse_device.h"
+#include "device/own_place.h"
 
 namespace myotact::device::spacemouse {
 
@@ -16,7 +17,8 @@ namespace {
 std::vector<HidEntry> caps_on(HidBus& bus) {
   std::vector<HidEntry> caps = bus.list();
   std::erase_if(caps, [](const HidEntry& entry) { return !is_cap(entry); });
-  std::sort(caps.begin(), caps.end(), [](const HidEntry& a, const HidEntry& b) { return a.path < b.path; });
+  const auto in_order = [](const HidEntry& cap) { return std::pair(cap.path.size(), cap.path); };  // hidraw2, hidraw10
+  std::ranges::sort(caps, {}, in_order);
   return caps;
 }
 
@@ -33,15 +35,25 @@ DeviceFinding finding_of(const HidEntry& cap, const std::string& name) {
   return finding;
 }
 
-/// The device at a place in the list. As many must be there as when it was made: of two, the one that is left is not
-/// taken for the one that was unplugged.
-std::unique_ptr<HidPort> open_at(HidBus& bus, std::size_t place, std::size_t count) {
-  const std::vector<HidEntry> caps = caps_on(bus);
-  if (caps.size() < count) {
-    throw Error(ExitStatus::Unavailable,
-                fmt::format("{} of {} SpaceMouse devices is plugged in; plug in the others", caps.size(), count));
+/// What tells a device from the others as long as it is plugged in, and where it has a serial number also afterwards.
+std::vector<std::string> identities_of(const std::vector<HidEntry>& caps) {
+  std::vector<std::string> identities;
+  for (const HidEntry& cap : caps) {
+    identities.push_back(
+        fmt::format("{:04x}:{:04x} {}", cap.vendor, cap.product, cap.serial.empty() ? cap.path : cap.serial));
   }
-  return bus.open(caps[place].path);
+  return identities;
+}
+
+/// The device that was `own` when there were those of `then`.
+std::unique_ptr<HidPort> open_own(HidBus& bus, const std::string& own, const std::vector<std::string>& then) {
+  const std::vector<HidEntry> caps = caps_on(bus);
+  const auto index = own_place(identities_of(caps), own, then);
+  if (!index) {
+    throw Error(ExitStatus::Unavailable,
+                fmt::format("{} of {} SpaceMouse devices is plugged in; plug in the others", caps.size(), then.size()));
+  }
+  return bus.open(caps[*index].path);
 }
 
 }  // namespace
@@ -50,8 +62,12 @@ SpaceMouseDriver::SpaceMouseDriver(const MotionSettings& settings, std::shared_p
     : settings_(settings), bus_(std::move(bus)) {}
 
 std::vector<DeviceFinding> SpaceMouseDriver::find() {
+  return findings_of(caps_on(*bus_));
+}
+
+std::vector<DeviceFinding> SpaceMouseDriver::findings_of(const std::vector<HidEntry>& caps) const {
   std::vector<DeviceFinding> findings;
-  for (const HidEntry& cap : caps_on(*bus_)) {
+  for (const HidEntry& cap : caps) {
     const std::size_t number = findings.size() + 1;
     findings.push_back(finding_of(cap, number == 1 ? name_ : fmt::format("{}:{}", name_, number)));
   }
@@ -63,7 +79,8 @@ std::vector<DeviceFinding> SpaceMouseDriver::find() {
 }
 
 std::unique_ptr<HardwareDevice> SpaceMouseDriver::make(const std::string& name) {
-  const std::vector<DeviceFinding> findings = find();
+  const std::vector<HidEntry> caps = caps_on(*bus_);
+  const std::vector<DeviceFinding> findings = findings_of(caps);
   const auto found = std::find_if(findings.begin(), findings.end(), [&](const auto& row) { return row.name == name; });
   if (found == findings.end()) {
     throw Error(ExitStatus::Unavailable,
@@ -72,9 +89,10 @@ std::unique_ptr<HardwareDevice> SpaceMouseDriver::make(const std::string& name) 
   if (!found->ready) {
     throw Error(ExitStatus::Unavailable, fmt::format("{}: {}; {}", name, found->cause, found->remedy));
   }
-  const auto place = static_cast<std::size_t>(found - findings.begin());
+  const std::vector<std::string> identities = identities_of(caps);
+  const std::string& own = identities[static_cast<std::size_t>(found - findings.begin())];
   return std::make_unique<SpaceMouseDevice>(
-      name, [bus = bus_, place, count = findings.size()] { return open_at(*bus, place, count); }, settings_);
+      name, [bus = bus_, own, identities] { return open_own(*bus, own, identities); }, settings_);
 }
 
 }  // namespace myotact::device::spacemouse

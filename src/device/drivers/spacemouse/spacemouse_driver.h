@@ -20,6 +20,8 @@ class SpaceMouseDriver : public Driver {
   std::unique_ptr<HardwareDevice> make(const std::string& name) override;
 
  private:
+  std::vector<DeviceFinding> findings_of(const std::vector<HidEntry>& caps) const;
+
   const std::string name_ = "spacemouse";
   MotionSettings settings_;
   std::shared_ptr<HidBus> bus_;  // the devices made use it, too

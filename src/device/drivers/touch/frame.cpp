@@ -8,11 +8,9 @@ namespace myotact::device::touch {
 namespace {
 
 constexpr double kMillimetre = 1e-3;
-
-struct Consequence {
-  std::uint64_t rest_ns;  // without force, from the newest such error on
-  const char* hint;
-};
+/// What no hand does between two frames: 5 m/s, and on top what comes late.
+constexpr double kFastestHand_m_s = 5.0, kSlack_m = 0.005;
+constexpr std::uint64_t kLeapRest_ns = 100'000'000;  // without force after it: many frames that agree
 
 /// What was too much for a moment is over soon; motors cool in seconds; a device that does not answer is to have
 /// answered for a while before it pushes again.
@@ -31,7 +29,8 @@ Consequence consequence_of(Code error) {
     case kCommunication:
     case kCommunicationSettings:
     case kTimer:
-      return {kDoubt_ns, "The device does not answer: see to its cable and its power."};
+      return {kDoubt_ns,
+              "The device does not answer: see to its cable and its power; if that does not help, start anew."};
     default:
       return {kDoubt_ns, "The device reports an error; it goes on when there is none any more."};
   }
@@ -53,22 +52,32 @@ std::uint32_t buttons_of(int raw) {
 
 }  // namespace
 
+bool FrameJudge::leaps(const Vec3& position_m, std::uint64_t now_ns) const noexcept {
+  if (state_.sampled_at_ns == 0 || now_ns <= state_.sampled_at_ns) return false;
+  const double most_m = kSlack_m + kFastestHand_m_s * 1e-9 * static_cast<double>(now_ns - state_.sampled_at_ns);
+  return (position_m - to_vec3(state_.stylus_position_world_m)).norm() > most_m;
+}
+
+void FrameJudge::distrust(const Consequence& consequence, std::uint64_t now_ns) noexcept {
+  distrusted_until_ns_ = std::max(distrusted_until_ns_, now_ns + consequence.rest_ns);
+  fault_hint_ = consequence.hint;
+}
+
 void FrameJudge::take(const RawFrame& frame, std::uint64_t now_ns) noexcept {
   const Vec3 position_mm = to_vec3(frame.position_mm), velocity_mm_s = to_vec3(frame.velocity_mm_s);
   Code error = frame.error;
   if (!position_mm.allFinite() || !velocity_mm_s.allFinite()) {
     error = error == kNone ? Code{kDeviceFault} : error;
   } else {
-    state_.stylus_position_world_m = to_array(Vec3(kMillimetre * (position_mm - middle_mm_)));
+    const Vec3 position_m = kMillimetre * (position_mm - middle_mm_);
+    if (leaps(position_m, now_ns))
+      distrust({kLeapRest_ns, "The device's answers are not to be believed for the moment."}, now_ns);
+    state_.stylus_position_world_m = to_array(position_m);
     state_.stylus_velocity_world_m_s = to_array(Vec3(kMillimetre * velocity_mm_s));
     state_.sampled_at_ns = now_ns;
     state_.buttons = buttons_of(frame.buttons);
   }
-  if (error != kNone) {
-    const Consequence consequence = consequence_of(error);
-    distrusted_until_ns_ = std::max(distrusted_until_ns_, now_ns + consequence.rest_ns);
-    fault_hint_ = consequence.hint;
-  }
+  if (error != kNone) distrust(consequence_of(error), now_ns);
   if (now_ns < distrusted_until_ns_) {
     phase_ = DevicePhase::Lost;
     hint_ = fault_hint_;

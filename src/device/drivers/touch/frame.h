@@ -18,8 +18,14 @@ struct RawFrame {
   Code style = kInkwell;           // of calibration
 };
 
+/// What follows from something wrong.
+struct Consequence {
+  std::uint64_t rest_ns;  // without force, from the newest of them on
+  const char* hint;
+};
+
 /// Which frames are to be believed: a force is allowed where the device is calibrated, nothing was wrong for a while
-/// and the position is a number. Pure, on the clock that it is given; real-time safe.
+/// and the position is a number that a hand could have reached. Pure, on the clock that it is given; real-time safe.
 class FrameJudge {
  public:
   /// `middle_mm`: of the workspace, in the library's frame, whose axes are ours.
@@ -34,6 +40,9 @@ class FrameJudge {
   const messages::DeviceState& state() const noexcept { return state_; }  // the newest that was a number
 
  private:
+  bool leaps(const Vec3& position_m, std::uint64_t now_ns) const noexcept;
+  void distrust(const Consequence& consequence, std::uint64_t now_ns) noexcept;
+
   Vec3 middle_mm_;
   DevicePhase phase_ = DevicePhase::Opening;
   const char* hint_ = "";

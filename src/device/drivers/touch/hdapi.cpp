@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include <fmt/format.h>
+
 namespace myotact::device::touch {
 
 namespace {
@@ -46,6 +48,11 @@ Code Hdapi::take_error() const noexcept {
     if (newest == kNone) newest = code;
   }
   return newest;
+}
+
+std::string Hdapi::text_of(Code error) const {
+  const char* text = error_string(error);
+  return fmt::format("{} ({:#06x})", text == nullptr || *text == '\0' ? "error" : text, error);
 }
 
 }  // namespace myotact::device::touch

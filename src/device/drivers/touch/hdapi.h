@@ -55,6 +55,10 @@ enum Fault : Code {
   kCommunicationSettings = 0x0303,
   kTimer = 0x0304,
 };
+/// Errors of the call, not of the device: this version or model does not know what it was asked for.
+constexpr bool is_of_call(Code error) {
+  return (error & 0xff00u) == 0x0100u;
+}
 
 /// The functions of the library that was loaded; it stays loaded as long as this lives.
 struct Hdapi {
@@ -83,8 +87,11 @@ struct Hdapi {
   unsigned long (*schedule_asynchronous)(Callback, void*, unsigned short priority);
   void (*unschedule)(unsigned long);
 
-  /// The newest error, and the stack emptied; kNone: there was none.
+  /// The newest error, and the stack emptied; kNone: there was none. While the servo loop runs, for its thread alone:
+  /// another one would take what a frame has to know.
   Code take_error() const noexcept;
+  /// In words and as the manual numbers it.
+  std::string text_of(Code error) const;
 };
 
 }  // namespace myotact::device::touch

@@ -1,8 +1,8 @@
 #include "device/drivers/touch/servo.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
-#include <string>
 #include <thread>
 #include <utility>
 
@@ -15,13 +15,17 @@ namespace myotact::device::touch {
 
 namespace {
 
-void require_none(const Hdapi& api, const char* doing) {
-  const Code error = api.take_error();
-  if (error == kNone) return;
-  throw Error(ExitStatus::Unavailable,
-              fmt::format("the Touch's library cannot {}: {} ({:#06x}); end other programs that use the device, and "
-                          "plug it in again",
-                          doing, api.error_string(error), error));
+Error refusal(const Hdapi& api, const char* doing, Code error) {
+  return {ExitStatus::Unavailable, fmt::format("the Touch's library cannot {}: {}; end other programs that use the "
+                                               "device, and plug it in again",
+                                               doing, api.text_of(error))};
+}
+
+/// Until the flag is set, a tenth of a second at most: a servo thread that hangs is not waited for.
+void wait_for(const std::atomic<bool>& flag) {
+  constexpr auto kPatience = std::chrono::milliseconds(100);
+  const auto until = std::chrono::steady_clock::now() + kPatience;
+  while (!flag && std::chrono::steady_clock::now() < until) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
 }  // namespace
@@ -38,33 +42,28 @@ void Servo::remove(ServoClient& client) noexcept {
 void Servo::start(std::function<void(std::uint64_t)> tick) {
   stop();
   tick_ = std::move(tick);
-  stopping_ = sent_last_ = false;
+  stopping_ = sent_last_ = has_ticked_ = false;
   api_.take_error();
   handle_ = api_.schedule_asynchronous(&Servo::on_tick, this, kDefaultPriority);
-  require_none(api_, "take our servo function");
-  api_.start_scheduler();
-  try {
-    require_none(api_, "start its servo loop");
-  } catch (...) {
+  if (const Code error = api_.take_error(); error != kNone) {
     api_.unschedule(handle_);
-    throw;
+    api_.take_error();
+    throw refusal(api_, "take our servo function", error);
   }
   is_ticking_ = true;
-}
-
-/// A servo thread that hangs sends nothing either; then we do not wait for ever.
-void Servo::wait_for_last_frame() const noexcept {
-  constexpr auto kPatience = std::chrono::milliseconds(100);
-  const auto until = std::chrono::steady_clock::now() + kPatience;
-  while (!sent_last_ && std::chrono::steady_clock::now() < until) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  api_.start_scheduler();
+  wait_for(has_ticked_);
+  if (has_ticked_) return;  // its errors are the frames' from now on
+  if (const Code error = api_.take_error(); error != kNone) {
+    stop();
+    throw refusal(api_, "start its servo loop", error);
   }
 }
 
 void Servo::stop() noexcept {
   if (!is_ticking_) return;
   stopping_ = true;
-  wait_for_last_frame();
+  if (has_ticked_) wait_for(sent_last_);
   api_.stop_scheduler();
   api_.unschedule(handle_);
   api_.take_error();
@@ -77,6 +76,7 @@ unsigned int Servo::on_tick(void* self) noexcept {
 }
 
 void Servo::tick() noexcept {
+  has_ticked_ = true;
   const std::uint64_t now_ns = realtime::steady_now_ns();
   const bool is_last = stopping_;
   for (ServoClient* client : clients_) client->begin_frame(now_ns);

@@ -41,13 +41,13 @@ class Servo : public ServoClock {
  private:
   static unsigned int on_tick(void* self) noexcept;
   void tick() noexcept;
-  void wait_for_last_frame() const noexcept;
 
   const Hdapi& api_;
   std::vector<ServoClient*> clients_;
   std::function<void(std::uint64_t)> tick_;
   unsigned long handle_ = 0;
   std::atomic<bool> is_ticking_{false};
+  std::atomic<bool> has_ticked_{false};
   std::atomic<bool> stopping_{false};
   std::atomic<bool> sent_last_{false};
 };

@@ -15,7 +15,9 @@ namespace {
 
 constexpr std::uint64_t kWindow_ns = 1'000'000'000;
 constexpr std::uint64_t kSilence_ns = 500'000'000;  // of a servo thread that should tick: its device is gone
-constexpr std::uint64_t kFramesBetweenLooks = 100;  // at calibration and motors: a tenth of a second
+// Frames between looks: what they cost the library is not known, and a tick has a millisecond for all.
+constexpr std::uint64_t kCalibrationEvery = 10;
+constexpr std::uint64_t kMotorsEvery = 100;
 
 /// As assets/devices/touch.json, whose sources hold here, too; what the device tells itself comes over it.
 DeviceProfile touch_profile(const TouchSettings& settings) {
@@ -30,8 +32,7 @@ DeviceProfile touch_profile(const TouchSettings& settings) {
 }  // namespace
 
 Trouble trouble_of(const Hdapi& api, Code error) {
-  const char* text = api.error_string(error);
-  Trouble trouble{fmt::format("it does not open: {} ({:#06x})", text == nullptr ? "error" : text, error), ""};
+  Trouble trouble{"it does not open: " + api.text_of(error), ""};
   trouble.remedy = error == kAlreadyOpen
                        ? "end the other program that uses it"
                        : "see to its cable and its power, try the maker's own test program, and let this computer's "
@@ -53,7 +54,11 @@ void TouchDevice::open() {
   }
   api().take_error();
   handle_ = api().init_device(configuration_.empty() ? nullptr : configuration_.c_str());
-  const Code error = api().take_error();
+  Code error = api().take_error();
+  if (error == kNone && handle_ != kNoDevice) {
+    api().enable(kForceOutput);
+    error = api().take_error();
+  }
   if (error != kNone || handle_ == kNoDevice) {
     if (handle_ != kNoDevice) api().disable_device(handle_);
     handle_ = kNoDevice;
@@ -61,11 +66,10 @@ void TouchDevice::open() {
     throw Error(ExitStatus::Unavailable, fmt::format("{}: {}; {}", name_, trouble.cause, trouble.remedy));
   }
   learn_profile();
-  api().enable(kForceOutput);
-  api().take_error();
   raw_ = {};
   raw_.calibration = kCalibrationNeedsInput;  // until it was asked for
   end_error_ = kNone;
+  tells_warmth_ = true;
   frames_ = counted_ = counted_from_ns_ = 0;
   phase_ = DevicePhase::Opening;
   library_->servo.add(*this);
@@ -110,12 +114,11 @@ void TouchDevice::begin_frame(std::uint64_t now_ns) noexcept {
   api().get_doublev(kPosition, raw_.position_mm.data());
   api().get_doublev(kVelocity, raw_.velocity_mm_s.data());
   api().get_integerv(kButtons, &raw_.buttons);
-  if (frames_ % kFramesBetweenLooks == 0) {
-    look_after_calibration();
-    look_after_motors();
-  }
-  const Code begin_error = api().take_error();
-  raw_.error = begin_error != kNone ? begin_error : end_error_;
+  raw_.error = end_error_;
+  const auto note = [this](Code error) { raw_.error = error != kNone ? error : raw_.error; };
+  note(api().take_error());
+  if (frames_ % kMotorsEvery == 0) note(look_after_motors());
+  if (frames_ % kCalibrationEvery == 0) note(look_after_calibration());
   judge_.take(raw_, now_ns);
   phase_ = judge_.phase();
   hint_ = judge_.hint();
@@ -134,24 +137,31 @@ void TouchDevice::end_frame(bool is_last) noexcept {
 }
 
 /// A calibration that the library can bring up to date by itself is; the position may leap by it, so that no force
-/// comes before it was asked for again.
-void TouchDevice::look_after_calibration() noexcept {
+/// comes before it was asked for again. Returns what went wrong.
+Code TouchDevice::look_after_calibration() noexcept {
   raw_.calibration = api().check_calibration();
-  if (raw_.calibration == kCalibrated) return;
+  if (raw_.calibration == kCalibrated) return api().take_error();
   raw_.style = api().check_calibration_style();
-  if (raw_.calibration != kCalibrationNeedsUpdate) return;
+  if (raw_.calibration != kCalibrationNeedsUpdate) return api().take_error();
   for (const Code style : {kInkwell, kAutomatic, kEncoderReset}) {
     if ((raw_.style & style) == 0) continue;
     api().update_calibration(style);
-    return;
+    break;
   }
+  return api().take_error();
 }
 
-void TouchDevice::look_after_motors() noexcept {
+/// A model that does not tell its motors' warmth is not asked again. Returns what went wrong.
+Code TouchDevice::look_after_motors() noexcept {
+  if (!tells_warmth_) return kNone;
   std::array<double, 6> warmth{};
   api().get_doublev(kMotorTemperature, warmth.data());
-  const bool is_told = std::all_of(warmth.begin(), warmth.end(), [](double motor) { return std::isfinite(motor); });
+  const Code error = api().take_error();
+  tells_warmth_ = !is_of_call(error);
+  const bool is_told =
+      tells_warmth_ && std::all_of(warmth.begin(), warmth.end(), [](double w) { return std::isfinite(w); });
   warmth_ = is_told ? std::clamp(*std::max_element(warmth.begin(), warmth.end()), 0.0, 1.0) : -1.0;
+  return tells_warmth_ ? error : kNone;
 }
 
 void TouchDevice::count_rate(std::uint64_t now_ns) noexcept {
@@ -166,8 +176,9 @@ void TouchDevice::count_rate(std::uint64_t now_ns) noexcept {
 DeviceReport TouchDevice::report() const noexcept {
   DeviceReport report{phase_, rate_Hz_, warmth_, hint_};
   if (report.phase == DevicePhase::Closed) return {};
+  if (!library_->servo.is_ticking()) return {DevicePhase::Opening, 0.0, warmth_, ""};
   const std::uint64_t framed_ns = framed_ns_;
-  if (library_->servo.is_ticking() && framed_ns != 0 && realtime::steady_now_ns() > framed_ns + kSilence_ns) {
+  if (framed_ns != 0 && realtime::steady_now_ns() > framed_ns + kSilence_ns) {
     report.phase = DevicePhase::Lost;
     report.rate_Hz = 0.0;
     report.hint = "The device's servo loop has stopped: plug the device in again and start anew.";

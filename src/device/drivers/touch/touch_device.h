@@ -41,7 +41,7 @@ class TouchDevice : public HardwareDevice, private ServoClient {
   const DeviceProfile& profile() const override { return profile_; }
   void open() override;
   void close() noexcept override;
-  bool connected() const noexcept override { return phase_ == DevicePhase::Ready; }
+  bool connected() const noexcept override { return phase_ == DevicePhase::Ready && library_->servo.is_ticking(); }
   messages::DeviceState read(std::uint64_t) noexcept override { return judge_.state(); }
   void write(const messages::DeviceCommand& command) noexcept override;
   DeviceReport report() const noexcept override;
@@ -51,8 +51,8 @@ class TouchDevice : public HardwareDevice, private ServoClient {
   // ---- servo thread
   void begin_frame(std::uint64_t now_ns) noexcept override;
   void end_frame(bool is_last) noexcept override;
-  void look_after_calibration() noexcept;
-  void look_after_motors() noexcept;
+  Code look_after_calibration() noexcept;
+  Code look_after_motors() noexcept;
   void count_rate(std::uint64_t now_ns) noexcept;
 
   void learn_profile();
@@ -67,6 +67,7 @@ class TouchDevice : public HardwareDevice, private ServoClient {
   RawFrame raw_;
   Code end_error_ = kNone;  // that the end of the last frame left
   std::array<double, 3> wanted_N_{};
+  bool tells_warmth_ = true;
   std::uint64_t frames_ = 0;
   std::uint64_t counted_ = 0, counted_from_ns_ = 0;
 

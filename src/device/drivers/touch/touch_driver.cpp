@@ -20,7 +20,10 @@ std::shared_ptr<TouchLibrary> shared_library(const std::string& path) {
   static std::weak_ptr<TouchLibrary> loaded;
   static std::string loaded_path;
   const std::lock_guard lock(mutex);
-  if (auto library = loaded.lock(); library && loaded_path == path) return library;
+  if (auto library = loaded.lock()) {
+    if (loaded_path == path) return library;
+    if (library->servo.is_in_use()) throw Error(ExitStatus::Unavailable, "this program uses another libHD already");
+  }
   auto library = std::make_shared<TouchLibrary>(path);
   loaded = library;
   loaded_path = path;

@@ -89,6 +89,15 @@ TEST(FalconDriver, OfTwoTheOneThatIsLeftIsNotTakenForTheOther) {
   EXPECT_TRUE(rig.bus->opened.empty());
 }
 
+TEST(FalconDriver, InAnotherSocketItIsTheOneThatWasNotThere) {
+  Rig rig;
+  rig.bus->listing.falcons = {{"1-1", {}}, {"1-2", {}}};
+  const auto device = rig.driver.make("falcon");
+  rig.bus->listing.falcons = {{"1-2", {}}, {"1-3", {}}};
+  device->open();
+  EXPECT_EQ(rig.bus->opened, std::vector<std::string>{"1-3"});
+}
+
 TEST(FalconDriver, TheDeviceHasTheProfileOfItsFile) {
   Rig rig;
   rig.bus->listing.falcons = {{"1-1", {}}};

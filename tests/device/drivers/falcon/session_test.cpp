@@ -119,6 +119,7 @@ TEST(FalconSession, ThereIsNoForceBeforeHoming) {
   EXPECT_EQ(rig.felt_N().norm(), 0.0);
   EXPECT_TRUE(rig.fake.last_command().homes);
   rig.home();
+  rig.turns(250);  // a while, since homing is a leap
   EXPECT_EQ(rig.phase(), DevicePhase::Ready);
 }
 

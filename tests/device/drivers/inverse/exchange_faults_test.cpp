@@ -20,7 +20,7 @@ namespace myotact::device::inverse {
 namespace {
 
 constexpr std::uint64_t kTick_ns = 1'000'000;
-constexpr int kTicks = testing::kAddressSanitizer ? 100'000 : 1'000'000;
+constexpr int kTicks = testing::kSanitizer ? 100'000 : 1'000'000;
 constexpr double kRounding_N = 1e-5 * 1.8;  // five decimals, three axes
 
 enum class Reply { Good, Garbage, Truncated, Mutated, NoDevice, NoPosition, Jump, Huge, Silence, Disconnect };

@@ -92,7 +92,7 @@ TEST(InverseMessages, DeepNestingNeitherCrashesNorCounts) {
 TEST(InverseMessages, BrokenBytesNeverCrash) {
   testing::Mutator mutator;
   const std::string good = state_text("049D", {0.01, -0.15, 0.2}, {0.1, 0, -0.3});
-  const int rounds = testing::kAddressSanitizer ? 20'000 : 200'000;
+  const int rounds = testing::kSanitizer ? 20'000 : 200'000;
   int refused = 0;
   for (int i = 0; i < rounds; ++i) {
     ServiceMessage message;

@@ -133,6 +133,7 @@ void hdGetDoublev(unsigned int parameter, double* value) {
       *value = 0.88;
       return;
     case 0x2605:
+      if (device.warmth < 0.0) return push(0x0100);  // a model that does not tell
       for (int k = 0; k < 6; ++k) value[k] = k == 1 ? device.warmth : 0.0;
       return;
     default:

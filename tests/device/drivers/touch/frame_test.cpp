@@ -81,6 +81,17 @@ TEST_F(Frames, PositionsThatAreNoneAreNotTaken) {
   EXPECT_NEAR(judge_.state().stylus_position_world_m[0], 0.01, 1e-12);
 }
 
+TEST_F(Frames, ALeapTakesTheForceForAWhile) {
+  turn(frame_);
+  frame_.position_mm = {0.0, 0.0, 9.0};  // 9 m/s: 5 m/s and 5 mm on top are a hand's
+  EXPECT_EQ(turn(frame_), Vec3(0.0, 1.0, 0.0));
+  frame_.position_mm = {0.0, 0.0, 209.0};
+  EXPECT_EQ(turn(frame_), Vec3::Zero());
+  EXPECT_EQ(judge_.phase(), DevicePhase::Lost);
+  for (int ms = 1; ms < 100; ++ms) ASSERT_EQ(turn(frame_), Vec3::Zero());
+  EXPECT_EQ(turn(frame_), Vec3(0.0, 1.0, 0.0));
+}
+
 TEST_F(Frames, AMillionWithFaultsNeverExceedAndAreZeroAtOnce) {
   std::mt19937 random(5);
   const std::array errors = {Code{kWarmMotors}, Code{kExceededForce}, Code{kCommunication}, Code{0x0101}};

@@ -102,10 +102,10 @@ TEST_F(TouchLibraryTicks, CalibrationIsBroughtUpToDateOrAskedFor) {
   EXPECT_THAT(touch_->report().hint, HasSubstr("inkwell"));
   EXPECT_EQ(fake_.sent_N(), Vec3::Zero());
   fake_.calibration(0, 0x5001, 4);
-  tick(100);
+  tick(10);
   EXPECT_EQ(fake_.updates(0), 1);
   EXPECT_EQ(fake_.sent_N(), Vec3::Zero()) << "until it was asked for again";
-  tick(101);
+  tick(11);
   EXPECT_TRUE(touch_->connected());
   EXPECT_EQ(fake_.sent_N(), Vec3(0.0, 1.0, 0.0));
 }
@@ -118,6 +118,37 @@ TEST_F(TouchLibraryTicks, WarmthOfTheHottestMotor) {
   fake_.warmth(0, std::nan(""));
   tick(101);
   EXPECT_LT(touch_->report().warmth, 0.0);
+}
+
+TEST_F(TouchLibraryTicks, AModelThatDoesNotTellItsWarmthIsFelt) {
+  fake_.warmth(0, -1.0);
+  open();
+  tick(300);
+  EXPECT_TRUE(touch_->connected());
+  EXPECT_LT(touch_->report().warmth, 0.0);
+  fake_.push_error(0x0100);
+  tick();
+  EXPECT_FALSE(touch_->connected()) << "the same error of a frame is one";
+}
+
+TEST_F(TouchLibraryTicks, OfTwoTheOneThatIsLeftIsNotReadyWhileNothingTicks) {
+  auto left = TouchDriver(fake_settings()).make("touch:2");
+  left->open();
+  open();
+  tick();
+  EXPECT_TRUE(left->connected());
+  touch_->close();
+  EXPECT_FALSE(left->connected());
+  EXPECT_EQ(left->report().phase, DevicePhase::Opening);
+}
+
+TEST_F(TouchLibraryTicks, AnotherLibraryBesideTheOneInUseIsRefused) {
+  open();
+  TouchSettings settings = fake_settings();
+  settings.library = FAKE_LIBHD_WITHOUT_END_FRAME;
+  EXPECT_THAT(TouchDriver(settings).find()[0].cause, HasSubstr("another libHD"));
+  tick();
+  EXPECT_TRUE(touch_->connected());
 }
 
 TEST_F(TouchLibraryTicks, AfterTheStopNothingMoves) {
