@@ -21,6 +21,7 @@ struct DeviceProfile {
   double resolution_m = 20e-6;    // of the encoder, at the stylus
   bool shows_force_only = false;  // nothing moves the hand, as of a mouse: no speed of it is dangerous
   int delay_ticks = 0;            // from reading a position to the force that answers it
+  double motion_scale = 1.0;      // metres that the positions tell for a metre of the hand: of a device that is placed
   std::array<double, 3> workspace_m{0.16, 0.12, 0.07};  // edges of the box that the stylus reaches: right, up, towards
 };
 

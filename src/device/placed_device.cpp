@@ -16,7 +16,7 @@ constexpr double kLargestBubble_m = 1.0;  // no arm on a table reaches further
 /// Half a radius outside the bubble the middle moves at a walking hand's pace through the world; it grows with the
 /// cube.
 constexpr double kPaceHalfOut_m_s = 0.05;
-constexpr double kFastestPace_m_s = 0.3;  // well below the gate's cut-off, 1 m/s
+constexpr double kFastestPace_m_s = 0.3;  // well below the gate's cut-off, 1 m/s of the hand
 constexpr double kFelt_N = 0.05;          // about what a fingertip on a stylus notices
 constexpr double kLongestTick_s = 5e-3;   // after a pause the middle does not jump
 
@@ -41,6 +41,7 @@ DeviceProfile as_the_world_sees(DeviceProfile profile, double scale) {
   profile.inertia_kg /= scale;
   profile.viscous_Ns_m /= scale;
   profile.resolution_m *= scale;
+  profile.motion_scale *= scale;
   for (double& edge_m : profile.workspace_m) edge_m *= scale;
   return profile;
 }
@@ -68,7 +69,8 @@ void PlacedDevice::drive_bubble(const Vec3& on_table_m, double dt_s) noexcept {
   const double radius_m = placement_.bubble_radius_m, way_m = on_table_m.norm();
   if (radius_m <= 0.0 || way_m <= radius_m || feels_force_) return;
   const double out = (way_m - radius_m) / (0.5 * radius_m);
-  const double pace_m_s = std::min(kFastestPace_m_s, kPaceHalfOut_m_s * out * out * out);
+  const double slower = std::min(1.0, placement_.scale);  // as the gate's cut-off is
+  const double pace_m_s = slower * std::min(kFastestPace_m_s, kPaceHalfOut_m_s * out * out * out);
   middle_m_ += (pace_m_s * dt_s / way_m) * (turn() * on_table_m);
 }
 
@@ -80,7 +82,8 @@ messages::DeviceState PlacedDevice::read(std::uint64_t now_ns) noexcept {
   const double dt_s = now_ns > last_ns_ ? std::min(1e-9 * static_cast<double>(now_ns - last_ns_), kLongestTick_s) : 0.0;
   last_ns_ = now_ns;
   follow_clutch((state.buttons & messages::kClutchButton) != 0, on_table_m);
-  if (!is_clutched_) drive_bubble(on_table_m, dt_s);
+  if (device_.connected() && !is_clutched_)
+    drive_bubble(on_table_m, dt_s);  // a place from before it was lost drives nothing
   const Vec3 velocity_m_s = placement_.scale * (turn() * to_vec3(state.stylus_velocity_world_m_s));
   state.stylus_position_world_m = to_array(is_clutched_ ? held_at_m_ : in_world(on_table_m));
   state.stylus_velocity_world_m_s = to_array(is_clutched_ ? Vec3::Zero() : velocity_m_s);

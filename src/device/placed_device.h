@@ -27,7 +27,7 @@ struct Placement {
 ///
 /// The force on the table is the force in the world. A step on the table is `scale` steps in the world, so that what
 /// the world calls stiffness, damping and inertia of this device are its own divided by the scale: profile() says so,
-/// and every bound made from it holds on the table. A scale that stands keeps a passive force passive: both works
+/// and every bound made from it holds on the table; the gate's own of speed and energy by motion_scale. A scale that stands keeps a passive force passive: both works
 /// differ by that factor.
 class PlacedDevice : public Device {
  public:

@@ -35,11 +35,19 @@ std::uint64_t fresh_for_ns(const GateInput& input) {
                                    kZeroAfter_ns);
 }
 
+/// Bounds of the hand's own speed and energy as positions tell them.
+GateSettings as_told(GateSettings settings, double motion_scale) {
+  settings.cut_off_m_s *= motion_scale;
+  settings.energy_store_J *= motion_scale;
+  settings.active_power_W *= motion_scale;
+  return settings;
+}
+
 }  // namespace
 
 ForceGate::ForceGate(const device::DeviceProfile& profile, const GateSettings& settings)
     : profile_(profile),
-      settings_(settings),
+      settings_(as_told(settings, profile.motion_scale)),
       heat_(profile.continuous_force_N, std::clamp(settings.force_limit, 0.0, 1.0) * profile.peak_force_N) {}
 
 Vec3 ForceGate::shut(GateState state) noexcept {
@@ -79,7 +87,7 @@ Vec3 ForceGate::watch_device(const GateInput& input, double elapsed_s) noexcept 
   last_position_m_ = input.device_position_m;
   if (profile_.shows_force_only) return moved_m;
   const double speed_m_s = moved_m.norm() / std::max(elapsed_s, kShortestTick_s);
-  if (!(speed_m_s <= kFasterThanAnyHand_m_s)) {
+  if (!(speed_m_s <= profile_.motion_scale * kFasterThanAnyHand_m_s)) {
     faults_ |= bit(Fault::DeviceJumped);
   } else if (speed_m_s > settings_.cut_off_m_s) {
     faults_ |= bit(Fault::TooFast);

@@ -34,6 +34,7 @@ constexpr double kMostOfAll = 1e6;  // of any of them: no device of this world
 nlohmann::json json_of(const device::DeviceProfile& profile) {
   nlohmann::json device = {{"delay_ticks", profile.delay_ticks}, {"shows_force_only", profile.shows_force_only}};
   for (const ProfileKey& key : kProfileKeys) device[key.name] = profile.*key.value;
+  if (profile.motion_scale != 1.0) device["motion_scale"] = profile.motion_scale;
   return device;
 }
 
@@ -41,6 +42,7 @@ device::DeviceProfile read_profile(const JsonValue& value) {
   device::DeviceProfile profile;
   JsonObject numbers(value);
   for (const ProfileKey& key : kProfileKeys) profile.*key.value = numbers.at(key.name).number_between(0.0, kMostOfAll);
+  if (const auto scale = numbers.find("motion_scale")) profile.motion_scale = scale->number_between(0.01, 100.0);
   profile.delay_ticks = numbers.at("delay_ticks").integer_between(0, 1000);
   profile.shows_force_only = numbers.at("shows_force_only").boolean();
   numbers.finish();

@@ -21,7 +21,7 @@ class Table : public HardwareDevice {
   const DeviceProfile& profile() const override { return profile_; }
   void open() override { profile_.peak_force_N = 7.0; }  // as one that tells its limits
   void close() noexcept override {}
-  bool connected() const noexcept override { return true; }
+  bool connected() const noexcept override { return is_connected; }
   messages::DeviceState read(std::uint64_t) noexcept override { return state; }
   void write(const messages::DeviceCommand& command) noexcept override { force_N = to_vec3(command.force_world_N); }
   DeviceReport report() const noexcept override { return {}; }
@@ -31,6 +31,7 @@ class Table : public HardwareDevice {
     state.buttons = buttons;
   }
 
+  bool is_connected = true;
   messages::DeviceState state;
   Vec3 force_N = Vec3::Zero();
 
@@ -99,6 +100,7 @@ TEST(PlacedDevice, TellsItsProfileAsTheWorldSeesIt) {
   EXPECT_DOUBLE_EQ(placed.device.profile().viscous_Ns_m, table.viscous_Ns_m / 4.0);
   EXPECT_DOUBLE_EQ(placed.device.profile().resolution_m, table.resolution_m * 4.0);
   EXPECT_DOUBLE_EQ(placed.device.profile().workspace_m[0], table.workspace_m[0] * 4.0);
+  EXPECT_DOUBLE_EQ(placed.device.profile().motion_scale, 4.0);
 }
 
 TEST(PlacedDevice, TheToolStaysWhileTheClutchIsHeldAndGoesOnFromThere) {
@@ -164,6 +166,15 @@ TEST(PlacedDevice, OutsideTheBubbleTheWorkspaceMovesOnAndInsideItStays) {
   before_m = placed.read();
   for (int tick = 0; tick < 1000; ++tick) placed.read();
   EXPECT_NEAR((placed.read() - before_m).y(), 0.3, 1e-3);
+}
+
+TEST(PlacedDevice, TheBubbleRestsWhileTheDeviceIsLost) {
+  Placed placed(bubble(0.04));
+  placed.table.put({0.0, 0.08, 0.0});
+  placed.table.is_connected = false;
+  const Vec3 before_m = placed.read();
+  for (int tick = 0; tick < 1000; ++tick) placed.read();
+  EXPECT_EQ(placed.read(), before_m);
 }
 
 TEST(PlacedDevice, TheBubbleRestsWhileAForceIsFelt) {

@@ -72,6 +72,27 @@ TEST(GateSafety, BelowTheCutOffNothingIsCut) {
   EXPECT_EQ(rig.gate.state(), GateState::On);
 }
 
+TEST(GateSafety, TheCutOffIsTheHandsOwnSpeedWhateverItsScale) {
+  for (const double scale : {0.05, 0.1, 4.0, 20.0}) {
+    device::DeviceProfile placed = cool_motors();
+    placed.motion_scale = scale;
+    Rig rig(full_share(), placed);
+    rig.open();
+    Vec3 position_m = Vec3::Zero();
+    for (int i = 0; i < 20; ++i) {
+      position_m.y() += scale * 0.9e-3;
+      rig.tick(Vec3(0.1, 0, 0), position_m);
+      EXPECT_FALSE(raised(rig, Fault::TooFast)) << scale;
+    }
+    position_m.y() += scale * 5e-3;
+    EXPECT_EQ(rig.tick(Vec3(0.1, 0, 0), position_m).norm(), 0.0) << scale;
+    EXPECT_TRUE(raised(rig, Fault::TooFast)) << scale;
+    position_m.y() += scale * 25e-3;
+    rig.tick(Vec3(0.1, 0, 0), position_m);
+    EXPECT_TRUE(raised(rig, Fault::DeviceJumped)) << scale;
+  }
+}
+
 TEST(GateSafety, AMouseMayBeAsFastAsItLikes) {
   device::DeviceProfile mouse = cool_motors();
   mouse.shows_force_only = true;

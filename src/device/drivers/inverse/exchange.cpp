@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,6 +16,10 @@ constexpr double kFastestHand_m_s = 10.0;
 constexpr double kJumpSlack_m = 0.01;
 /// The gate before us keeps to the peak. A little more is cut; this much more is no force that anybody meant.
 constexpr double kSane = 2.0;
+constexpr std::uint64_t kForceLife_ns = 20'000'000;  // age of the state that a force answers
+/// Commands without an answer, the second of no force, beyond which none is sent: each is answered in its turn, and a
+/// force behind a queue of them would come late for ever.
+constexpr int kMostOwed = 2;
 constexpr std::uint64_t kRateSpan_ns = 1'000'000'000;
 
 constexpr const char* kServiceGone = "Start the Inverse Service (haply-inverse-service) again.";
@@ -40,8 +45,9 @@ Exchange::Exchange(std::string id, std::size_t place, const InverseSettings& set
 void Exchange::begin(CommandForm form, std::uint64_t now_ns) {
   form_ = form;
   good_ = 0;
-  is_awaiting_ = false;
-  sent_ns_ = 0;
+  owed_ = 0;
+  position_service_m_.setConstant(std::numeric_limits<double>::quiet_NaN());  // none of an earlier connection
+  sent_ns_ = answered_ns_ = 0;
   heard_ns_ = now_ns;
   counted_from_ns_ = now_ns;
   exchanges_ = 0;
@@ -64,13 +70,15 @@ void Exchange::fault(const char* hint) {
 }
 
 std::string Exchange::take(std::string_view text, std::uint64_t now_ns) {
-  is_awaiting_ = false;
+  owed_ = std::max(0, owed_ - 1);
+  answered_ns_ = now_ns;
   count(now_ns);
   std::string problem = read_message(text, message_);
   if (!problem.empty()) {
     fault(kNotUnderstood);
     return problem;
   }
+  if (owed_ > 0) return "";  // an answer to an earlier command: what it tells is old
   const auto device = std::find_if(message_.devices.begin(), message_.devices.end(),
                                    [&](const DeviceEntry& entry) { return entry.id == id_; });
   if (device == message_.devices.end()) {
@@ -85,11 +93,12 @@ std::string Exchange::take_device(const DeviceEntry& device, std::uint64_t now_n
   const auto& axes = device.position_service_m;
   // Without any position nothing is fresh: left to the limit of silence, since the origin, where all three could be
   // left out, is in the mounting plate.
-  if (!axes[0] && !axes[1] && !axes[2]) return fmt::format("the state of {} has no position", id_);
+  const bool tells = axes[0] || axes[1] || axes[2];
   const Vec3 last_m = position_service_m_;
   for (std::size_t i = 0; i < axes.size(); ++i) {
     position_service_m_[static_cast<int>(i)] = axes[i].value_or(last_m[static_cast<int>(i)]);
   }
+  if (!tells || !position_service_m_.allFinite()) return fmt::format("the state of {} has no position", id_);
   const double jump_m = (position_service_m_ - last_m).norm();
   const double farthest_m = kJumpSlack_m + kFastestHand_m_s * 1e-9 * static_cast<double>(since(heard_ns_, now_ns));
   heard_ns_ = now_ns;
@@ -117,12 +126,15 @@ std::uint64_t Exchange::silence_ns(std::uint64_t now_ns) {
 }
 
 std::uint64_t Exchange::due_ns() const {
-  return sent_ns_ + (is_awaiting_ ? kSilence_ns : kExchange_ns);
+  if (owed_ == 0) return sent_ns_ + kExchange_ns;
+  if (answered_ns_ > sent_ns_) return answered_ns_ + kSilence_ns;  // it answers no more: nothing is queued there
+  if (owed_ < kMostOwed) return sent_ns_ + kSilence_ns;
+  return std::numeric_limits<std::uint64_t>::max();  // with its answer, or in a new connection
 }
 
 const std::string& Exchange::next_command(std::uint64_t now_ns) {
   silence_ns(now_ns);
-  is_awaiting_ = true;
+  owed_ = answered_ns_ > sent_ns_ ? 1 : owed_ + 1;
   sent_ns_ = now_ns;
   write_force_command(id_, service_from_device(force_to_send_N(now_ns)), form_, command_);
   return command_;
@@ -132,7 +144,7 @@ Vec3 Exchange::force_to_send_N(std::uint64_t now_ns) {
   answers_.update();
   const Answer& answer = answers_.front();
   if (phase_ != DevicePhase::Ready || answer.epoch != epoch_) return Vec3::Zero();
-  if (since(answer.received_ns, now_ns) > kSilence_ns) return Vec3::Zero();  // the tick stands still
+  if (since(answer.received_ns, now_ns) > kForceLife_ns) return Vec3::Zero();  // the tick stands still
   return limited_N(to_vec3(answer.force_N), settings_.profile.peak_force_N);
 }
 

@@ -13,7 +13,7 @@
 
 namespace myotact::device::inverse {
 
-/// Silence of the service, and age of what a force answers, beyond which there is no force.
+/// Silence of the service beyond which there is no force.
 inline constexpr std::uint64_t kSilence_ns = 30'000'000;
 /// Between commands: up to 5000 exchanges a second, more than the 1000 ticks need and less than a processor's time.
 inline constexpr std::uint64_t kExchange_ns = 200'000;
@@ -27,7 +27,7 @@ inline constexpr int kGoodBeforeReady = 10;
 ///   service <-command- next_command() <--Answer (newest)-- write()
 ///
 /// A sample has the epoch of the Ready phase in which it came, an answer that of the sample it answers: a force is sent
-/// only when it answers a sample, at most kSilence_ns old, of the phase that still lasts. Every fault ends the phase.
+/// only when it answers a sample, at most 20 ms old, of the phase that still lasts. Every fault ends the phase.
 class Exchange {
  public:
   /// `id` of the device, `place` of its grip in the list of grips.
@@ -42,7 +42,8 @@ class Exchange {
   void end(DevicePhase phase);
   /// To be called at least every kSilence_ns: notices silence. The time since a state was heard.
   std::uint64_t silence_ns(std::uint64_t now_ns);
-  /// When the next command is due, the answer to the last one having come or not.
+  /// When the next command is due. Where an answer fails to come for kSilence_ns, one of no force; then none until the
+  /// service has answered both, or one and then nothing for as long: it is never behind.
   std::uint64_t due_ns() const;
   /// The command to send now; valid until the next call.
   const std::string& next_command(std::uint64_t now_ns);
@@ -91,11 +92,11 @@ class Exchange {
   ServiceMessage message_;
   std::string command_;
   Sample sample_;
-  Vec3 position_service_m_ = Vec3::Zero();
-  std::uint64_t epoch_ = 0;  // of the Ready phases
-  int good_ = 0;             // states in a row without a fault
-  bool is_awaiting_ = false;
-  std::uint64_t sent_ns_ = 0;
+  Vec3 position_service_m_ = Vec3::Zero();  // not a number where this connection has not told it
+  std::uint64_t epoch_ = 0;                 // of the Ready phases
+  int good_ = 0;                            // states in a row without a fault
+  int owed_ = 0;                            // commands that the service has not answered
+  std::uint64_t sent_ns_ = 0, answered_ns_ = 0;  // the newest command, the newest message
   std::uint64_t heard_ns_ = 0;
   std::uint64_t counted_from_ns_ = 0;
   int exchanges_ = 0;  // since then

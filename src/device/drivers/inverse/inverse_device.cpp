@@ -44,7 +44,13 @@ void InverseDevice::open() {
   exchange_.begin(greeting.form, steady_ns());
   is_linked_ = true;
   closing_ = false;
-  thread_ = std::thread([this] { talk(); });
+  try {
+    thread_ = std::thread([this] { talk(); });
+  } catch (...) {
+    link_->close();
+    exchange_.end(DevicePhase::Closed);
+    throw;
+  }
 }
 
 void InverseDevice::close() noexcept {
@@ -62,7 +68,7 @@ void InverseDevice::talk() {
   realtime::make_this_thread_real_time();  // where it is refused, forces come as late as the system lets them
   std::string text;
   while (!is_closing()) {
-    if (is_linked_ && !exchange_once(text)) {
+    if (is_linked_ && !is_alive(text)) {
       is_linked_ = false;
       link_->close();
       exchange_.end(DevicePhase::Lost);
@@ -72,13 +78,22 @@ void InverseDevice::talk() {
   say_goodbye();
 }
 
+/// As exchange_once(); whatever it throws, as for want of memory, ends the connection and not the program.
+bool InverseDevice::is_alive(std::string& text) noexcept {
+  try {
+    return exchange_once(text);
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
 /// Sends a command when one is due and takes what comes until the next is. False: the connection has ended.
 bool InverseDevice::exchange_once(std::string& text) {
   std::uint64_t now_ns = steady_ns();
   if (now_ns >= exchange_.due_ns() && !link_->send(exchange_.next_command(now_ns))) return false;
   now_ns = steady_ns();
   const std::uint64_t due_ns = exchange_.due_ns();
-  const auto wait = std::chrono::nanoseconds(due_ns > now_ns ? due_ns - now_ns : 0);
+  const auto wait = std::chrono::nanoseconds(due_ns > now_ns ? std::min(due_ns - now_ns, kSilence_ns) : 0);
   const LinkEvent event = link_->receive(text, wait);
   now_ns = steady_ns();
   if (event == LinkEvent::Message) exchange_.take(text, now_ns);
@@ -90,7 +105,7 @@ void InverseDevice::connect_again() {
     const Greeting greeting = greet(*link_, settings_);
     exchange_.begin(greeting.form, steady_ns());
     is_linked_ = true;
-  } catch (const ServiceError&) {
+  } catch (const std::exception&) {
     link_->close();  // not yet
   }
 }

@@ -42,6 +42,7 @@ class InverseDevice : public HardwareDevice {
 
  private:
   void talk();
+  bool is_alive(std::string& text) noexcept;
   bool exchange_once(std::string& text);
   void connect_again();
   bool wait_or_closing();

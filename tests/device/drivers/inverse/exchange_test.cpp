@@ -54,6 +54,7 @@ class InverseExchange : public ::testing::Test {
     tick(Vec3(0, 1, 0));
     ASSERT_TRUE(exchange_.connected());
     ASSERT_EQ(sent_N(), Vec3(0, 0, 1));
+    ASSERT_EQ(answer(), "");
   }
 
   InverseSettings settings_;
@@ -116,7 +117,7 @@ TEST_F(InverseExchange, ForcesAreLimitedAndNonsenseIsZero) {
 
 TEST_F(InverseExchange, SilenceEndsTheForceAndStatesBringItBackThroughZero) {
   make_ready();
-  const std::uint64_t heard_ns = now_ns_ - kTick_ns;
+  const std::uint64_t heard_ns = now_ns_;
   while (now_ns_ <= heard_ns + kSilence_ns) {
     EXPECT_TRUE(exchange_.connected());
     tick(Vec3(0, 1, 0));
@@ -139,12 +140,44 @@ TEST_F(InverseExchange, SilenceEndsTheForceAndStatesBringItBackThroughZero) {
   EXPECT_THAT(exchange_.report().hint, StrEq(""));
 }
 
+TEST_F(InverseExchange, AfterAServiceThatStoodStillNoForceIsBehindAQueue) {
+  constexpr std::uint64_t kService_ns = 1'000'000, kStep_ns = 100'000;
+  begin();
+  int queued = 0, most_queued = 0, felt = 0;
+  std::uint64_t busy_until_ns = now_ns_;
+  const std::uint64_t begun_ns = now_ns_;
+  for (int step = 0; step < 30'000; ++step) {
+    now_ns_ += kStep_ns;
+    const std::uint64_t ran_ns = now_ns_ - begun_ns;
+    const bool stands = ran_ns > 500'000'000 && ran_ns < 1'400'000'000;
+    exchange_.read(now_ns_);
+    exchange_.write({{0.0, 1.0, 0.0}});
+    if (now_ns_ >= exchange_.due_ns()) {
+      const Vec3 sent = sent_N();
+      if (queued == 0) busy_until_ns = now_ns_ + kService_ns;
+      most_queued = std::max(most_queued, ++queued);
+      if (sent != Vec3::Zero()) {
+        ASSERT_EQ(queued, 1) << "a force is the only command under way";
+        felt += ran_ns > 1'400'000'000 ? 1 : 0;
+      }
+    }
+    if (queued > 0 && !stands && now_ns_ >= busy_until_ns) {
+      answer();
+      --queued;
+      busy_until_ns = now_ns_ + kService_ns;
+    }
+  }
+  EXPECT_EQ(most_queued, 2);
+  EXPECT_GT(felt, 1000);
+}
+
 TEST_F(InverseExchange, ADeviceThatIsGoneIsLostAtOnce) {
   make_ready();
   EXPECT_THAT(answer(R"({"session_id":7,"inverse3":[]})"), HasSubstr("049D"));
   EXPECT_EQ(exchange_.report().phase, DevicePhase::Lost);
   EXPECT_THAT(exchange_.report().hint, HasSubstr("cable"));
   EXPECT_EQ(sent_N(), Vec3(0, 0, 0));
+  EXPECT_NE(answer(R"({"session_id":7,"inverse3":[]})"), "");
   tick(Vec3(0, 1, 0));
   EXPECT_FALSE(exchange_.connected());
   run(kGoodBeforeReady);
