@@ -38,6 +38,9 @@ Dhdapi::Dhdapi(const std::string& path) : library("libdhd of the Force Dimension
   library.bind("dhdErrorGetLastStr", last_error);
   library.bind("dhdGetSDKVersion", sdk_version);
   library.bind_if_there("dhdEmulateButton", emulate_button);
+  library.bind_if_there("drdOpenID", drd_open_id);
+  library.bind_if_there("drdClose", drd_close);
+  library.bind_if_there("drdStop", drd_stop);
   library.bind_if_there("drdIsInitialized", is_initialised);
   library.bind_if_there("drdAutoInit", initialise);
   std::array<int, 4> version{};

@@ -8,7 +8,8 @@
 namespace myotact::device::force_dimension {
 
 // The part of DHD (and of DRD, whose library has both) that is used, as exported on 64-bit Linux (reference: SDK 3.17).
-// Every call about a device takes its number last. Below zero: an error. 1: no newer data. 2: motors at their limit.
+// Devices are opened by their place among those plugged in; every other call takes the ID that opening gave, last.
+// Below zero: an error. 1: no newer data. 2: motors at their limit.
 
 /// Places in the status that dhdGetStatus fills.
 enum Status : std::size_t {
@@ -31,7 +32,7 @@ struct Dhdapi {
 
   VendorLibrary library;
   int (*device_count)();
-  int (*open_id)(char);
+  int (*open_id)(char place);  // the device's ID
   int (*close)(char);
   int (*system_type)(char);
   int (*serial_number)(unsigned short*, char);
@@ -47,9 +48,20 @@ struct Dhdapi {
   const char* (*last_error)();
   void (*sdk_version)(int*, int*, int*, int*);
   int (*emulate_button)(unsigned char on, char);  // of the gripper; null in old libraries
-  bool (*is_initialised)(char);                   // of DRD; null in DHD's own library
-  int (*initialise)(char);                        // of DRD; null in DHD's own library
+  // Of DRD; null in DHD's own library.
+  int (*drd_open_id)(char place);
+  int (*drd_close)(char);
+  int (*drd_stop)(bool leaves_forces_on, char);
+  bool (*is_initialised)(char);
+  int (*initialise)(char);
 
+  /// Whether it can find out where a device is, and can tell.
+  bool has_drd() const { return drd_open_id && drd_close && drd_stop && is_initialised && initialise; }
+  /// For DRD's calls, too, where there are any. The device's ID; below zero: an error.
+  int open_device(int place) const {
+    return has_drd() ? drd_open_id(static_cast<char>(place)) : open_id(static_cast<char>(place));
+  }
+  void close_device(char id) const { has_drd() ? drd_close(id) : close(id); }
   /// The library's last error in this thread; never empty.
   std::string error_text() const;
 };

@@ -60,6 +60,11 @@ void Exchange::take(const RawState& raw, std::uint64_t now_ns) noexcept {
   judge(now_ns);
 }
 
+void Exchange::distrust(std::uint64_t now_ns) noexcept {
+  distrusted_until_ns_ = now_ns + kDistrust_ns;
+  judge(now_ns);
+}
+
 void Exchange::judge(std::uint64_t now_ns) noexcept {
   phase_ = DevicePhase::Lost;
   if (!status_.is_connected) {

@@ -37,6 +37,8 @@ class Exchange {
 
   void take(const RawState& state, std::uint64_t now_ns) noexcept;
   void take(const RawStatus& status) noexcept { status_ = status; }
+  /// It did not take a force.
+  void distrust(std::uint64_t now_ns) noexcept;
   /// In the library's frame.
   Vec3 allowed(const WantedForce& wanted, std::uint64_t now_ns) const noexcept;
   /// Whether its motors may be switched on again: they went off by a fast hand or a pause of ours, and the hand has

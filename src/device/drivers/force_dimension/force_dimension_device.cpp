@@ -19,6 +19,7 @@ constexpr std::uint64_t kPoseLife_ns = 30'000'000;    // as a stale model: FORMA
 constexpr std::uint64_t kGivenUp_ns = 2'000'000'000;  // of a device that answers with errors alone
 constexpr std::uint64_t kRateWindow_ns = 1'000'000'000;
 constexpr std::uint64_t kExchangesBetweenLooks = 20;  // at the status: a hundredth of a second
+constexpr int kMostRefused = 4;                       // two milliseconds of forces that were not taken
 constexpr auto kLookAgain = std::chrono::milliseconds(500);
 
 }  // namespace
@@ -26,30 +27,45 @@ constexpr auto kLookAgain = std::chrono::milliseconds(500);
 ForceDimensionDevice::ForceDimensionDevice(std::string name, int number, const ForceDimensionSettings& settings,
                                            std::shared_ptr<DhdLibrary> library)
     : name_(std::move(name)),
-      number_(static_cast<char>(number)),
+      number_(number),
       settings_(settings),
       library_(std::move(library)),
       profile_(profile_of(model_of(0), 0.0)) {}
 
 bool ForceDimensionDevice::open_on_library() noexcept {
-  if (api().open_id(number_) < 0) return false;
-  if (settings_.initialises_itself && api().initialise != nullptr && !api().is_initialised(number_)) {
-    api().initialise(number_);  // that it failed shows in the status
-  }
-  api().set_gravity_compensation(settings_.gravity_compensation ? 1 : 0, number_);
-  api().set_brakes(0, number_);
-  if (api().emulate_button != nullptr) api().emulate_button(1, number_);
-  api().set_force(0.0, 0.0, 0.0, number_);
-  api().enable_force(1, number_);
+  const int opened = api().open_device(number_);
+  if (opened < 0) return false;
+  id_ = static_cast<char>(opened);
   return true;
+}
+
+ForceDimensionDevice::Identity ForceDimensionDevice::identity() const noexcept {
+  unsigned short serial = 0;
+  const bool has_serial = api().serial_number(&serial, id_) >= 0;
+  return {api().system_type(id_), has_serial ? serial : -1};
+}
+
+/// It moves by itself. That it failed shows in the status.
+void ForceDimensionDevice::initialise() const noexcept {
+  if (!settings_.initialises_itself || !api().has_drd() || api().is_initialised(id_)) return;
+  api().initialise(id_);
+  api().drd_stop(true, id_);  // or DRD would hold the grip where it left it
+}
+
+/// Ready to be felt, from no force: where it does not take that, its motors stay off.
+void ForceDimensionDevice::prepare() const noexcept {
+  api().set_gravity_compensation(settings_.gravity_compensation ? 1 : 0, id_);
+  api().set_brakes(0, id_);
+  if (api().emulate_button != nullptr) api().emulate_button(1, id_);
+  if (api().set_force(0.0, 0.0, 0.0, id_) >= 0) api().enable_force(1, id_);
 }
 
 /// Brakes, where it has them, slow the grip's fall once nothing carries it.
 void ForceDimensionDevice::close_on_library() noexcept {
-  api().set_force(0.0, 0.0, 0.0, number_);
-  api().enable_force(0, number_);
-  api().set_brakes(1, number_);
-  api().close(number_);
+  api().set_force(0.0, 0.0, 0.0, id_);
+  api().enable_force(0, id_);
+  api().set_brakes(1, id_);
+  api().close_device(id_);
 }
 
 void ForceDimensionDevice::open() {
@@ -65,13 +81,23 @@ void ForceDimensionDevice::open() {
                             "and let this computer's user open it by assets/devices/udev/70-myotact.rules",
                             name_, api().error_text()));
   }
-  profile_ = profile_of(model_of(api().system_type(number_)), api().max_force(number_));
+  identity_ = identity();
+  profile_ = profile_of(model_of(identity_.type), api().max_force(id_));
+  initialise();
+  prepare();
   stopping_ = false;
-  thread_ = std::thread([this] {
-    realtime::name_this_thread("force_dimension");
-    realtime::make_this_thread_real_time();
-    run();
-  });
+  try {
+    thread_ = std::thread([this] {
+      realtime::name_this_thread("force_dimension");
+      realtime::make_this_thread_real_time();
+      run();
+    });
+  } catch (...) {
+    close_on_library();
+    is_open = false;
+    phase_ = DevicePhase::Closed;
+    throw;
+  }
 }
 
 void ForceDimensionDevice::close() noexcept {
@@ -93,11 +119,22 @@ void ForceDimensionDevice::run() noexcept {
     phase_ = DevicePhase::Lost;
     hint_ = "The device does not answer: see to its cable and its power.";
     rate_Hz_ = 0.0;
-    while (!open_on_library()) {
+    while (!reopen()) {
       if (stopping_) return;
       std::this_thread::sleep_for(kLookAgain);
     }
   }
+}
+
+/// The same device; another one at its place is left alone.
+bool ForceDimensionDevice::reopen() noexcept {
+  if (!open_on_library()) return false;
+  if (identity() == identity_) {
+    prepare();
+    return true;
+  }
+  api().close_device(id_);
+  return false;
 }
 
 void ForceDimensionDevice::exchange_until_gone() noexcept {
@@ -105,17 +142,23 @@ void ForceDimensionDevice::exchange_until_gone() noexcept {
   realtime::PeriodicLoop beat(kExchange_ns);
   beat.start();
   std::uint64_t window_ns = realtime::steady_now_ns(), begun_ns = window_ns, exchanges = 0, counted = 0;
+  int refused = 0;      // forces in a row that it did not take
+  bool pushes = false;  // by the last one that it took
   while (!stopping_) {
     beat.wait();
-    if (exchanges % kExchangesBetweenLooks == 0) exchange.take(read_status());
-    ++exchanges;
+    const bool looks = exchanges++ % kExchangesBetweenLooks == 0;
+    if (looks) exchange.take(read_status());
     const RawState state = read_state();
     const std::uint64_t now_ns = realtime::steady_now_ns();
     exchange.take(state, now_ns);
     forces_.update();
     const Vec3 force_N = exchange.allowed(forces_.front(), now_ns);
-    api().set_force(force_N.x(), force_N.y(), force_N.z(), number_);  // zeros, too: they carry the device's weight
-    if (exchange.may_enable(now_ns)) api().enable_force(1, number_);
+    const int sent = api().set_force(force_N.x(), force_N.y(), force_N.z(), id_);  // zeros, too: they carry its weight
+    refused = sent < 0 ? refused + 1 : 0;
+    if (refused == 0) pushes = force_N != Vec3::Zero();
+    if (refused > 0) exchange.distrust(now_ns);
+    if (refused > kMostRefused && pushes) return;  // its motors may keep that: they are switched off
+    if (looks && exchange.may_enable(now_ns)) api().enable_force(1, id_);
     tell(exchange);
     if (now_ns - std::max(exchange.heard_ns(), begun_ns) > kGivenUp_ns) return;
     if (now_ns - window_ns < kRateWindow_ns) continue;
@@ -129,17 +172,17 @@ RawState ForceDimensionDevice::read_state() const noexcept {
   RawState state;
   Vec3& p = state.position_m;
   Vec3& v = state.velocity_m_s;
-  const int position = api().get_position(&p.x(), &p.y(), &p.z(), number_);
-  const int velocity = api().get_velocity(&v.x(), &v.y(), &v.z(), number_);
+  const int position = api().get_position(&p.x(), &p.y(), &p.z(), id_);
+  const int velocity = api().get_velocity(&v.x(), &v.y(), &v.z(), id_);
   state.result = std::min(position, velocity);
-  state.buttons = api().button_mask(number_);
+  state.buttons = api().button_mask(id_);
   return state;
 }
 
 RawStatus ForceDimensionDevice::read_status() const noexcept {
   std::array<int, kStatusLength> raw{};
-  if (api().get_status(raw.data(), number_) < 0) return {.is_connected = false};
-  const bool is_initialised = api().is_initialised != nullptr ? api().is_initialised(number_) : raw[kInitialised] != 0;
+  if (api().get_status(raw.data(), id_) < 0) return {.is_connected = false};
+  const bool is_initialised = api().has_drd() ? api().is_initialised(id_) : raw[kInitialised] != 0;
   return {raw[kPower] != 0, raw[kConnected] != 0, is_initialised, raw[kForceIsOn] != 0, raw[kForceOffCause]};
 }
 

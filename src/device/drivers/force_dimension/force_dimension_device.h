@@ -23,10 +23,10 @@ struct DhdLibrary {
 
 /// An omega, delta, sigma or lambda with a thread of its own that exchanges with it two thousand times a second; the
 /// haptic tick leaves a force and takes a position, through channels that never wait. One that stopped answering is
-/// opened anew, twice a second.
+/// opened anew, twice a second, but no other one in its place, and it does not move by itself then.
 class ForceDimensionDevice : public HardwareDevice {
  public:
-  /// `number`: the library's.
+  /// `number`: its place among those that the library sees.
   ForceDimensionDevice(std::string name, int number, const ForceDimensionSettings& settings,
                        std::shared_ptr<DhdLibrary> library);
   ~ForceDimensionDevice() override { close(); }
@@ -51,7 +51,16 @@ class ForceDimensionDevice : public HardwareDevice {
   };
 
   const Dhdapi& api() const { return library_->api; }
+  /// What tells one device from another.
+  struct Identity {
+    int type = 0, serial = -1;
+    bool operator==(const Identity&) const = default;
+  };
   bool open_on_library() noexcept;
+  Identity identity() const noexcept;
+  void initialise() const noexcept;
+  void prepare() const noexcept;
+  bool reopen() noexcept;
   void close_on_library() noexcept;
   // ---- the device's own thread
   void run() noexcept;
@@ -61,10 +70,12 @@ class ForceDimensionDevice : public HardwareDevice {
   void tell(const Exchange& exchange) noexcept;
 
   const std::string name_;
-  const char number_;
+  const int number_;
   const ForceDimensionSettings settings_;
   std::shared_ptr<DhdLibrary> library_;
   DeviceProfile profile_;
+  char id_ = 0;        // of the open device
+  Identity identity_;  // of the one that open() found
   realtime::LatestValue<Pose> poses_;
   realtime::LatestValue<WantedForce> forces_;
   std::atomic<DevicePhase> phase_{DevicePhase::Closed};

@@ -24,7 +24,13 @@ std::shared_ptr<DhdLibrary> shared_library(const std::string& path) {
   static std::weak_ptr<DhdLibrary> loaded;
   static std::string loaded_path;
   const std::lock_guard lock(mutex);
-  if (auto library = loaded.lock(); library && loaded_path == path) return library;
+  if (auto library = loaded.lock()) {
+    if (loaded_path == path) return library;
+    const auto is_open = [](const std::atomic<bool>& open) { return open.load(); };
+    if (std::any_of(library->is_open.begin(), library->is_open.end(), is_open)) {
+      throw Error(ExitStatus::Unavailable, "this program uses another libdhd already");
+    }
+  }
   auto library = std::make_shared<DhdLibrary>(path);
   loaded = library;
   loaded_path = path;
@@ -47,16 +53,17 @@ DeviceFinding look_at(const DhdLibrary& library, int number) {
     finding.remedy = "close it first";
     return finding;
   }
-  const char id = static_cast<char>(number);
-  if (library.api.open_id(id) < 0) {
+  const int opened = library.api.open_device(number);
+  if (opened < 0) {
     finding.cause = "it does not open: " + library.api.error_text();
     finding.remedy = kSeeTo;
     return finding;
   }
+  const char id = static_cast<char>(opened);
   unsigned short serial = 0;
   finding.title = fmt::format("Force Dimension {}", model_of(library.api.system_type(id)).title);
   if (library.api.serial_number(&serial, id) >= 0) finding.title += fmt::format(", serial number {}", serial);
-  library.api.close(id);
+  library.api.close_device(id);
   finding.ready = true;
   return finding;
 }

@@ -35,6 +35,7 @@ class DhdLibraryTest : public ::testing::Test {
     library_.bind("fake_dhd_pose", pose_);
     library_.bind("fake_dhd_plug", plug);
     library_.bind("fake_dhd_fail", fail);
+    library_.bind("fake_dhd_serial", serial);
     library_.bind("fake_dhd_force_off", force_off);
     library_.bind("fake_dhd_force", force_);
     library_.bind("fake_dhd_is", is);
@@ -77,6 +78,7 @@ class DhdLibraryTest : public ::testing::Test {
   void (*count)(int plugged, int result_of_open);
   void (*plug)(int device, bool is_plugged, bool is_powered, bool is_initialised);
   void (*fail)(int device, bool fails, int force_result);
+  void (*serial)(int first);
   void (*force_off)(int device, int cause);
   long (*is)(int device, int what);
   std::unique_ptr<HardwareDevice> device_;
@@ -138,6 +140,32 @@ TEST_F(DhdLibraryTest, UnpluggedItIsLostAndFoundAgain) {
   EXPECT_STRNE(device_->report().hint, "");
   EXPECT_TRUE(ticks_until([&] { return is(0, kIsOpen) == 0; })) << "given up";
   plug(0, true, true, true);
+  EXPECT_TRUE(becomes_felt());
+}
+
+TEST_F(DhdLibraryTest, AnotherOneAtItsPlaceIsLeftAlone) {
+  ForceDimensionSettings settings = fake_settings();
+  settings.initialises_itself = true;
+  open(settings);
+  EXPECT_TRUE(becomes_felt());
+  plug(0, false, true, true);
+  EXPECT_TRUE(ticks_until([&] { return is(0, kIsOpen) == 0; })) << "given up";
+  serial(2000);
+  plug(0, true, true, false);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(1500);  // three looks
+  ticks_until([&] { return device_->connected() || std::chrono::steady_clock::now() > end; });
+  EXPECT_EQ(device_->report().phase, DevicePhase::Lost);
+  serial(1000);
+  EXPECT_TRUE(becomes(DevicePhase::NeedsCalibration)) << "and it does not move by itself, with a hand on it perhaps";
+  EXPECT_EQ(is(0, kInitialisations), 0);
+}
+
+TEST_F(DhdLibraryTest, MotorsThatTakeNoForceAreSwitchedOff) {
+  open();
+  EXPECT_TRUE(becomes_felt());
+  fail(0, false, -1);
+  EXPECT_TRUE(ticks_until([&] { return !device_->connected() && is(0, kForcesOn) == 0; }));
+  fail(0, false, 0);
   EXPECT_TRUE(becomes_felt());
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 struct Device {
   bool is_open = false, is_plugged = true, is_initialised = true, forces_on = false, brakes = true, emulates = false;
-  bool is_powered = true, fails = false;
+  bool is_powered = true, fails = false, is_drd = false, is_regulated = false;
   int gravity = 0, cause = 0, force_result = 0;
   std::array<double, 3> position_m{}, velocity_m_s{}, force_N{};
   unsigned int buttons = 0;
@@ -23,9 +23,12 @@ std::mutex mutex;
 std::array<Device, 2> devices;
 int count = 2;
 int open_result = 0;
+int serial = 1000;
+
+constexpr char kFirstId = 5;  // not a device's place: a driver that takes the one for the other fails
 
 Device* open_device(char id) {
-  const std::size_t number = id < 0 ? 0 : static_cast<std::size_t>(id);
+  const auto number = static_cast<std::size_t>(id - kFirstId);
   if (number >= devices.size() || !devices[number].is_open) return nullptr;
   return &devices[number];
 }
@@ -40,6 +43,23 @@ void put(const std::array<double, 3>& v, double* x, double* y, double* z) {
   *z = v[2];
 }
 
+int open(char place) {
+  const std::lock_guard lock(mutex);
+  if (open_result < 0) return open_result;
+  const auto number = static_cast<std::size_t>(place);
+  if (number >= devices.size() || !devices[number].is_plugged || devices[number].is_open) return -1;
+  devices[number].is_open = true;
+  return place + kFirstId;
+}
+
+int close(char id) {
+  const std::lock_guard lock(mutex);
+  Device* device = open_device(id);
+  if (device == nullptr) return -1;
+  device->is_open = device->forces_on = false;
+  return 0;
+}
+
 }  // namespace
 
 extern "C" {
@@ -49,26 +69,18 @@ extern "C" {
 int dhdGetDeviceCount() {
   return count;
 }
-int dhdOpenID(char id) {
-  const std::lock_guard lock(mutex);
-  if (open_result < 0) return open_result;
-  const auto number = static_cast<std::size_t>(id);
-  if (number >= devices.size() || !devices[number].is_plugged || devices[number].is_open) return -1;
-  devices[number].is_open = true;
-  return id;
+int dhdOpenID(char place) {
+  return open(place);
 }
 int dhdClose(char id) {
-  const std::lock_guard lock(mutex);
-  Device* device = open_device(id);
-  if (device == nullptr) return -1;
-  device->is_open = device->forces_on = false;
-  return 0;
+  return close(id);
 }
 int dhdGetSystemType(char id) {
-  return id == 0 ? 33 : 104;
+  return id == kFirstId ? 33 : 104;
 }
 int dhdGetSerialNumber(unsigned short* number, char id) {
-  *number = static_cast<unsigned short>(1000 + id);
+  const std::lock_guard lock(mutex);
+  *number = static_cast<unsigned short>(serial + id - kFirstId);
   return 0;
 }
 int dhdEnableForce(unsigned char on, char id) {
@@ -108,7 +120,8 @@ int dhdGetLinearVelocity(double* x, double* y, double* z, char id) {
 int dhdSetForce(double x, double y, double z, char id) {
   const std::lock_guard lock(mutex);
   Device* device = open_device(id);
-  if (!answers(device)) return -1;
+  if (!answers(device) || device->is_regulated) return -1;
+  if (device->force_result < 0) return device->force_result;  // the motors keep what they had
   device->force_N = {x, y, z};
   device->greatest_N2 = std::max(device->greatest_N2, x * x + y * y + z * z);
   ++device->forces;
@@ -156,16 +169,30 @@ int dhdEmulateButton(unsigned char on, char id) {
   if (Device* device = open_device(id)) device->emulates = on != 0;
   return 0;
 }
+int drdOpenID(char place) {
+  const int id = open(place);
+  const std::lock_guard lock(mutex);
+  if (Device* device = id < 0 ? nullptr : open_device(static_cast<char>(id))) device->is_drd = true;
+  return id;
+}
+int drdClose(char id) {
+  return close(id);
+}
 bool drdIsInitialized(char id) {
   const std::lock_guard lock(mutex);
   const Device* device = open_device(id);
-  return device != nullptr && device->is_initialised;
+  return device != nullptr && device->is_drd && device->is_initialised;
+}
+int drdStop(bool, char id) {
+  const std::lock_guard lock(mutex);
+  if (Device* device = open_device(id)) device->is_regulated = false;
+  return 0;
 }
 int drdAutoInit(char id) {
   const std::lock_guard lock(mutex);
   Device* device = open_device(id);
-  if (device == nullptr) return -1;
-  device->is_initialised = true;
+  if (device == nullptr || !device->is_drd) return -1;
+  device->is_initialised = device->is_regulated = true;
   ++device->initialisations;
   return 0;
 }
@@ -178,6 +205,7 @@ void fake_dhd_reset() {
   devices = {};
   count = 2;
   open_result = 0;
+  serial = 1000;
 }
 void fake_dhd_count(int plugged, int result_of_open) {
   const std::lock_guard lock(mutex);
@@ -201,6 +229,11 @@ void fake_dhd_fail(int device, bool fails, int force_result) {
   const std::lock_guard lock(mutex);
   devices[static_cast<std::size_t>(device)].fails = fails;
   devices[static_cast<std::size_t>(device)].force_result = force_result;
+}
+/// Other devices are plugged in from now on.
+void fake_dhd_serial(int first) {
+  const std::lock_guard lock(mutex);
+  serial = first;
 }
 /// The motors go off by this cause.
 void fake_dhd_force_off(int device, int cause) {
