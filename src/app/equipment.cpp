@@ -86,11 +86,15 @@ Equipment::~Equipment() {
   for (const auto& [name, device] : devices_) device->close();
 }
 
+Mat3 Equipment::turn(const std::string& name) const {
+  return turned(placement_of(settings_, name).turn_deg);
+}
+
 std::unique_ptr<device::PlacedDevice> Equipment::place(const std::string& name, const scene::Scene& scene,
                                                        std::size_t tool) const {
   const device::TablePlacement on_table = placement_of(settings_, name);
   device::Placement placement;
-  placement.world_from_device = world_from_lateral_view(scene.specimen.side != "right") * turned(on_table.turn_deg);
+  placement.world_from_device = world_from_lateral_view(scene.specimen.side != "right") * turn(name);
   placement.middle_world_m = scene::start_of_hand(scene, tool);
   placement.scale = on_table.scale;
   placement.bubble_radius_m = on_table.bubble_radius_m;

@@ -34,6 +34,8 @@ class Equipment {
   bool empty() const { return devices_.empty(); }
   bool has(const std::string& name) const { return devices_.contains(name); }
   device::HardwareDevice& device(const std::string& name) const { return *devices_.at(name); }
+  /// How it stands on the table: columns are its right, up and towards axes in the person's.
+  Mat3 turn(const std::string& name) const;
   /// One of them in the world of this scene: the middle of its workspace where the tool's hand begins, its right, up
   /// and towards the person as in the lateral view, and what the settings say of it. Not longer than this.
   std::unique_ptr<device::PlacedDevice> place(const std::string& name, const scene::Scene& scene,

@@ -1,5 +1,7 @@
 #include "app/hands.h"
 
+#include <Eigen/Geometry>
+
 #include "device/profile_file.h"
 
 namespace myotact::app {
@@ -11,7 +13,7 @@ Hands::Hands(const scene::Scene& scene, std::size_t led, GuardedMotors& guarded,
     if (t == led) {
       devices_.push_back({&mouse_});
     } else if (equipment.has(name)) {
-      placed_.push_back({&equipment.device(name), equipment.place(name, scene, t), t});
+      placed_.push_back({&equipment.device(name), equipment.place(name, scene, t), t, equipment.turn(name)});
       devices_.push_back({placed_.back().in_world.get()});
     } else {
       simulated_.push_back(std::make_unique<device::SimulatedDevice>(name, scene::start_of_hand(scene, t),
@@ -39,6 +41,14 @@ std::vector<view::DeviceNews> Hands::news(const scene::Scene& scene) const {
 
 void Hands::ask_clutch(bool held) const {
   for (const Placed& placed : placed_) placed.in_world->ask_clutch(held);
+}
+
+void Hands::follow_view(const std::array<std::array<double, 3>, 3>& axes_world) const {
+  Mat3 axes;
+  for (int axis = 0; axis < 3; ++axis) axes.col(axis) = to_vec3(axes_world[static_cast<std::size_t>(axis)]);
+  if (axes.isZero()) return;  // there is no picture yet
+  const Mat3 world_from_picture = Eigen::Quaterniond(axes).normalized().toRotationMatrix();  // a picture's are floats
+  for (const Placed& placed : placed_) placed.in_world->ask_turn(world_from_picture * placed.picture_from_device);
 }
 
 bool is_persons(const scene::Scene& scene, std::size_t tool, std::size_t led) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <vector>
@@ -29,6 +30,8 @@ class Hands {
   std::vector<view::DeviceNews> news(const scene::Scene& scene) const;
   /// Of those on the table, as if held on the device itself.
   void ask_clutch(bool held) const;
+  /// Of those on the table: their right, up and towards the person are the picture's from now on.
+  void follow_view(const std::array<std::array<double, 3>, 3>& axes_world) const;
   bool has_simulated() const { return !simulated_.empty(); }
 
  private:
@@ -39,6 +42,7 @@ class Hands {
     device::HardwareDevice* device;
     std::unique_ptr<device::PlacedDevice> in_world;
     std::size_t tool;
+    Mat3 picture_from_device;  // as it stands on the table
   };
   std::vector<Placed> placed_;
   std::vector<scene::ToolDevice> devices_;

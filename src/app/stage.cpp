@@ -64,6 +64,7 @@ Stage::~Stage() = default;
 
 void Stage::move_hand(const view::ViewControls& controls) {
   hands_.ask_clutch(controls.clutch);
+  hands_.follow_view(controls.view_axes_world);
   hands_.mouse().set_pointer(to_vec3(controls.hand_world_m), controls.hand_buttons);
 }
 

@@ -49,7 +49,7 @@ DeviceProfile as_the_world_sees(DeviceProfile profile, double scale) {
 }  // namespace
 
 PlacedDevice::PlacedDevice(HardwareDevice& device, const Placement& placement)
-    : device_(device), placement_(placement), middle_m_(placement.middle_world_m) {
+    : device_(device), placement_(placement), middle_m_(placement.middle_world_m), turns_(placement.world_from_device) {
   check(placement);
   profile_ = as_the_world_sees(device.profile(), placement.scale);
 }
@@ -57,6 +57,14 @@ PlacedDevice::PlacedDevice(HardwareDevice& device, const Placement& placement)
 void PlacedDevice::open() {
   device_.open();
   profile_ = as_the_world_sees(device_.profile(), placement_.scale);
+}
+
+void PlacedDevice::follow_turn(const Vec3& on_table_m) noexcept {
+  turns_.update();
+  if (feels_force_ || turns_.front() == turn()) return;
+  const Vec3 tool_m = in_world(on_table_m);
+  placement_.world_from_device = turns_.front();
+  middle_m_ = tool_m - placement_.scale * (turn() * on_table_m);
 }
 
 void PlacedDevice::follow_clutch(bool clutched, const Vec3& on_table_m) noexcept {
@@ -81,6 +89,7 @@ messages::DeviceState PlacedDevice::read(std::uint64_t now_ns) noexcept {
   if (!on_table_m.allFinite()) return state;  // the loop sees what is wrong with it
   const double dt_s = now_ns > last_ns_ ? std::min(1e-9 * static_cast<double>(now_ns - last_ns_), kLongestTick_s) : 0.0;
   last_ns_ = now_ns;
+  follow_turn(on_table_m);
   follow_clutch((state.buttons & messages::kClutchButton) != 0, on_table_m);
   if (device_.connected() && !is_clutched_)
     drive_bubble(on_table_m, dt_s);  // a place from before it was lost drives nothing

@@ -6,14 +6,16 @@
 
 #include "core/vector.h"
 #include "device/hardware_device.h"
+#include "realtime/latest_value.h"
 
 namespace myotact::device {
 
 /// How the workspace of a device lies in the world.
 struct Placement {
-  Mat3 world_from_device = Mat3::Identity();  // a rotation: columns are the device's right, up and towards the person
-  Vec3 middle_world_m = Vec3::Zero();         // where the middle of the workspace lies at first
-  double scale = 1.0;                         // metres in the world for a metre on the table, 0.05 .. 20
+  /// A rotation: columns are the device's right, up and towards the person. At first; ask_turn() changes it.
+  Mat3 world_from_device = Mat3::Identity();
+  Vec3 middle_world_m = Vec3::Zero();  // where the middle of the workspace lies at first
+  double scale = 1.0;                  // metres in the world for a metre on the table, 0.05 .. 20
   /// Radius on the table within which the hand moves the tool, and beyond which it drives the workspace through the
   /// world, ever faster; 0: the workspace stays, and only the clutch takes it further.
   double bubble_radius_m = 0.0;
@@ -21,14 +23,17 @@ struct Placement {
 
 /// A device on the table as one in the world: turned, scaled, moved on by clutch and bubble.
 ///
+/// Turn (ask_turn): the workspace turns about the tool, which stays where it is, as soon as no force is felt: one that
+/// turned under the hand would do work that no hand did.
+///
 /// Clutch (kClutchButton held): the tool stays, the hand goes back to where it has room. Bubble (Dominjon et al. 2005,
 /// after its idea): outside the radius the middle moves outwards with a speed that grows with the cube of the way out.
 /// The middle rests while a force is felt: it would do work on the tissue that no hand did.
 ///
 /// The force on the table is the force in the world. A step on the table is `scale` steps in the world, so that what
 /// the world calls stiffness, damping and inertia of this device are its own divided by the scale: profile() says so,
-/// and every bound made from it holds on the table; the gate's own of speed and energy by motion_scale. A scale that stands keeps a passive force passive: both works
-/// differ by that factor.
+/// and every bound made from it holds on the table; the gate's own of speed and energy by motion_scale. A scale that
+/// stands keeps a passive force passive: both works differ by that factor.
 class PlacedDevice : public Device {
  public:
   /// `device` outlives this. Throws std::invalid_argument: a scale or radius out of its range, no rotation.
@@ -44,10 +49,14 @@ class PlacedDevice : public Device {
 
   /// Any thread. Held: as if the device's own clutch button were down, for devices that have too few.
   void ask_clutch(bool held) noexcept { asked_clutch_ = held; }
+  /// One thread, any: from then on the hand's right, up and towards the person are these columns of a rotation, as of a
+  /// view that was turned.
+  void ask_turn(const Mat3& world_from_device) noexcept { turns_.publish(world_from_device); }
   /// Any thread: whether the last read() found it held, here or on the device.
   bool is_clutched() const noexcept { return is_clutched_; }
 
  private:
+  void follow_turn(const Vec3& on_table_m) noexcept;
   void follow_clutch(bool clutched, const Vec3& on_table_m) noexcept;
   void drive_bubble(const Vec3& on_table_m, double dt_s) noexcept;
   Vec3 in_world(const Vec3& on_table_m) const { return middle_m_ + placement_.scale * (turn() * on_table_m); }
@@ -58,6 +67,7 @@ class PlacedDevice : public Device {
   DeviceProfile profile_;
   Vec3 middle_m_;  // of the workspace, in the world
   Vec3 held_at_m_ = Vec3::Zero();
+  realtime::LatestValue<Mat3> turns_;
   std::atomic<bool> asked_clutch_{false};
   std::atomic<bool> is_clutched_{false};
   bool feels_force_ = false;

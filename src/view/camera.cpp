@@ -20,6 +20,11 @@ glm::vec3 Camera::forward_world() const {
                     std::sin(elevation_rad));
 }
 
+std::array<std::array<double, 3>, 3> axes_of(const Camera& camera) {
+  const auto plain = [](const glm::vec3& v) { return std::array<double, 3>{v.x, v.y, v.z}; };
+  return {plain(camera.right_world()), plain(camera.up_world()), plain(-camera.forward_world())};
+}
+
 glm::vec3 Camera::eye_world_m() const {
   return target_world_m - distance_m * forward_world();
 }

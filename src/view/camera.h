@@ -33,6 +33,9 @@ struct Camera {
   bool operator==(const Camera&) const = default;
 };
 
+/// Its right, up and towards the eye.
+std::array<std::array<double, 3>, 3> axes_of(const Camera& camera);
+
 struct ViewBox {
   glm::vec3 lowest_m{0.0f}, highest_m{0.0f};
 };

@@ -230,6 +230,7 @@ void ShownScene::draw_panels(const messages::SceneFrame& now, GlfwWindow& window
   go_on_turning();
   state_.scene = controls_.scene;
   history_.note(state_, ImGui::IsAnyItemActive() || ImGui::IsAnyMouseDown() || turn_.share < 1.0f);
+  controls_.view_axes_world = axes_of(state_.view.camera);
   ViewState named = state_.view;
   named.labels = named.labels || big_type_;
   const bool tools_lag = std::count(facts_.shows_force_only.begin(), facts_.shows_force_only.end(), true) > 0 &&

@@ -22,6 +22,8 @@ struct ViewControls {
   std::array<double, 3> hand_world_m{};
   std::uint32_t hand_buttons = 0;
   bool clutch = false;  // held: hands on devices move, their tools stay
+  /// The picture's right, up and towards the person, each of length 1; zero: there is no picture yet.
+  std::array<std::array<double, 3>, 3> view_axes_world{};
 };
 
 }  // namespace myotact::view

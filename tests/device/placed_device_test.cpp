@@ -119,6 +119,25 @@ TEST(PlacedDevice, TheToolStaysWhileTheClutchIsHeldAndGoesOnFromThere) {
   EXPECT_NEAR((placed.read() - before_m).norm(), 0.02, 1e-12);
 }
 
+TEST(PlacedDevice, ATurnOfTheViewTurnsTheHandsAxesAboutTheTool) {
+  Placed placed(turned(2.0));
+  placed.table.put({0.01, 0.02, 0.03});
+  const Vec3 before_m = placed.read();
+  const Mat3 turn = Eigen::AngleAxisd(2.0, Vec3(0.3, -1.0, 0.2).normalized()).toRotationMatrix();
+  placed.device.write({{0.0, 1.0, 0.0}});  // a force is felt
+  placed.device.ask_turn(turn);
+  EXPECT_EQ(placed.read(), before_m);
+  placed.table.put({0.02, 0.02, 0.03});
+  EXPECT_NEAR((placed.read() - before_m - turned(2.0).world_from_device * Vec3(0.02, 0.0, 0.0)).norm(), 0.0, 1e-12);
+  const Vec3 moved_m = placed.read();
+  placed.device.write({});
+  EXPECT_NEAR((placed.read() - moved_m).norm(), 0.0, 1e-12) << "the tool stays";
+  placed.table.put({0.02, 0.05, 0.03});
+  EXPECT_NEAR((placed.read() - moved_m - turn * Vec3(0.0, 0.06, 0.0)).norm(), 0.0, 1e-12);
+  placed.device.write({to_array(Vec3(turn * Vec3(0.0, 0.0, 1.0)))});
+  EXPECT_NEAR((placed.table.force_N - Vec3(0.0, 0.0, 1.0)).norm(), 0.0, 1e-12) << "forces turn with it";
+}
+
 TEST(PlacedDevice, AClutchThatIsAskedForIsTheButtonOfTheDevice) {
   Placed placed(turned(2.0));
   placed.table.put({0.05, 0.0, 0.0}, messages::kGrabButton);

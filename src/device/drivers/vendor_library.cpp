@@ -1,5 +1,7 @@
 #include "device/drivers/vendor_library.h"
 
+#include <algorithm>
+
 #include <dlfcn.h>
 #include <fmt/format.h>
 
@@ -19,6 +21,10 @@ VendorLibrary::VendorLibrary(const std::string& what, const std::vector<std::str
     }
     const char* why = ::dlerror();
     tried += (tried.empty() ? "" : "; ") + (why != nullptr ? std::string(why) : name);
+  }
+  const auto is_searched = [](const std::string& name) { return name.find('/') == std::string::npos; };
+  if (std::any_of(names.begin(), names.end(), is_searched)) {
+    tried += " (looked for in LD_LIBRARY_PATH, the folders of /etc/ld.so.conf.d, /lib and /usr/lib)";
   }
   throw Error(ExitStatus::Unavailable, fmt::format("{} does not load: {}", what, tried));
 }

@@ -14,11 +14,12 @@ constexpr double kLeap_m = 0.005;                    // shorter steps are noise 
 constexpr double kSlow_m_s = 0.1;                    // of a hand that has settled
 constexpr std::uint64_t kSettled_ns = 1'000'000'000;
 
+/// The first, or the gripper, takes hold of a muscle, the second is the clutch, the third takes hold of a bone, the
+/// fourth stops.
 std::uint32_t buttons_of(unsigned int mask) {
-  constexpr std::uint32_t kKnown =
-      messages::kGrabButton | messages::kGrabBoneButton | messages::kStopButton | messages::kClutchButton;
-  if (mask == 0b10) return messages::kClutchButton;  // the second one of two is within a finger's reach
-  return mask & kKnown;
+  const auto as = [&](unsigned int bit, std::uint32_t meaning) { return (mask & bit) != 0 ? meaning : 0u; };
+  return as(1, messages::kGrabButton) | as(2, messages::kClutchButton) | as(4, messages::kGrabBoneButton) |
+         as(8, messages::kStopButton);
 }
 
 const char* off_hint(int cause) {

@@ -37,6 +37,14 @@ Vec3 limited_N(const Vec3& force_N, double peak_N) {
   return norm_N <= peak_N ? force_N : Vec3(force_N * (peak_N / norm_N));
 }
 
+/// The grip's first button takes hold of a muscle, the second is the clutch, the third takes hold of a bone, a fourth
+/// stops.
+std::uint32_t stylus_buttons(std::uint32_t grip) {
+  const auto as = [&](std::uint32_t bit, std::uint32_t meaning) { return (grip & bit) != 0 ? meaning : 0u; };
+  return as(1, messages::kGrabButton) | as(2, messages::kClutchButton) | as(4, messages::kGrabBoneButton) |
+         as(8, messages::kStopButton);
+}
+
 }  // namespace
 
 Exchange::Exchange(std::string id, std::size_t place, const InverseSettings& settings)
@@ -113,7 +121,7 @@ std::string Exchange::take_device(const DeviceEntry& device, std::uint64_t now_n
   }
   const Vec3 from_middle_m = position_service_m_ - settings_.workspace_middle_service_m;
   sample_ = {to_array(device_from_service(from_middle_m)), to_array(device_from_service(device.velocity_service_m_s)),
-             place_ < message_.grips.size() ? message_.grips[place_].buttons : 0, now_ns,
+             place_ < message_.grips.size() ? stylus_buttons(message_.grips[place_].buttons) : 0, now_ns,
              phase_ == DevicePhase::Ready ? epoch_ : 0};
   samples_.publish(sample_);
   return "";

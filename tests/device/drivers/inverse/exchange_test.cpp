@@ -93,6 +93,8 @@ TEST_F(InverseExchange, FramesAreTurnedBothWays) {
   EXPECT_THAT(state.stylus_velocity_world_m_s, ElementsAre(0.1, 0.3, -0.2));
   EXPECT_EQ(state.buttons, 1U);
   EXPECT_EQ(sent_N(), Vec3(1, -3, 2));
+  answer(state_text("049D", {0.01, -0.14, 0.23}, {0.1, 0.2, 0.3}, R"("a":false,"b":true,"c":true)"));
+  EXPECT_EQ(tick(Vec3::Zero()).buttons, messages::kClutchButton | messages::kGrabBoneButton);
   const Vec3 any(0.3, -0.7, 1.1);
   EXPECT_EQ(device_from_service(service_from_device(any)), any);
 }

@@ -125,7 +125,7 @@ TEST_F(InverseService, AForceReachesItsDeviceAndTheStateComesBack) {
   ASSERT_TRUE(becomes_felt(*device));
   EXPECT_GE(service_->received().zeros_first, kGoodBeforeReady);
   EXPECT_EQ(service_->received().last_id, "049D");
-  EXPECT_EQ(state_.buttons, 0b10U);
+  EXPECT_EQ(state_.buttons, messages::kClutchButton);
   EXPECT_TRUE(ticks_until(*device, [&] { return std::abs(state_.stylus_position_world_m[0]) > 0.005; }));
   EXPECT_NEAR(state_.stylus_position_world_m[1], 0.0, 1e-12) << "the middle of the workspace";
   EXPECT_NEAR(state_.stylus_position_world_m[2], 0.0, 1e-12);
