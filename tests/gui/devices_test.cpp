@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -22,6 +24,27 @@ bool clutched(const json& state) {
 
 bool stopped(const json& state) {
   return state["frame"]["tools"][0]["forces_stopped"].get<bool>();
+}
+
+/// How far the tool goes along each axis of the world, as twenty reports of different times tell [m].
+std::array<double, 3> reach_of_tool(const GuiProgram& gui) {
+  std::array<double, 3> lowest, highest, reach{};
+  lowest.fill(1e9);
+  highest.fill(-1e9);
+  int told = 0;
+  double last_s = -1.0;
+  gui.wait_until([&](const json& state) {
+    if (state["frame"]["time_s"].get<double>() == last_s) return false;
+    last_s = state["frame"]["time_s"].get<double>();
+    const auto tool_m = state["frame"]["tools"][0]["tool_world_m"].get<std::array<double, 3>>();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      lowest[axis] = std::min(lowest[axis], tool_m[axis]);
+      highest[axis] = std::max(highest[axis], tool_m[axis]);
+    }
+    return ++told == 20;
+  });
+  for (std::size_t axis = 0; axis < 3; ++axis) reach[axis] = highest[axis] - lowest[axis];
+  return reach;
 }
 
 std::string box_text(const json& state, const std::string& control) {
@@ -134,6 +157,26 @@ TEST_F(DevicesTest, AnInverse3IsFeltClutchedStoppedLostAndFoundAgain) {
   EXPECT_TRUE(gui.wait_until(is_felt));
   gui.click("devices.stop");
   EXPECT_TRUE(gui.wait_until(is_not_felt));
+}
+
+TEST_F(DevicesTest, TheHandsAxesAreThePicturesAfterItWasTurned) {
+  device::inverse::FakeInverseService service({"049D"});
+  const std::string port = std::to_string(service.port());
+  GuiProgram gui("device_turned",
+                 "spring --device inverse3 --set inverse3.port=" + port + " --set inverse3.version_port=" + port);
+  ASSERT_TRUE(gui.wait_until(
+      [](const json& state) { return !state["devices"].empty() && state["devices"][0]["phase"] == "ready"; }));
+  const auto lateral_m = reach_of_tool(gui);  // the hand goes to and fro to its right
+  EXPECT_GT(lateral_m[0], 0.01);
+  EXPECT_LT(lateral_m[1], 0.003);
+  gui.click("toolbar.cranial");
+  gui.key_down("c");  // no force: the hand's axes follow the picture's
+  EXPECT_TRUE(gui.wait_until([](const json& state) { return !state["turning"].get<bool>(); }));
+  gui.let_draw();
+  gui.key_up("c");
+  const auto cranial_m = reach_of_tool(gui);
+  EXPECT_LT(cranial_m[0], 0.003);
+  EXPECT_GT(cranial_m[1], 0.01);
 }
 
 }  // namespace
