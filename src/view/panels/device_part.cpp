@@ -50,7 +50,8 @@ void draw_hint(const std::string& hint) {
 void draw_device(const DeviceNews& device) {
   const messages::DeviceReport& report = device.report;
   std::string text = fmt::format("{}: {}", name_and_hand(device), phase_text(report.phase));
-  if (report.phase == DevicePhase::Ready) text += fmt::format(", {}", ui::tr("devices.rate", report.rate_Hz));
+  if (report.phase == DevicePhase::Ready && report.rate_Hz > 0.0)
+    text += fmt::format(", {}", ui::tr("devices.rate", report.rate_Hz));
   ui::paragraph(text);
   ui::note_control("devices.device", text);
   if (*report.hint != '\0') draw_hint(hint_of(report));
