@@ -80,7 +80,9 @@ TEST_F(BadInput, NoDisplayIsUnavailableAndSaysWhatWorks) {
 }
 
 TEST_F(BadInput, UnknownDeviceIsUnavailable) {
-  EXPECT_EQ(run_program("run elbow --device falcon" + out()).status, 69);
+  const Outcome outcome = run_program("run elbow --device falcn" + out());
+  EXPECT_EQ(outcome.status, 69);
+  EXPECT_THAT(outcome.output, HasSubstr("nearest: falcon"));
 }
 
 TEST_F(BadInput, MoreDevicesThanToolsAreRefused) {
