@@ -43,14 +43,17 @@ struct HandRun {
   scene::SampleTable samples;
   scene::Extremes extremes;
   std::uint64_t ticks = 0;
+  nlohmann::json link;  // of a hand on the wall clock
 };
 
-void feel_in_lockstep(const Options& options, const scene::Scene& scene, remote::ScriptedDevice& device, HandRun& run) {
+HandRun feel_in_lockstep(const Options& options, const scene::Scene& scene, remote::ScriptedDevice& device) {
+  HandRun run(scene.tools[0], options.every);
   remote::LockstepHand hand(server_of(options), own_token(), scene.tools[0], device);
   const double end_s = options.seconds.value_or(device.script_end_s());
   while (hand.time_s() < end_s - 0.5 * scene.settings.dt_s && interruption() == 0) {
     hand.step([&](double time_s, const haptics::HapticTick& tick) { run.add(time_s, tick, device.limb()); });
   }
+  return run;
 }
 
 nlohmann::json link_json(remote::FreeHand& hand) {
@@ -61,8 +64,9 @@ nlohmann::json link_json(remote::FreeHand& hand) {
           {"missed_ticks", hand.thread().missed_count()}};
 }
 
-nlohmann::json feel_free(const Options& options, const scene::Scene& scene, remote::ScriptedDevice& scripted,
-                         GuardedMotors& guarded, const Equipment& equipment, HandRun& run) {
+HandRun feel_free(const Options& options, const scene::Scene& scene, remote::ScriptedDevice& scripted,
+                  GuardedMotors& guarded, const Equipment& equipment) {
+  HandRun run(scene.tools[0], options.every);
   const std::unique_ptr<device::PlacedDevice> on_table =
       equipment.empty() ? nullptr : equipment.place(scene.tools[0].device, scene, 0);
   if (!on_table) scripted.device().drive(guarded.motors[0]);
@@ -91,7 +95,8 @@ nlohmann::json feel_free(const Options& options, const scene::Scene& scene, remo
     if (hand.client().status().is_final) throw Error(ExitStatus::Unavailable, hand.client().status().why);
   }
   hand.stop();
-  return link_json(hand);
+  run.link = link_json(hand);
+  return run;
 }
 
 }  // namespace
@@ -111,18 +116,14 @@ int feel(const Options& options) {
   scene::Scene scripted = scene;
   if (!equipment.empty()) scripted.tools[0].device = "simulated";  // its hand is not heeded
   remote::ScriptedDevice device(scripted, 0);
-  HandRun run(scene.tools[0], options.every);
-  nlohmann::json report;
-  if (answer.welcome.lockstep) {
-    feel_in_lockstep(options, scene, device, run);
-  } else {
-    report["link"] = feel_free(options, scene, device, *guarded, equipment, run);
-  }
+  const HandRun run = answer.welcome.lockstep ? feel_in_lockstep(options, scene, device)
+                                              : feel_free(options, scene, device, *guarded, equipment);
   const scene::ToolExtremes& reached = run.extremes.tools[0];
-  report.update({{"scene", scene.name},
-                 {"largest_force_N", reached.force_N},
-                 {"contact_s", reached.contact_s},
-                 {"faults", haptics::describe_faults(static_cast<std::uint32_t>(reached.faults))}});
+  nlohmann::json report = {{"scene", scene.name},
+                           {"largest_force_N", reached.force_N},
+                           {"contact_s", reached.contact_s},
+                           {"faults", haptics::describe_faults(static_cast<std::uint32_t>(reached.faults))}};
+  if (!run.link.is_null()) report["link"] = run.link;
   write_file(options.out / "samples.csv", run.samples.csv());
   write_file(options.out / "summary.json", report.dump(2) + "\n");
   std::cout << report.dump(2) << std::endl;

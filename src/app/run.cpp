@@ -44,6 +44,7 @@ struct RunSummary {
   scene::Extremes extremes;
   scene::ShoveRecord shove;  // joint -1: none was asked for
   std::string notice;        // what the device does not bear of the scene's settings
+  nlohmann::json realtime;   // timing of a run on the wall clock
 };
 
 class Stopwatch {
@@ -120,12 +121,13 @@ RunSummary run_lockstep(const Options& options, const scene::Scene& scene, simul
   return summary;
 }
 
-nlohmann::json run_free(const Options& options, const scene::Scene& scene, simulation::Simulation& simulation,
-                        GuardedMotors& guarded, const Equipment& equipment, RunSummary& summary) {
+RunSummary run_free(const Options& options, const scene::Scene& scene, simulation::Simulation& simulation,
+                    GuardedMotors& guarded, const Equipment& equipment) {
+  RunSummary summary;
   const Hands hands(scene, scene.tools.size(), guarded, equipment);
   const auto recorder = open_recorder(options, scene, hands.profiles());
   scene::FreeSession session(scene, simulation, hands.devices(), recorder.get(),
-                             hands.has_simulated() ? &guarded.watchdog : nullptr, equipment.servo_clock());
+                             {hands.has_simulated() ? &guarded.watchdog : nullptr, equipment.servo_clock()});
   summary.notice = session.notice();
   // A person's hand has no end; a signal ends it.
   const double end_s = options.seconds.value_or(equipment.empty() ? session.script_end_s() : kForever_s);
@@ -143,7 +145,8 @@ nlohmann::json run_free(const Options& options, const scene::Scene& scene, simul
   summary.steps = timing.steps;
   summary.extremes = timing.extremes;
   write_last_picture(options, scene, simulation, frame.tools, false);
-  return timing_json(timing, scene);
+  summary.realtime = timing_json(timing, scene);
+  return summary;
 }
 
 /// Of one tool, or over all of them.
@@ -226,18 +229,14 @@ int run(const Options& options) {
   if (!scene.note.empty()) spdlog::info("{}: {}", scene.name, scene.note);
   watch_for_interruption();
   RunSummary summary;
-  nlohmann::json timing;
   {
     simulation::Simulation simulation(scene.specimen, scene.settings);
-    if (options.realtime) {
-      timing = run_free(options, scene, simulation, *guarded, equipment, summary);
-    } else {
-      summary = run_lockstep(options, scene, simulation);
-    }
+    summary = options.realtime ? run_free(options, scene, simulation, *guarded, equipment)
+                               : run_lockstep(options, scene, simulation);
   }
   if (!summary.notice.empty()) spdlog::warn("{}", summary.notice);
   nlohmann::json report = summary_json(scene, summary);
-  if (options.realtime) report["realtime"] = timing;
+  if (options.realtime) report["realtime"] = summary.realtime;
   if (summary.shove.joint >= 0) report["shove"] = shove_json(summary.shove);
   if (scene.co_contraction && interruption() == 0) report["stiffness"] = measure_stiffness(options, scene, levels);
   write_file(options.out / "summary.json", report.dump(2) + "\n");

@@ -55,7 +55,7 @@ Stage::Stage(const Options& options, GuardedMotors& guarded, const Equipment& eq
       simulation_(scene_.specimen, scene_.settings),
       recorder_(open_recorder(options, scene_, hands_.profiles())),
       session_(scene_, simulation_, hands_.devices(), recorder_.get(),
-               hands_.has_simulated() ? &guarded.watchdog : nullptr, equipment.servo_clock()),
+               {hands_.has_simulated() ? &guarded.watchdog : nullptr, equipment.servo_clock()}),
       watch_(scene_) {
   if (!session_.notice().empty()) spdlog::warn("{}", session_.notice());
 }

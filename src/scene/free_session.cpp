@@ -38,7 +38,7 @@ FreeSession::Tool::Tool(const ToolSettings& settings, const ToolDevice& given)
 }
 
 FreeSession::FreeSession(const Scene& scene, simulation::Simulation& simulation, std::span<const ToolDevice> devices,
-                         RecordingWriter* recorder, realtime::Watchdog* watchdog, device::ServoClock* servo)
+                         RecordingWriter* recorder, const Ticking& ticking)
     : scene_(&scene),
       simulation_(&simulation),
       recorder_(recorder),
@@ -51,7 +51,7 @@ FreeSession::FreeSession(const Scene& scene, simulation::Simulation& simulation,
     if (tools_.back()->loop) loops_.push_back(tools_.back()->loop.get());
   }
   notice_ = stiffness_notices(loops_, scene);
-  if (!loops_.empty()) haptic_thread_.emplace(loops_, watchdog, servo);
+  if (!loops_.empty()) haptic_thread_.emplace(loops_, ticking.watchdog, ticking.servo);
   obeyed_.gravity = scene.settings.gravity_m_s2.norm() > 0.0;
   obeyed_.hold_posture = scene.co_contraction && scene.co_contraction->hold_posture;
 }

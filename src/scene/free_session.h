@@ -66,15 +66,20 @@ struct ToolDevice {
   RemoteHand remote = {};                       // in place of a device
 };
 
+/// Who watches the ticks of a session, and who makes them.
+struct Ticking {
+  realtime::Watchdog* watchdog = nullptr;  // of all devices, told of every tick; null: none
+  device::ServoClock* servo = nullptr;     // null: the session's own thread
+};
+
 /// Runs a scene on the wall clock: the haptic thread at 1 kHz, the simulation thread at its own step, the caller draws.
 /// Every tool has a device, a haptic loop and channels of its own; no lock is shared between them. A remote hand has
 /// its loop and device elsewhere, and here the channels alone.
 class FreeSession {
  public:
   /// `devices`: one a tool of the scene. All references must outlive the session. Throws Error.
-  /// `watchdog`: of all devices, told of every tick; null: none. `servo`: whose ticks these are; null: our own.
   FreeSession(const Scene& scene, simulation::Simulation& simulation, std::span<const ToolDevice> devices,
-              RecordingWriter* recorder, realtime::Watchdog* watchdog = nullptr, device::ServoClock* servo = nullptr);
+              RecordingWriter* recorder, const Ticking& ticking = {});
   ~FreeSession();
 
   void start();
