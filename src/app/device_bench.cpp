@@ -19,10 +19,20 @@ device::ServoClock* servo_of(device::HardwareDevice* device) {
   return device == nullptr ? nullptr : device->servo_clock();
 }
 
+haptics::HapticSettings settings_for(const device::Device& device, double most_N) {
+  haptics::HapticSettings settings;
+  settings.gate.force_limit = std::min(settings.gate.force_limit, most_N / device.profile().peak_force_N);
+  return settings;
+}
+
 }  // namespace
 
-DeviceBench::DeviceBench(device::Device& device, device::HardwareDevice* on_table, realtime::Watchdog* watchdog)
-    : on_table_(on_table), loop_(device, {}), thread_(loop_, watchdog, servo_of(on_table)) {
+DeviceBench::DeviceBench(device::Device& device, device::HardwareDevice* on_table, realtime::Watchdog* watchdog,
+                         double most_N)
+    : on_table_(on_table),
+      most_N_(std::min(most_N, haptics::GateSettings{}.force_limit * device.profile().peak_force_N)),
+      loop_(device, settings_for(device, most_N)),
+      thread_(loop_, watchdog, servo_of(on_table)) {
   loop_.prepare(realtime::steady_now_ns());
   thread_.start();
 }
@@ -36,6 +46,7 @@ bool DeviceBench::wait_until_ready(std::ostream& out) {
     run(kPeriod);
     if (interruption() != 0) return false;
   }
+  faults_ = 0;  // of what it was not yet ready for
   return true;
 }
 

@@ -19,8 +19,9 @@ namespace myotact::app {
 class DeviceBench {
  public:
   /// Opens the device. `on_table`: the same one where it is real, else null. `watchdog`: of its motors, or null. All
-  /// outlive this. Throws Error Unavailable.
-  DeviceBench(device::Device& device, device::HardwareDevice* on_table, realtime::Watchdog* watchdog);
+  /// outlive this. `most_N`: that it ever pulls with; half of what the device bears is never exceeded. Throws Error
+  /// Unavailable.
+  DeviceBench(device::Device& device, device::HardwareDevice* on_table, realtime::Watchdog* watchdog, double most_N);
 
   /// Tells the person what the device wants of them until it is ready. False: interruption() said so first.
   bool wait_until_ready(std::ostream& out);
@@ -33,6 +34,9 @@ class DeviceBench {
   void pull_to(const Vec3& anchor_m);
   void pull_with(const Vec3& force_N);
   void let_go() { pulls_ = Pull::No; }
+  /// Forces that a button of the device stopped are enabled again: after the person said yes to one.
+  void enable_again() { loop_.stop_forces(false); }
+  bool is_stopped() const { return loop_.is_stopped(); }
 
   Vec3 position_m() const { return position_m_; }
   double largest_N() const { return largest_N_; }
@@ -41,6 +45,9 @@ class DeviceBench {
   /// Reach and buttons, and rate, in words.
   std::string range() const;
   std::string rate() const;
+
+  /// The most that it pulls with [N], wherever the hand goes.
+  double most_N() const { return most_N_; }
 
   static constexpr double kPull_N_m = 50.0;  // of the spring: soft enough for every device
 
@@ -51,6 +58,7 @@ class DeviceBench {
   void look();
 
   const device::HardwareDevice* on_table_;
+  const double most_N_;
   haptics::HapticLoop loop_;
   haptics::HapticThread thread_;
   std::uint64_t sequence_ = 0;

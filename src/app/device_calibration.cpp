@@ -28,40 +28,42 @@ std::optional<double> corrected(const ForceScale& scale, double wanted_N, double
 }
 
 std::optional<double> weigh(DeviceBench& bench, const ForceScale& scale, LineInput& answers, std::ostream& out) {
+  const double pull_N = bench.most_N();
   out << fmt::format(
              "The force scale is {:.0f} now. To weigh it: hook a spring balance to the grip, hold the balance above "
              "the\n"
              "device with the grip in the middle of its reach, and set the balance to zero. The device will then pull\n"
-             "down with {:.0f} N (about {:.0f} g). Type yes to allow it: ",
-             scale.value, kWeighed_N, kWeighed_N * kGrams_N)
+             "down with {:.1f} N (about {:.0f} g). Type yes to allow it: ",
+             scale.value, pull_N, pull_N * kGrams_N)
       << std::flush;
   if (bench.wait_for_line(answers) != "yes") {
     out << "\nno force was sent, the scale stays\n";
     return std::nullopt;
   }
-  bench.pull_with(-kWeighed_N * Vec3::UnitY());
+  bench.enable_again();
+  bench.pull_with(-pull_N * Vec3::UnitY());
   out << "\nEnter what the balance shows, in newtons (grams times 0.00981): " << std::flush;
   const std::string answer = bench.wait_for_line(answers).value_or("");
   bench.let_go();
   const auto measured_N = parse_number(answer);
-  const auto found = measured_N ? corrected(scale, kWeighed_N, *measured_N) : std::nullopt;
+  const auto found = measured_N ? corrected(scale, pull_N, *measured_N) : std::nullopt;
   if (!found) {
     out << fmt::format("\n\"{}\" is no force between {:.2f} and {:.1f} N, the scale stays {:.0f}\n", answer,
-                       kWeighed_N * scale.value / scale.highest, kWeighed_N * scale.value / scale.lowest, scale.value);
+                       pull_N * scale.value / scale.highest, pull_N * scale.value / scale.lowest, scale.value);
   }
   return found;
 }
 
 }  // namespace
 
-std::optional<double> calibrate_device(device::HardwareDevice& device, const std::optional<ForceScale>& scale,
-                                       LineInput& answers, std::ostream& out) {
+Calibration calibrate_device(device::HardwareDevice& device, const std::optional<ForceScale>& scale, LineInput& answers,
+                             std::ostream& out) {
   device::PlacedDevice placed(device, {});
-  DeviceBench bench(placed, &device, nullptr);
-  if (!bench.wait_until_ready(out)) return std::nullopt;
+  DeviceBench bench(placed, &device, nullptr, kWeighed_N);
+  if (!bench.wait_until_ready(out)) return {};
   out << device.name() << " is calibrated and ready.\n" << std::flush;
-  if (!scale) return std::nullopt;
-  return weigh(bench, *scale, answers, out);
+  if (!scale) return {true, {}};
+  return {true, weigh(bench, *scale, answers, out)};
 }
 
 }  // namespace myotact::app

@@ -14,11 +14,15 @@ struct ForceScale {
   double lowest = 0.0, highest = 0.0;  // that is believed
 };
 
+struct Calibration {
+  bool is_ready = false;
+  std::optional<double> scale;  // that was found
+};
+
 /// The guided calibration of one device ("myotact devices --calibrate"): the person is told what the device wants until
-/// it is ready, and then, where its force `scale` is a setting, weighs its pull with a spring balance. Returns the
-/// scale that was found; nothing: there is none to be found, the person did not want it or a signal came. Throws Error
-/// Unavailable.
-std::optional<double> calibrate_device(device::HardwareDevice& device, const std::optional<ForceScale>& scale,
-                                       LineInput& answers, std::ostream& out);
+/// it is ready, and then, where its force `scale` is a setting, weighs its pull with a spring balance. No scale:
+/// there is none to be found, the person did not want it or a signal came. Throws Error Unavailable.
+Calibration calibrate_device(device::HardwareDevice& device, const std::optional<ForceScale>& scale, LineInput& answers,
+                             std::ostream& out);
 
 }  // namespace myotact::app

@@ -14,7 +14,8 @@ namespace myotact::app {
 
 namespace {
 
-constexpr double kAway_m = 0.01;  // of the spring's end: half a newton, a weight of 50 g, felt and easily held
+constexpr double kPush_N = 0.5;                               // a weight of 50 g, felt and easily held
+constexpr double kAway_m = kPush_N / DeviceBench::kPull_N_m;  // of the spring's end
 constexpr double kMovesItsWay_m =
     2e-4;  // several counts of the coarsest encoder; the pull gives 1.4 mm in a relaxed hand
 constexpr std::chrono::milliseconds kRamp(1500);  // the gate's ramp of one second, and some rest
@@ -28,6 +29,10 @@ bool push_along(DeviceBench& bench, int axis, std::ostream& out) {
   bench.let_go();
   bench.run(kRamp / 3);
   const bool is_right = gave_way_m > kMovesItsWay_m;
+  if (bench.is_stopped()) {
+    out << fmt::format("   {}: a button of the device stopped the forces\n", kDeviceAxes[axis]);
+    return false;
+  }
   out << fmt::format("   {}: pushed with {:.2f} N, moved {:.1f} mm that way: {}\n", kDeviceAxes[axis],
                      bench.largest_N(), 1e3 * gave_way_m, is_right ? "as it should" : "NOT as it should");
   return is_right;
@@ -39,6 +44,7 @@ bool check_force(DeviceBench& bench, LineInput& answers, std::ostream& out) {
          "   Hold it loosely. Type yes to allow it: "
       << std::flush;
   const bool allowed = bench.wait_for_line(answers) == "yes";
+  if (allowed) bench.enable_again();
   out << (allowed ? "\n" : "\n   no force was sent\n");
   bool is_right = true;
   for (int axis = 0; axis < 3 && allowed && interruption() == 0; ++axis) {
@@ -51,7 +57,7 @@ bool check_force(DeviceBench& bench, LineInput& answers, std::ostream& out) {
 
 bool check_device(device::Device& device, device::HardwareDevice* on_table, realtime::Watchdog* watchdog,
                   LineInput& answers, std::ostream& out) {
-  DeviceBench bench(device, on_table, watchdog);
+  DeviceBench bench(device, on_table, watchdog, kPush_N);
   if (!bench.wait_until_ready(out)) return false;
   bench.run(kRamp);
   out << "1. Reach: move the stylus to every end of its reach and press each button, then press Enter.\n" << std::flush;

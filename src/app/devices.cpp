@@ -115,13 +115,12 @@ int test_device(const Options& options, const std::string& name) {
 }
 
 /// A device that moves by itself to find out where it is must be let.
-bool may_move_itself(const std::string& name, LineInput& answers) {
-  if (!name.starts_with("force_dimension")) return false;
+bool may_move_itself(LineInput& answers) {
   std::cout << "The device may move by itself through its whole reach to find out where it is. Take your hands away.\n"
                "Type yes to allow it: "
             << std::flush;
   std::optional<std::string> line;
-  while (!line && interruption() == 0) line = answers.next(std::chrono::milliseconds(50));
+  while (!line && !answers.ended() && interruption() == 0) line = answers.next(std::chrono::milliseconds(50));
   std::cout << '\n';
   return line == "yes";
 }
@@ -130,27 +129,35 @@ int calibrate(const Options& options, const std::string& name) {
   watch_for_interruption();
   LineInput answers(STDIN_FILENO);
   device::DeviceSettings settings = device_settings_of(options);
-  settings.force_dimension.initialises_itself = may_move_itself(name, answers);
+  make_device(settings, name);  // throws where there is none: nothing to be asked about
+  if (name.starts_with("force_dimension") && !may_move_itself(answers)) {
+    std::cout << name << " is not calibrated: it has to be let move by itself.\n" << std::flush;
+    return interruption() != 0 ? interruption() : 1;
+  }
+  settings.force_dimension.initialises_itself = true;
   const auto device = make_device(settings, name);
   std::optional<ForceScale> scale;
   if (name.starts_with("falcon")) {
     scale = {settings.falcon.exchange.counts_per_Nm, device::kLowestFalconScale, device::kHighestFalconScale};
   }
   device->open();
-  const auto found = calibrate_device(*device, scale, answers, std::cout);
-  const bool is_ready = device->report().phase == device::DevicePhase::Ready;
+  const Calibration found = calibrate_device(*device, scale, answers, std::cout);
   device->close();
-  if (found) {
+  if (found.scale) {
     const std::filesystem::path file = device::device_settings_file();
-    device::keep_device_settings(file, {{"falcon.counts_per_Nm", to_text(*found)}});
-    std::cout << fmt::format("\nThe force scale is {:.0f} now; {} keeps it.\n", *found, file.string());
+    std::cout << fmt::format("\nThe force scale is {:.0f} now", *found.scale) << std::flush;
+    device::keep_device_settings(file, {{"falcon.counts_per_Nm", to_text(*found.scale)}});
+    std::cout << fmt::format("; {} keeps it.\n", file.string());
   }
-  return interruption() != 0 ? interruption() : (is_ready ? 0 : 1);
+  return interruption() != 0 ? interruption() : (found.is_ready ? 0 : 1);
 }
 
 }  // namespace
 
 int devices(const Options& options) {
+  for (const auto& [key, value] : scene_overrides_of(options)) {
+    throw Error(ExitStatus::Usage, "--set " + key + ": is no setting of a device; assets/devices/README.md lists them");
+  }
   if (options.test_device) return test_device(options, *options.test_device);
   if (options.calibrate_device) return calibrate(options, *options.calibrate_device);
   const std::vector<Row> rows = rows_of(options);

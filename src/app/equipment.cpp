@@ -1,9 +1,11 @@
 #include "app/equipment.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -106,6 +108,13 @@ device::ServoClock* Equipment::servo_clock() const {
     if (device::ServoClock* servo = device->servo_clock()) return servo;
   }
   return nullptr;
+}
+
+void HintLog::look() {
+  for (const auto& [name, device] : equipment_.devices()) {
+    const std::string hint = device->report().hint;
+    if (std::exchange(told_[name], hint) != hint && !hint.empty()) spdlog::warn("{}: {}", name, hint);
+  }
 }
 
 }  // namespace myotact::app

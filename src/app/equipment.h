@@ -32,6 +32,7 @@ class Equipment {
   Equipment& operator=(const Equipment&) = delete;
 
   bool empty() const { return devices_.empty(); }
+  const std::map<std::string, std::unique_ptr<device::HardwareDevice>>& devices() const { return devices_; }
   bool has(const std::string& name) const { return devices_.contains(name); }
   device::HardwareDevice& device(const std::string& name) const { return *devices_.at(name); }
   /// How it stands on the table: columns are its right, up and towards axes in the person's.
@@ -46,6 +47,18 @@ class Equipment {
  private:
   device::DeviceSettings settings_;
   std::map<std::string, std::unique_ptr<device::HardwareDevice>> devices_;
+};
+
+/// What the devices want of a person, in the log, for programs without a window.
+class HintLog {
+ public:
+  explicit HintLog(const Equipment& equipment) : equipment_(equipment) {}  // outlives this
+  /// Tells each new hint once.
+  void look();
+
+ private:
+  const Equipment& equipment_;
+  std::map<std::string, std::string> told_;
 };
 
 }  // namespace myotact::app

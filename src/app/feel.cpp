@@ -15,6 +15,7 @@
 #include "app/options.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "device/drivers/driver_table.h"
 #include "haptics/faults.h"
 #include "net/scene_inquiry.h"
 #include "remote/free_hand.h"
@@ -84,8 +85,10 @@ HandRun feel_free(const Options& options, const scene::Scene& scene, remote::Scr
   if (!hand.thread().refused().empty()) spdlog::warn("{}", hand.thread().refused());
   const auto start = std::chrono::steady_clock::now();
   const double end_s = options.seconds.value_or(on_table ? kForever_s : scripted.script_end_s());
+  HintLog hints(equipment);
   for (double time_s = 0.0; time_s < end_s && interruption() == 0;) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    hints.look();
     time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     scripted.begin_step(time_s);
     scripted.move_to(time_s);
@@ -106,8 +109,16 @@ int feel(const Options& options) {
   guarded.emplace();  // first: the watchdog is forked off before there are threads
   const net::SceneAnswer answer = net::ask_scene(server_of(options), own_token());
   scene::Scene scene = remote::scene_of_message(answer.scene_json);
+  if (options.devices.size() > 1) {
+    throw Error(ExitStatus::Usage, "--device: this is one hand; start it once more for another device");
+  }
   take_devices(options, scene);
   const Equipment equipment(options);
+  const auto on_device = [](const scene::ToolSettings& tool) { return device::is_on_the_table(tool.device); };
+  // The tool of that hand becomes the one that is felt here.
+  if (const auto tool = std::find_if(scene.tools.begin(), scene.tools.end(), on_device); tool != scene.tools.end()) {
+    std::iter_swap(scene.tools.begin(), tool);
+  }
   if (!equipment.empty() && answer.welcome.lockstep) {
     throw Error(ExitStatus::Usage, "--device: the server runs in lockstep, and a hand moves on the wall clock");
   }

@@ -51,13 +51,13 @@ Subject subject_of(const Options& options) {
   if (options.recording) {
     subject.recording = scene::read_recording(*options.recording);
     const nlohmann::json header = parse_json(subject.recording->header_json, options.recording->string() + " (header)");
-    subject.scene = scene::scene_of_recording(header, *options.recording, overrides_of(options));
+    subject.scene = scene::scene_of_recording(header, *options.recording, scene_overrides_of(options));
     scene::require_fit(*subject.recording, subject.scene, *options.recording);
     if (options.devices.empty())
       subject.device = {"recorded", "the recorded device",
                         scene::devices_of_recording(header, *options.recording).front()};
   } else {
-    subject.scene = scene::load_scene(options.scene, overrides_of(options));
+    subject.scene = scene::load_scene(options.scene, scene_overrides_of(options));
     scene::set_seed(subject.scene, options.seed);
     if (options.devices.empty()) subject.device = device::load_profile("simulated");
   }

@@ -212,10 +212,12 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
   bind(add_serve(program, options), myotact::app::serve);
   bind(add_feel(program, options), myotact::app::feel);
   CLI::App* devices = program.add_subcommand("devices", "which devices there are, and why one does not open");
-  devices->add_option("--test", options.test_device,
-                      "check one with you: reach, buttons, a gentle push along each axis, rate");
-  devices->add_option("--calibrate", options.calibrate_device,
-                      "calibrate one with you: what it asks for, and its force scale where that is a setting");
+  auto* test = devices->add_option("--test", options.test_device,
+                                   "check one with you: reach, buttons, a gentle push along each axis, rate");
+  devices
+      ->add_option("--calibrate", options.calibrate_device,
+                   "calibrate one with you: what it asks for, and its force scale where that is a setting")
+      ->excludes(test);
   add_common(*devices, options);
   bind(devices, myotact::app::devices);
 }

@@ -100,10 +100,14 @@ void take_devices(const Options& options, scene::Scene& scene) {
   give_devices(devices, scene);
 }
 
-scene::Scene scene_of(const Options& options) {
+Overrides scene_overrides_of(const Options& options) {
   Overrides overrides = overrides_of(options);
   std::erase_if(overrides, [](const auto& pair) { return device::is_device_setting(pair.first); });
-  scene::Scene scene = scene::load_scene(options.scene, overrides);
+  return overrides;
+}
+
+scene::Scene scene_of(const Options& options) {
+  scene::Scene scene = scene::load_scene(options.scene, scene_overrides_of(options));
   scene.settings.workers = options.workers;
   take_devices(options, scene);
   scene::set_seed(scene, options.seed);

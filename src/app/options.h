@@ -71,6 +71,8 @@ struct Options {
 
 /// --set. Throws Error Usage for one without "=".
 Overrides overrides_of(const Options& options);
+/// The same without what is about devices.
+Overrides scene_overrides_of(const Options& options);
 
 /// One of --device: NAME, or HAND=NAME.
 struct NamedDevice {

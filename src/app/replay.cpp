@@ -33,7 +33,7 @@ std::size_t play_again(const scene::Recording& recording, scene::ForceReplay& ha
 int replay(const Options& options) {
   const scene::Recording recording = scene::read_recording(options.file);
   const nlohmann::json header = parse_json(recording.header_json, options.file.string() + " (header)");
-  const scene::Scene scene = scene::scene_of_recording(header, options.file, overrides_of(options));
+  const scene::Scene scene = scene::scene_of_recording(header, options.file, scene_overrides_of(options));
   scene::require_fit(recording, scene, options.file);
   if (!recording.complete) {
     spdlog::warn("{}: the recording was cut short after {} steps, by a crash or a full disk; what is there is compared",

@@ -133,8 +133,10 @@ RunSummary run_free(const Options& options, const scene::Scene& scene, simulatio
   const double end_s = options.seconds.value_or(equipment.empty() ? session.script_end_s() : kForever_s);
   session.start();
   messages::SceneFrame frame;
+  HintLog hints(equipment);
   while (session.running() && interruption() == 0) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    hints.look();
     session.fetch_frame(frame);
     if (frame.time_s >= end_s) break;
   }

@@ -99,7 +99,7 @@ Options options_of(const Options& given, const view::SceneWish& wish) {
 /// A recording that is played, and nothing that could be felt.
 struct ReplayStage {
   explicit ReplayStage(const Options& options)
-      : loaded(scene::load_recording(*options.recording, overrides_of(options))), session(loaded) {}
+      : loaded(scene::load_recording(*options.recording, scene_overrides_of(options))), session(loaded) {}
 
   view::WindowSettings window_settings(const Options& options) const {
     view::WindowSettings settings;
@@ -140,6 +140,9 @@ class Performance {
  public:
   explicit Performance(const Options& options)
       : options_(options), equipment_(options), report_(options.report_state), next_(begin()) {
+    if (options.camera && equipment_.has(*options.camera)) {
+      throw Error(ExitStatus::Usage, "--camera " + *options.camera + ": moves a tool already (--device)");
+    }
     if (options.camera) camera_.emplace(*options.camera, device_settings_of(options));
   }
 
@@ -201,7 +204,10 @@ class Performance {
     shown_ = std::move(built);
     frame_ = {};
     driven_ = false;
-    if (shown_.stage) shown_.stage->session().start();
+    if (shown_.stage) {
+      shown_.stage->session().follow_on(requests_of(window_.controls(), driven_), stopped_);
+      shown_.stage->session().start();
+    }
     if (shown_.replay) shown_.replay->session.start();
     if (shown_.mirror) shown_.mirror->start();
     heard_ = opened_ = std::chrono::steady_clock::now();
@@ -211,6 +217,7 @@ class Performance {
     if (shown_.replay) shown_.replay->session.stop();
     if (shown_.mirror) shown_.mirror->stop();
     if (!shown_.stage) return;
+    stopped_ = shown_.stage->session().forces_stopped();  // a scene that is opened does not bring them back
     if (const scene::FreeTiming timing = shown_.stage->session().stop(); !timing.refused.empty()) {
       spdlog::warn("{}", timing.refused);
     }
@@ -285,6 +292,7 @@ class Performance {
   std::chrono::steady_clock::time_point opened_;  // what is shown
   double common_ = 0.0;
   bool driven_ = false;
+  bool stopped_ = false;  // forces, when the session before ended
 };
 
 }  // namespace

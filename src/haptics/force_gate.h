@@ -52,6 +52,8 @@ class ForceGate {
   void enable() noexcept { enabled_.store(true, std::memory_order_release); }  // any thread
   void stop() noexcept { enabled_.store(false, std::memory_order_release); }   // any thread; zero from the next tick on
 
+  bool is_stopped() const noexcept { return !enabled_.load(std::memory_order_acquire); }  // any thread
+
   /// The force on the hand for this tick [N], |F| <= limit_N() before and after. Haptic thread.
   Vec3 admit(const GateInput& input) noexcept;
 

@@ -81,6 +81,8 @@ class HapticLoop {
   /// Any thread: true: force zero from the next tick on, as the device's stop button does; it stays zero until false:
   /// the gate arms again and ramps up.
   void stop_forces(bool stopped) noexcept { stopped ? gate_.stop() : gate_.enable(); }
+  /// Any thread.
+  bool is_stopped() const noexcept { return gate_.is_stopped(); }
   /// Haptic thread: tells the next tick that a watchdog took the force away: it comes back through the ramp.
   void note_cut() noexcept { cut_ = true; }
   /// What was changed of the settings because the device does not bear it, one line; or nothing.

@@ -67,6 +67,7 @@ void FreeSession::start() {
   for (haptics::HapticLoop* loop : loops_) {
     loop->prepare(started_ns_);
   }
+  if (starts_stopped_) haptics::stop_forces(loops_, true);  // before there is a tick
   for (const auto& tool : tools_) hear(*tool);  // where the hand is: the first model is of the surface there
   publish_models();
   publish_frame();
@@ -104,6 +105,16 @@ FreeTiming FreeSession::stop() {
   timing.tick_period = haptic_thread_->periods().summary();
   timing.refused = haptic_thread_->refused();
   return timing;
+}
+
+void FreeSession::follow_on(const Requests& until_now, bool stopped) {
+  arms_ = until_now.arms;
+  stops_ = until_now.stops;
+  starts_stopped_ = stopped;
+}
+
+bool FreeSession::forces_stopped() const noexcept {
+  return std::any_of(loops_.begin(), loops_.end(), [](const haptics::HapticLoop* loop) { return loop->is_stopped(); });
 }
 
 void FreeSession::request(const Requests& requests) {

@@ -83,11 +83,16 @@ class FreeSession {
   ~FreeSession();
 
   void start();
+  /// Before start(): what was asked for until now, which is not new; `stopped`: forces stay off until `arms` counts on,
+  /// as after a stop in the session before.
+  void follow_on(const Requests& until_now, bool stopped);
   /// Before start(): what the simulation's thread calls when the models of the hands are new.
   void on_models(std::function<void()> call) { on_models_ = std::move(call); }
   /// Forces to zero, threads joined. Rethrows what ended the simulation thread, if anything did.
   FreeTiming stop();
 
+  /// Any thread: whether forces were stopped, by request or on a device.
+  bool forces_stopped() const noexcept;
   bool running() const { return running_.load(std::memory_order_relaxed); }
   double script_end_s() const { return conductor_.script_end_s(); }
   const std::string& notice() const { return notice_; }  // what the devices do not bear of the settings
@@ -150,6 +155,7 @@ class FreeSession {
   realtime::LatestValue<Requests> requests_;
   Requests obeyed_;
   std::uint32_t stops_ = 0, arms_ = 0;  // obeyed; the drawing thread's
+  bool starts_stopped_ = false;
   // From the simulation to the drawing: neither waits for the other.
   realtime::LatestValue<messages::SceneFrame> frames_;
   realtime::LatestValue<ShoveRecord> shoves_;

@@ -136,8 +136,12 @@ std::string Window::describe(const messages::SceneFrame& frame) {
 }
 
 const ViewControls& Window::draw(const messages::SceneFrame& frame) {
-  static const ViewControls kNothing;
   impl_->draw(frame);
+  return controls();
+}
+
+const ViewControls& Window::controls() const {
+  static const ViewControls kNothing;
   return impl_->scene ? impl_->scene->controls() : kNothing;
 }
 

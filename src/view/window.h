@@ -38,6 +38,8 @@ class Window {
   void open(const anatomy::Specimen& specimen, const WindowSettings& settings);
   /// Handles input, draws one picture, waits for the display. Returns what the person asks for.
   const ViewControls& draw(const messages::SceneFrame& frame);
+  /// As draw() returned it last, or as the scene that was opened begins.
+  const ViewControls& controls() const;
   /// What the panel says about the joint from the next picture on.
   void set_readings(const JointReadings& readings);
   void set_news(const SessionNews& news);

@@ -65,7 +65,7 @@ class Calibration : public ::testing::Test {
   void answer(const std::string& text) { EXPECT_EQ(::write(ends_[1], text.data(), text.size()), ssize_t(text.size())); }
   std::optional<double> calibrate(const std::optional<ForceScale>& scale) {
     LineInput answers(ends_[0]);
-    return calibrate_device(device_, scale, answers, told_);
+    return calibrate_device(device_, scale, answers, told_).scale;
   }
 
   RestingDevice device_;

@@ -133,7 +133,8 @@ TEST_F(DevicesTest, AnInverse3IsFeltClutchedStoppedLostAndFoundAgain) {
   device::inverse::FakeInverseService service({"049D"});
   const std::string port = std::to_string(service.port());
   GuiProgram gui("device_inverse3",
-                 "spring --device left=inverse3 --set inverse3.port=" + port + " --set inverse3.version_port=" + port);
+                 "spring --device left=inverse3 --set placement.inverse3.scale=0.3 --set inverse3.port=" + port +
+                     " --set inverse3.version_port=" + port);  // so little that the spring never keeps the gate shut
   const auto phase_is = [](const char* phase) {
     return [phase](const json& state) { return !state["devices"].empty() && state["devices"][0]["phase"] == phase; };
   };
@@ -150,13 +151,65 @@ TEST_F(DevicesTest, AnInverse3IsFeltClutchedStoppedLostAndFoundAgain) {
   EXPECT_TRUE(gui.wait_until(is_felt));
   service.set_manner(device::inverse::Manner::Silence);
   EXPECT_TRUE(gui.wait_until(phase_is("lost")));
-  EXPECT_TRUE(gui.shows("devices.hint"));
+  EXPECT_TRUE(gui.wait_until([&](const json&) { return gui.shows("devices.hint"); }));
   gui.screenshot("lost");
   service.set_manner(device::inverse::Manner::States);
   EXPECT_TRUE(gui.wait_until(phase_is("ready")));
   EXPECT_TRUE(gui.wait_until(is_felt));
+  EXPECT_TRUE(gui.wait_until([&](const json&) { return !gui.shows("devices.hint"); }));
+  gui.let_draw();  // the buttons have moved
   gui.click("devices.stop");
   EXPECT_TRUE(gui.wait_until(is_not_felt));
+}
+
+/// The scene of an Inverse3, from its start by a click on Record.
+struct RecordedSpring {
+  explicit RecordedSpring(const std::string& name)
+      : gui(name, "spring --device inverse3 --set inverse3.port=" + std::to_string(service.port()) +
+                      " --set inverse3.version_port=" + std::to_string(service.port())) {}
+
+  double felt_N() const { return service.received().last_N.norm(); }
+  bool becomes_felt() const {
+    return gui.wait_until([&](const json&) { return felt_N() > 0.001; });
+  }
+  bool begins_anew() {
+    gui.let_draw();
+    gui.click("keep.record");
+    return gui.wait_until([](const json& state) {
+      return state["recording"].get<bool>() && !state["opening"].get<bool>() &&
+             state["frame"]["time_s"].get<double>() > 0.2;
+    });
+  }
+
+  device::inverse::FakeInverseService service{{"049D"}};
+  GuiProgram gui;
+};
+
+TEST_F(DevicesTest, AStopOutlivesItsScene) {
+  RecordedSpring spring("device_stopped");
+  ASSERT_TRUE(spring.becomes_felt());
+  spring.service.set_buttons(R"("button_3":true)");  // the device's own stop
+  EXPECT_TRUE(spring.gui.wait_until(stopped));
+  spring.service.set_buttons(R"("button_3":false)");
+  ASSERT_TRUE(spring.begins_anew());
+  EXPECT_TRUE(stopped(spring.gui.state()));
+  EXPECT_EQ(spring.felt_N(), 0.0);
+  spring.gui.let_draw();
+  spring.gui.click("devices.arm");
+  EXPECT_TRUE(spring.becomes_felt());
+}
+
+TEST_F(DevicesTest, AStopThatWasEndedDoesNotComeBackWithAScene) {
+  RecordedSpring spring("device_enabled");
+  ASSERT_TRUE(spring.becomes_felt());
+  spring.gui.click("devices.stop");
+  EXPECT_TRUE(spring.gui.wait_until(stopped));
+  spring.gui.let_draw();
+  spring.gui.click("devices.arm");
+  EXPECT_TRUE(spring.becomes_felt());
+  ASSERT_TRUE(spring.begins_anew());
+  EXPECT_FALSE(stopped(spring.gui.state()));
+  EXPECT_TRUE(spring.becomes_felt());
 }
 
 TEST_F(DevicesTest, TheHandsAxesAreThePicturesAfterItWasTurned) {

@@ -111,8 +111,14 @@ TablePlacement read_placement(const JsonValue& value) {
   return placement;
 }
 
+/// What cannot even be looked at is: reading it says why.
+bool is_there(const std::filesystem::path& file) {
+  std::error_code problem;
+  return !file.empty() && std::filesystem::status(file, problem).type() != std::filesystem::file_type::not_found;
+}
+
 nlohmann::json settings_json(const std::filesystem::path& file) {
-  if (file.empty() || !std::filesystem::exists(file)) return {{"schema", kSchema}};
+  if (!is_there(file)) return {{"schema", kSchema}};
   nlohmann::json json = read_json(file);
   if (!json.is_object()) throw bad_data(file.string(), "/", "must be an object in braces");
   return json;
@@ -155,9 +161,9 @@ bool is_device_setting(const std::string& key) {
 
 DeviceSettings read_device_settings(const std::filesystem::path& file, const Overrides& overrides) {
   nlohmann::json json = settings_json(file);
+  settings_of(json, file);  // before anything is put over it: an error is the file's own
   override_values(json, overrides);
-  const bool is_read = !file.empty() && std::filesystem::exists(file);
-  return settings_of(json, is_read ? file : "--set");
+  return settings_of(json, "--set");
 }
 
 void keep_device_settings(const std::filesystem::path& file, const Overrides& values) {
