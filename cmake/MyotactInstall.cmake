@@ -40,6 +40,8 @@ set(data "${CMAKE_INSTALL_DATADIR}/myotact")
 install(DIRECTORY assets meshes shaders DESTINATION "${data}" COMPONENT myotact
   PATTERN assets/desktop EXCLUDE
   PATTERN assets/pictures EXCLUDE)
+# Where the system looks for what packages bring.
+install(FILES assets/devices/udev/70-myotact.rules DESTINATION lib/udev/rules.d COMPONENT myotact)
 install(DIRECTORY tests/validation DESTINATION "${data}/tests" COMPONENT myotact FILES_MATCHING PATTERN *.json)
 install(FILES README.md DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/myotact" COMPONENT myotact)
 # Debian has this text in a place of its own, so that its packages leave this component out.

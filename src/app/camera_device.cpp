@@ -1,5 +1,7 @@
 #include "app/camera_device.h"
 
+#include <utility>
+
 #include "app/equipment.h"
 #include "core/error.h"
 #include "realtime/periodic_loop.h"
@@ -19,6 +21,11 @@ CameraDevice::CameraDevice(const std::string& name, device::DeviceSettings setti
 std::array<double, 3> CameraDevice::push() {
   const messages::DeviceState state = device_->read(realtime::steady_now_ns());
   return device_->connected() ? state.stylus_position_world_m : std::array<double, 3>{};
+}
+
+std::string CameraDevice::take_hint() {
+  const std::string hint = device_->report().hint;
+  return std::exchange(told_, hint) == hint ? std::string() : hint;
 }
 
 }  // namespace myotact::app

@@ -20,9 +20,12 @@ class CameraDevice {
 
   /// How far its cap is pushed now, each -1 .. 1: to the right, up, towards the person. The drawing thread.
   std::array<double, 3> push();
+  /// What it wants of the person, once each; empty: nothing new.
+  std::string take_hint();
 
  private:
   std::unique_ptr<device::HardwareDevice> device_;
+  std::string told_;
 };
 
 }  // namespace myotact::app

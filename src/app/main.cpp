@@ -179,7 +179,8 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
                    "keep this JSON file up to date with what the window shows and where its controls are, for programs "
                    "that assist a person");
   view->add_option("--camera", options.camera, "a device that turns the view instead of moving a tool: spacemouse");
-  view->add_option("--replay", options.recording, "play this recording in the window; nothing goes to a device");
+  view->add_option("--replay", options.recording, "play this recording in the window; nothing goes to a device")
+      ->excludes(view->get_option("--device"));
   auto* connect = view->add_option("--connect", options.connect,
                                    "show the scene of the server at HOST:PORT; with --device mouse one of its hands is "
                                    "here. Its token is in MYOTACT_TOKEN, an instructor's in MYOTACT_INSTRUCTOR_TOKEN");

@@ -30,27 +30,28 @@ void check_name(const std::string& name) {
                                            join(known) + " (nearest: " + nearest_word(name, known) + ")");
 }
 
-/// The tool that a device is for: of the hand that is said, else the next one.
-std::size_t tool_of(scene::Scene& scene, const NamedDevice& device, std::size_t place) {
-  if (device.hand.empty()) return place;
-  if (scene.tools.size() == 1) scene.tools[0].hand = device.hand;  // a left-handed person leads with the left one
-  for (std::size_t t = 0; t < scene.tools.size(); ++t) {
-    if (scene.tools[t].hand == device.hand) return t;
+/// The tool that a device is for: of the hand that is said, else the first without a device.
+std::size_t tool_of(scene::Scene& scene, const std::string& hand, const std::vector<bool>& taken) {
+  if (scene.tools.size() == 1 && !hand.empty()) scene.tools[0].hand = hand;  // a left-handed person leads with the left
+  for (std::size_t t = 0; t < scene.tools.size() && !hand.empty(); ++t) {
+    if (scene.tools[t].hand == hand) return t;
   }
-  return place;
+  return static_cast<std::size_t>(std::find(taken.begin(), taken.end(), false) - taken.begin());
 }
 
-void give_devices(const std::vector<NamedDevice>& devices, scene::Scene& scene) {
+/// `devices`: at most as many as there are tools.
+void give_devices(std::vector<NamedDevice> devices, scene::Scene& scene) {
+  std::stable_partition(devices.begin(), devices.end(), [](const NamedDevice& device) { return !device.hand.empty(); });
   std::vector<bool> taken(scene.tools.size(), false);
-  for (std::size_t d = 0; d < devices.size(); ++d) {
-    const std::size_t tool = tool_of(scene, devices[d], d);
+  for (const NamedDevice& device : devices) {
+    const std::size_t tool = tool_of(scene, device.hand, taken);
     if (taken[tool]) {
       throw Error(ExitStatus::Usage, fmt::format("--device: the {} hand gets two devices; say of each of them which "
                                                  "hand it is for, as left=touch,right=touch:2",
                                                  scene.tools[tool].hand));
     }
     taken[tool] = true;
-    scene.tools[tool].device = devices[d].name;
+    scene.tools[tool].device = device.name;
   }
 }
 

@@ -240,13 +240,18 @@ class Performance {
     } else if (shown_) {
       window_.set_news({false, next_.valid(), 0.0});
     }
-    if (camera_) window_.push_view(camera_->push());
+    if (camera_) follow_camera();
     const view::ViewControls& controls = window_.draw(frame_);
     if (shown_) report_.write(window_, frame_);
     leave_time_to_the_simulation(std::chrono::steady_clock::now() - since);
     lead(controls);
     if (const auto wish = window_.take_wish(); wish && !next_.valid()) follow(*wish);
     return !last;
+  }
+
+  void follow_camera() {
+    window_.push_view(camera_->push());
+    if (const std::string hint = camera_->take_hint(); !hint.empty()) window_.tell(*options_.camera + ": " + hint);
   }
 
   /// What the person asks for goes to the session and the hand.

@@ -111,6 +111,10 @@ void FreeSession::follow_on(const Requests& until_now, bool stopped) {
   arms_ = until_now.arms;
   stops_ = until_now.stops;
   starts_stopped_ = stopped;
+  obeyed_.resets = until_now.resets;
+  obeyed_.shoves = until_now.shoves;
+  obeyed_.steps = until_now.steps;
+  obeyed_.recording_ends = until_now.recording_ends;
 }
 
 bool FreeSession::forces_stopped() const noexcept {

@@ -71,6 +71,9 @@ TEST_F(OnTheTable, NoDeviceIsTakenWhereNoHandIsFelt) {
     EXPECT_EQ(outcome.status, kUsage) << command;
     EXPECT_THAT(outcome.output, HasSubstr("--device inverse3: ")) << command;
   }
+  const Outcome played = run("view --replay x.myorec --device inverse3");
+  EXPECT_EQ(played.status, kUsage);
+  EXPECT_THAT(played.output, HasSubstr("--device excludes --replay"));
   EXPECT_EQ(service_.received().greatest_N, 0.0);
 }
 
@@ -83,6 +86,9 @@ TEST_F(OnTheTable, AHandIsGivenByName) {
   const Outcome same = run("run bimanual --realtime --seconds 1 --device left=inverse3,left=inverse3:2" + out());
   EXPECT_EQ(same.status, kUsage);
   EXPECT_THAT(same.output, HasSubstr("left hand gets two"));
+  for (const std::string devices : {"left=simulated,inverse3", "inverse3,right=simulated"}) {
+    EXPECT_EQ(run("run bimanual --realtime --seconds 1 --device " + devices + out()).status, 0) << devices;
+  }
 }
 
 TEST_F(OnTheTable, ACheckPushesAfterAYesAlone) {

@@ -142,6 +142,19 @@ TEST_F(KeepTest, ARecordingIsPlayedAgainInTheWindow) {
   EXPECT_TRUE(gui.wait_until([](const json& s) { return s["replay_s"] == 0.0 && s["frame"]["time_s"] > 0.1; }));
 }
 
+TEST_F(KeepTest, OneRecordingFollowsAnother) {
+  GuiProgram gui("record_again", "spring");
+  for (int time = 0; time < 2; ++time) {
+    gui.key("ctrl+r");
+    ASSERT_TRUE(gui.wait_until(
+        [](const json& s) { return s["recording"] == true && s["opening"] == false && s["frame"]["time_s"] > 0.3; }));
+    testing::pause_s(0.5);
+    EXPECT_EQ(gui.state()["recording"], true) << time;
+    gui.key("ctrl+r");
+    ASSERT_TRUE(gui.wait_until([](const json& s) { return s["recording"] == false; }));
+  }
+}
+
 TEST_F(KeepTest, ADamagedRecordingIsSaidAndTheSceneGoesOn) {
   GuiProgram gui("replay_damaged", "elbow --set tissue.default=line");
   const std::filesystem::path folder = gui.folder() / "home/data/myotact/recordings";

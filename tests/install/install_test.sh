@@ -52,6 +52,7 @@ done
 if command -v desktop-file-validate >/dev/null; then
   desktop-file-validate "$prefix/share/applications/myotact.desktop" || fail "the desktop entry"
 fi
+[ -s "$folder/staged/usr/lib/udev/rules.d/70-myotact.rules" ] || fail "the rules of udev are not there"
 for icon in "$prefix"/share/icons/hicolor/*/apps/myotact.*; do [ -s "$icon" ] || fail "$icon is empty"; done
 for file in doc/myotact/LICENSE doc/myotact/copyright doc/myotact/README.md metainfo/myotact.metainfo.xml; do
   [ -s "$prefix/share/$file" ] || fail "share/$file is not there"

@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "device/simulated_device.h"
+#include "scene/recording_header.h"
 #include "scene/scene_file.h"
+#include "support/temporary_folder.h"
 
 namespace myotact::scene {
 namespace {
@@ -42,6 +44,33 @@ TEST(FreeSession, WhileItIsPausedTheDrawnToolFollowsTheHand) {
   EXPECT_LT((sum_N(tool.parts) - to_vec3(tool.force_world_N)).norm(), 1e-9);
   EXPECT_GT(tool.model_age_s, 0.0);
   EXPECT_EQ(tool.force_scale, scene.tools[0].force_scale);
+}
+
+/// What was counted in the scene before, when another is opened, is not asked for again.
+TEST(FreeSession, WhatTheSceneBeforeDidIsNotDoneAgain) {
+  const testing::TemporaryFolder folder;
+  const Scene scene = load_scene("plane");
+  simulation::Simulation simulation(scene.specimen, scene.settings);
+  RecordingWriter recorder(folder.path() / "second.myorec", recording_header(scene, 1, {}));
+  FreeSession session(scene, simulation, {}, &recorder);
+  Requests requests;
+  requests.recording_ends = 1;
+  requests.resets = 2;
+  requests.shoves = 3;
+  requests.steps = 4;
+  session.follow_on(requests, false);
+  session.start();
+  session.request(requests);
+  std::this_thread::sleep_for(300ms);
+  EXPECT_TRUE(session.recording());
+  messages::SceneFrame frame;
+  EXPECT_TRUE(session.fetch_frame(frame));
+  EXPECT_GT(frame.time_s, 0.0);
+  ++requests.recording_ends;
+  session.request(requests);
+  std::this_thread::sleep_for(300ms);
+  EXPECT_FALSE(session.recording());
+  session.stop();
 }
 
 /// At the pose of the meshes the fibres are as long as their muscle's file says.

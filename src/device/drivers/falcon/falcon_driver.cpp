@@ -1,12 +1,12 @@
 #include "device/drivers/falcon/falcon_driver.h"
 
-#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
 #include "device/own_place.h"
+#include "device/ready_finding.h"
 
 namespace myotact::device::falcon {
 
@@ -58,15 +58,9 @@ std::vector<DeviceFinding> FalconDriver::findings_of(const UsbListing& listing) 
 
 std::unique_ptr<HardwareDevice> FalconDriver::make(const std::string& name) {
   const UsbListing listing = bus_->list();
-  const std::vector<DeviceFinding> findings = findings_of(listing);
-  const auto found = std::find_if(findings.begin(), findings.end(), [&](const auto& row) { return row.name == name; });
-  if (found == findings.end()) {
-    throw Error(ExitStatus::Unavailable,
-                fmt::format("there is no device \"{}\"; the last one found is \"{}\"", name, findings.back().name));
-  }
-  if (!found->ready) throw Error(ExitStatus::Unavailable, fmt::format("{}: {}; {}", name, found->cause, found->remedy));
+  const std::size_t place = ready_finding(findings_of(listing), name);
   const std::vector<std::string> places = places_of(listing);
-  const std::string& own = places[static_cast<std::size_t>(found - findings.begin())];
+  const std::string& own = places[place];
   return std::make_unique<FalconDevice>(name, settings_,
                                         [bus = bus_, own, places] { return open_own(*bus, own, places); });
 }

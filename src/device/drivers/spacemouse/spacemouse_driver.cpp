@@ -9,6 +9,7 @@
 #include "device/drivers/spacemouse/models.h"
 #include "device/drivers/spacemouse/spacemouse_device.h"
 #include "device/own_place.h"
+#include "device/ready_finding.h"
 
 namespace myotact::device::spacemouse {
 
@@ -80,17 +81,9 @@ std::vector<DeviceFinding> SpaceMouseDriver::findings_of(const std::vector<HidEn
 
 std::unique_ptr<HardwareDevice> SpaceMouseDriver::make(const std::string& name) {
   const std::vector<HidEntry> caps = caps_on(*bus_);
-  const std::vector<DeviceFinding> findings = findings_of(caps);
-  const auto found = std::find_if(findings.begin(), findings.end(), [&](const auto& row) { return row.name == name; });
-  if (found == findings.end()) {
-    throw Error(ExitStatus::Unavailable,
-                fmt::format("there is no device \"{}\"; the last one found is \"{}\"", name, findings.back().name));
-  }
-  if (!found->ready) {
-    throw Error(ExitStatus::Unavailable, fmt::format("{}: {}; {}", name, found->cause, found->remedy));
-  }
+  const std::size_t place = ready_finding(findings_of(caps), name);
   const std::vector<std::string> identities = identities_of(caps);
-  const std::string& own = identities[static_cast<std::size_t>(found - findings.begin())];
+  const std::string& own = identities[place];
   return std::make_unique<SpaceMouseDevice>(
       name, [bus = bus_, own, identities] { return open_own(*bus, own, identities); }, settings_);
 }
