@@ -9,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include "app/camera_device.h"
@@ -169,7 +170,8 @@ class Performance {
 
  private:
   bool runs() const {
-    return (!shown_.stage || shown_.stage->session().running()) && (!shown_.replay || shown_.replay->session.running());
+    return (!shown_.stage || shown_.stage->session().running() || next_.valid()) &&
+           (!shown_.replay || shown_.replay->session.running());
   }
 
   std::future<Built> build(const Options& options) {
@@ -198,19 +200,36 @@ class Performance {
       return;
     }
     end_session();
+    const bool is_first = !shown_;
     view::WindowSettings settings = built.window_settings(building_);
     settings.work = std::exchange(work_, std::nullopt);
     window_.open(built.specimen(), settings);
     shown_ = std::move(built);
     frame_ = {};
     driven_ = false;
-    if (shown_.stage) {
-      shown_.stage->session().follow_on(requests_of(window_.controls(), driven_), stopped_);
-      shown_.stage->session().start();
-    }
+    if (shown_.stage) start_stage(is_first);
     if (shown_.replay) shown_.replay->session.start();
     if (shown_.mirror) shown_.mirror->start();
     heard_ = opened_ = std::chrono::steady_clock::now();
+  }
+
+  /// A device that no longer starts costs the window no more than its force: the mouse leads until a scene is opened
+  /// again. The first one was asked for by its name.
+  void start_stage(bool is_first) {
+    scene::FreeSession& session = shown_.stage->session();
+    session.follow_on(requests_of(window_.controls(), driven_), stopped_);
+    try {
+      session.start();
+    } catch (const Error& failure) {
+      if (is_first) throw;
+      session.stop();  // ends a recording, which begins anew
+      const std::string told = fmt::format("{}. The mouse leads until you open a scene again.", failure.what());
+      spdlog::warn("{}", told);
+      window_.tell(told);
+      Options without = building_;
+      without.devices.clear();
+      next_ = build(without);
+    }
   }
 
   void end_session() {

@@ -71,8 +71,8 @@ void FreeSession::start() {
   for (const auto& tool : tools_) hear(*tool);  // where the hand is: the first model is of the surface there
   publish_models();
   publish_frame();
-  running_ = true;
   if (haptic_thread_) haptic_thread_->start();
+  running_ = true;
   thread_ = std::thread([this] {
     realtime::name_this_thread("simulation");
     try {

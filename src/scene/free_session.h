@@ -82,6 +82,7 @@ class FreeSession {
               RecordingWriter* recorder, const Ticking& ticking = {});
   ~FreeSession();
 
+  /// Throws Error where a device's servo clock does not start: nothing runs then.
   void start();
   /// Before start(): what was asked for until now, which is not new; `stopped`: forces stay off until `arms` counts on,
   /// as after a stop in the session before.

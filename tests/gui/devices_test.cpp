@@ -1,11 +1,14 @@
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "device/drivers/inverse/fake_inverse_service.h"
 #include "gui/gui_program.h"
+#include "support/temporary_folder.h"
 
 // What the window shows of devices on the table, and what a person does to them there. The devices are those of
 // device_window.cpp, and an Inverse3 of a service of the test's.
@@ -210,6 +213,35 @@ TEST_F(DevicesTest, AStopThatWasEndedDoesNotComeBackWithAScene) {
   ASSERT_TRUE(spring.begins_anew());
   EXPECT_FALSE(stopped(spring.gui.state()));
   EXPECT_TRUE(spring.becomes_felt());
+}
+
+/// A Touch of the tests' own libHD.
+TEST_F(DevicesTest, OneThatNoLongerStartsLeavesTheSceneToTheMouseUntilItIsPluggedInAgain) {
+  const testing::TemporaryFolder folder;
+  const std::filesystem::path unplugged = folder.path() / "unplugged";
+  GuiProgram gui("device_unplugged", "spring --device touch --set touch.library=" FAKE_LIBHD,
+                 "FAKE_HD_UNPLUGGED=" + unplugged.string());
+  const auto phase_is = [](const char* phase) {
+    return [phase](const json& state) { return !state["devices"].empty() && state["devices"][0]["phase"] == phase; };
+  };
+  const auto goes_on = [](const json& state) {
+    return state["opening"] == false && state["recording"] == true && state["frame"]["time_s"].get<double>() > 0.2;
+  };
+  ASSERT_TRUE(gui.wait_until(phase_is("ready")));
+  std::ofstream(unplugged).close();
+  ASSERT_TRUE(gui.wait_until(phase_is("lost")));
+  gui.let_draw();
+  gui.click("keep.record");  // the scene from its start
+  EXPECT_TRUE(gui.wait_until([&](const json& state) { return goes_on(state) && state["devices"].empty(); }));
+  EXPECT_NE(gui.value_of("news.message").find("The mouse leads until you open a scene again."), std::string::npos);
+  gui.screenshot("mouse");
+  std::filesystem::remove(unplugged);
+  gui.let_draw();
+  gui.click("keep.stop_recording");
+  ASSERT_TRUE(gui.wait_until([](const json& state) { return state["recording"] == false; }));
+  gui.let_draw();
+  gui.click("keep.record");
+  EXPECT_TRUE(gui.wait_until([&](const json& state) { return goes_on(state) && phase_is("ready")(state); }));
 }
 
 TEST_F(DevicesTest, TheHandsAxesAreThePicturesAfterItWasTurned) {

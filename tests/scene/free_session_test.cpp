@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/error.h"
 #include "device/simulated_device.h"
 #include "scene/recording_header.h"
 #include "scene/scene_file.h"
@@ -44,6 +45,23 @@ TEST(FreeSession, WhileItIsPausedTheDrawnToolFollowsTheHand) {
   EXPECT_LT((sum_N(tool.parts) - to_vec3(tool.force_world_N)).norm(), 1e-9);
   EXPECT_GT(tool.model_age_s, 0.0);
   EXPECT_EQ(tool.force_scale, scene.tools[0].force_scale);
+}
+
+struct RefusingClock : device::ServoClock {
+  void start(std::function<void(std::uint64_t)>) override { throw Error(ExitStatus::Unavailable, "unplugged"); }
+  void stop() noexcept override {}
+};
+
+TEST(FreeSession, WithoutItsServoClockNothingRuns) {
+  const Scene scene = load_scene("spring");
+  simulation::Simulation simulation(scene.specimen, scene.settings);
+  device::SimulatedDevice hand("simulated", start_of_hand(scene, 0));
+  const std::array<ToolDevice, 1> devices = {ToolDevice{&hand, nullptr}};
+  RefusingClock clock;
+  FreeSession session(scene, simulation, devices, nullptr, {nullptr, &clock});
+  EXPECT_THROW(session.start(), Error);
+  EXPECT_FALSE(session.running());
+  EXPECT_EQ(session.stop().steps, 0U);
 }
 
 /// What was counted in the scene before, when another is opened, is not asked for again.

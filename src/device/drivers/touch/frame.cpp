@@ -29,8 +29,10 @@ Consequence consequence_of(Code error) {
     case kCommunication:
     case kCommunicationSettings:
     case kTimer:
-      return {kDoubt_ns,
-              "The device does not answer: see to its cable and its power; if that does not help, start anew."};
+      return {
+          kDoubt_ns,
+          "The device does not answer: see to its cable and its power; if that does not help, open the scene again.",
+          true};
     default:
       return {kDoubt_ns, "The device reports an error; it goes on when there is none any more."};
   }
@@ -61,6 +63,7 @@ bool FrameJudge::leaps(const Vec3& position_m, std::uint64_t now_ns) const noexc
 void FrameJudge::distrust(const Consequence& consequence, std::uint64_t now_ns) noexcept {
   distrusted_until_ns_ = std::max(distrusted_until_ns_, now_ns + consequence.rest_ns);
   fault_hint_ = consequence.hint;
+  is_silence_ = consequence.is_silence;
 }
 
 void FrameJudge::take(const RawFrame& frame, std::uint64_t now_ns) noexcept {

@@ -22,6 +22,7 @@ struct RawFrame {
 struct Consequence {
   std::uint64_t rest_ns;  // without force, from the newest of them on
   const char* hint;
+  bool is_silence = false;  // the device may be gone
 };
 
 /// Which frames are to be believed: a force is allowed where the device is calibrated, nothing was wrong for a while
@@ -37,6 +38,8 @@ class FrameJudge {
 
   DevicePhase phase() const noexcept { return phase_; }
   const char* hint() const noexcept { return hint_; }
+  /// Lost since it did not answer, so that it may have to be opened anew.
+  bool is_silent() const noexcept { return phase_ == DevicePhase::Lost && is_silence_; }
   const messages::DeviceState& state() const noexcept { return state_; }  // the newest that was a number
 
  private:
@@ -49,6 +52,7 @@ class FrameJudge {
   messages::DeviceState state_;
   std::uint64_t distrusted_until_ns_ = 0;
   const char* fault_hint_ = "";  // while it is distrusted
+  bool is_silence_ = false;      // why
 };
 
 }  // namespace myotact::device::touch

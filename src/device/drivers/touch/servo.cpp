@@ -41,6 +41,8 @@ void Servo::remove(ServoClient& client) noexcept {
 
 void Servo::start(std::function<void(std::uint64_t)> tick) {
   stop();
+  for (ServoClient* client : clients_) client->recover(hung_);
+  hung_ = false;
   tick_ = std::move(tick);
   stopping_ = sent_last_ = has_ticked_ = false;
   api_.take_error();
@@ -64,6 +66,7 @@ void Servo::stop() noexcept {
   if (!is_ticking_) return;
   stopping_ = true;
   if (has_ticked_) wait_for(sent_last_);
+  hung_ = has_ticked_ && !sent_last_;
   api_.stop_scheduler();
   api_.unschedule(handle_);
   api_.take_error();

@@ -14,6 +14,9 @@ namespace myotact::device::touch {
 class ServoClient {
  public:
   virtual ~ServoClient() = default;
+  /// Before the first frame, not in the servo thread: opens the device anew where it was lost. `hung`: the servo thread
+  /// did not end its last frame. Throws Error Unavailable.
+  virtual void recover(bool hung) = 0;
   virtual void begin_frame(std::uint64_t now_ns) noexcept = 0;
   /// `is_last`: no force from here on.
   virtual void end_frame(bool is_last) noexcept = 0;
@@ -50,6 +53,7 @@ class Servo : public ServoClock {
   std::atomic<bool> has_ticked_{false};
   std::atomic<bool> stopping_{false};
   std::atomic<bool> sent_last_{false};
+  bool hung_ = false;
 };
 
 }  // namespace myotact::device::touch

@@ -48,10 +48,25 @@ TouchDevice::TouchDevice(std::string name, std::string configuration, const Touc
       profile_(touch_profile(settings)) {}
 
 void TouchDevice::open() {
-  if (handle_ != kNoDevice) return;
+  if (phase_ != DevicePhase::Closed) return;
   if (library_->servo.is_ticking()) {
     throw Error(ExitStatus::Unavailable, name_ + ": another Touch is being felt; open both before the first is");
   }
+  acquire();
+  learn_profile();
+  judge_ = FrameJudge(middle_mm_);
+  library_->servo.add(*this);
+}
+
+/// What it can bear stays as it was learnt: the loops that feel it have heard of it.
+void TouchDevice::recover(bool hung) {
+  if (handle_ != kNoDevice && !hung && !judge_.is_silent()) return;
+  release();
+  acquire();
+  judge_ = FrameJudge(middle_mm_);
+}
+
+void TouchDevice::acquire() {
   api().take_error();
   handle_ = api().init_device(configuration_.empty() ? nullptr : configuration_.c_str());
   Code error = api().take_error();
@@ -60,19 +75,24 @@ void TouchDevice::open() {
     error = api().take_error();
   }
   if (error != kNone || handle_ == kNoDevice) {
-    if (handle_ != kNoDevice) api().disable_device(handle_);
-    handle_ = kNoDevice;
+    release();
     const Trouble trouble = trouble_of(api(), error);
     throw Error(ExitStatus::Unavailable, fmt::format("{}: {}; {}", name_, trouble.cause, trouble.remedy));
   }
-  learn_profile();
   raw_ = {};
   raw_.calibration = kCalibrationNeedsInput;  // until it was asked for
   end_error_ = kNone;
   tells_warmth_ = true;
   frames_ = counted_ = counted_from_ns_ = 0;
+  framed_ns_ = 0;
   phase_ = DevicePhase::Opening;
-  library_->servo.add(*this);
+}
+
+void TouchDevice::release() noexcept {
+  if (handle_ == kNoDevice) return;
+  api().disable_device(handle_);
+  api().take_error();
+  handle_ = kNoDevice;
 }
 
 /// What is no sensible number is not taken.
@@ -93,15 +113,13 @@ void TouchDevice::learn_profile() {
   const bool is_one = api().take_error() == kNone && lowest_mm.allFinite() && edges_mm.allFinite() &&
                       edges_mm.minCoeff() >= kSmallest_mm && edges_mm.maxCoeff() <= kLargest_mm;
   if (is_one) profile_.workspace_m = to_array(Vec3(1e-3 * edges_mm));
-  judge_ = FrameJudge(is_one ? Vec3(lowest_mm + 0.5 * edges_mm) : Vec3::Zero());
+  middle_mm_ = is_one ? Vec3(lowest_mm + 0.5 * edges_mm) : Vec3::Zero();
 }
 
 void TouchDevice::close() noexcept {
-  if (handle_ == kNoDevice) return;
+  if (phase_ == DevicePhase::Closed) return;
   library_->servo.remove(*this);
-  api().disable_device(handle_);
-  api().take_error();
-  handle_ = kNoDevice;
+  release();
   phase_ = DevicePhase::Closed;
 }
 
@@ -181,7 +199,7 @@ DeviceReport TouchDevice::report() const noexcept {
   if (framed_ns != 0 && realtime::steady_now_ns() > framed_ns + kSilence_ns) {
     report.phase = DevicePhase::Lost;
     report.rate_Hz = 0.0;
-    report.hint = "The device's servo loop has stopped: plug the device in again and start anew.";
+    report.hint = "The device's servo loop has stopped: plug the device in again and open the scene again.";
   }
   return report;
 }

@@ -48,6 +48,8 @@ class TouchDevice : public HardwareDevice, private ServoClient {
   ServoClock* servo_clock() noexcept override { return &library_->servo; }
 
  private:
+  void recover(bool hung) override;
+
   // ---- servo thread
   void begin_frame(std::uint64_t now_ns) noexcept override;
   void end_frame(bool is_last) noexcept override;
@@ -55,6 +57,9 @@ class TouchDevice : public HardwareDevice, private ServoClient {
   Code look_after_motors() noexcept;
   void count_rate(std::uint64_t now_ns) noexcept;
 
+  /// From the library. Throws Error Unavailable.
+  void acquire();
+  void release() noexcept;
   void learn_profile();
   const Hdapi& api() const { return library_->api; }
 
@@ -63,6 +68,7 @@ class TouchDevice : public HardwareDevice, private ServoClient {
   DeviceProfile profile_;
   Handle handle_ = kNoDevice;
 
+  Vec3 middle_mm_ = Vec3::Zero();  // of its workspace
   FrameJudge judge_{Vec3::Zero()};
   RawFrame raw_;
   Code end_error_ = kNone;  // that the end of the last frame left

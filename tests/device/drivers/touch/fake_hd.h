@@ -23,6 +23,7 @@ class FakeHd {
     library_.bind("fake_hd_frames", frames);
     library_.bind("fake_hd_updates", updates);
     library_.bind("fake_hd_misuses", misuses);
+    library_.bind("fake_hd_opened", opened);
     reset_(manual);
   }
   ~FakeHd() { reset_(true); }
@@ -46,6 +47,7 @@ class FakeHd {
   long (*frames)(unsigned int device);
   int (*updates)(unsigned int device);
   long (*misuses)();
+  int (*opened)();  // times, both together
 
  private:
   VendorLibrary library_;

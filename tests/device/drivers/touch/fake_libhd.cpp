@@ -5,9 +5,12 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
 #include <mutex>
 #include <thread>
+
+#include <unistd.h>
 
 namespace {
 
@@ -35,15 +38,22 @@ std::array<unsigned int, 64> errors;
 std::size_t error_count = 0;
 unsigned int init_error = 0, scheduler_error = 0;
 long misuses = 0;
+int opened = 0;
 double max_force_N = 3.3;
 Callback callback = nullptr;
 void* user_data = nullptr;
 std::atomic<bool> runs{false};
-bool is_manual = true;
+bool is_manual = false;
 std::thread thread;
 
 void push(unsigned int code) {
   if (error_count < errors.size()) errors[error_count++] = code;
+}
+
+/// While the file of that name is there: for programs that a test cannot call into.
+bool is_unplugged() {
+  const char* file = std::getenv("FAKE_HD_UNPLUGGED");
+  return file != nullptr && access(file, F_OK) == 0;
 }
 
 void tick() {
@@ -64,8 +74,8 @@ extern "C" {
 
 unsigned int hdInitDevice(const char* name) {
   const std::lock_guard lock(mutex);
-  if (init_error != 0) {
-    push(init_error);
+  if (init_error != 0 || is_unplugged()) {
+    push(init_error != 0 ? init_error : 0x0302);
     return 0xFFFFFFFF;
   }
   const unsigned int handle = name != nullptr && std::strcmp(name, "Left Device") == 0 ? 1 : 0;
@@ -74,6 +84,7 @@ unsigned int hdInitDevice(const char* name) {
     return 0xFFFFFFFF;
   }
   devices[handle].is_open = true;
+  ++opened;
   return current = handle;
 }
 void hdDisableDevice(unsigned int handle) {
@@ -89,6 +100,7 @@ void hdBeginFrame(unsigned int handle) {
   misuses += device.in_frame || !device.is_open ? 1 : 0;
   device.in_frame = true;
   device.force_N = {};
+  if (is_unplugged()) push(0x0302);
 }
 #ifndef WITHOUT_END_FRAME
 void hdEndFrame(unsigned int handle) {
@@ -197,6 +209,7 @@ void fake_hd_reset(bool manual) {
   error_count = 0;
   init_error = scheduler_error = 0;
   misuses = 0;
+  opened = 0;
   max_force_N = 3.3;
   callback = nullptr;
   is_manual = manual;
@@ -244,5 +257,8 @@ int fake_hd_updates(unsigned int device) {
 /// Calls that HDAPI forbids, so far.
 long fake_hd_misuses() {
   return misuses;
+}
+int fake_hd_opened() {
+  return opened;
 }
 }

@@ -238,6 +238,43 @@ TEST_F(TouchLibraryTicks, ASchedulerThatRefusesIsTold) {
   EXPECT_TRUE(touch_->connected());
 }
 
+TEST_F(TouchLibraryTicks, OneThatDidNotAnswerIsOpenedAnewBeforeItTicksAgain) {
+  open();
+  tick(2);
+  EXPECT_TRUE(touch_->connected());
+  fake_.push_error(kCommunication);
+  tick();
+  EXPECT_EQ(touch_->report().phase, DevicePhase::Lost);
+  touch_->servo_clock()->stop();
+  fake_.fail(kCommunication, 0);  // still unplugged
+  EXPECT_THROW(start(), Error);
+  tick();
+  EXPECT_FALSE(touch_->connected());
+  EXPECT_THROW(start(), Error);
+  fake_.fail(0, 0);
+  start();
+  tick();
+  EXPECT_TRUE(touch_->connected());
+  EXPECT_EQ(fake_.sent_N(), Vec3(0.0, 1.0, 0.0));
+  EXPECT_EQ(fake_.opened(), 2);
+  EXPECT_EQ(fake_.misuses(), 0);
+}
+
+TEST_F(TouchLibraryTicks, OneThatIsGoneForGoodIsClosed) {
+  open();
+  fake_.push_error(kCommunication);
+  tick();
+  fake_.fail(kCommunication, 0);
+  EXPECT_THROW(start(), Error);
+  touch_->close();
+  EXPECT_EQ(touch_->report().phase, DevicePhase::Closed);
+  fake_.fail(0, 0);
+  touch_->open();
+  start();
+  tick();
+  EXPECT_TRUE(touch_->connected());
+}
+
 TEST_F(TouchLibraryTicks, WhatDoesNotOpenSaysWhy) {
   fake_.fail(0x0302, 0);
   EXPECT_THAT(refusal(), HasSubstr("Communication error (0x0302)"));
@@ -301,6 +338,19 @@ TEST(TouchLibrary, ItsOwnServoThreadTicks) {
   touch->servo_clock()->stop();
   EXPECT_EQ(fake.sent_N(), Vec3::Zero());
   EXPECT_EQ(fake.misuses(), 0);
+}
+
+TEST(TouchLibrary, OneThatAnswersStaysOpenFromSceneToScene) {
+  FakeHd fake(false);
+  auto touch = TouchDriver(fake_settings()).make("touch");
+  touch->open();
+  for (int scene = 0; scene < 3; ++scene) {
+    std::atomic<int> ticks{0};
+    touch->servo_clock()->start([&](std::uint64_t) { ++ticks; });
+    while (ticks < 20) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    fake.push_error(kExceededVelocity);
+  }
+  EXPECT_EQ(fake.opened(), 1);
 }
 
 }  // namespace
