@@ -103,13 +103,6 @@ std::unique_ptr<device::PlacedDevice> Equipment::place(const std::string& name, 
   return std::make_unique<device::PlacedDevice>(device(name), placement);
 }
 
-device::ServoClock* Equipment::servo_clock() const {
-  for (const auto& [name, device] : devices_) {
-    if (device::ServoClock* servo = device->servo_clock()) return servo;
-  }
-  return nullptr;
-}
-
 void HintLog::look() {
   for (const auto& [name, device] : equipment_.devices()) {
     const std::string hint = device->report().hint;

@@ -41,8 +41,6 @@ class Equipment {
   /// and towards the person as in the lateral view, and what the settings say of it. Not longer than this.
   std::unique_ptr<device::PlacedDevice> place(const std::string& name, const scene::Scene& scene,
                                               std::size_t tool) const;
-  /// Whose ticks the devices want; null: nobody's.
-  device::ServoClock* servo_clock() const;
 
  private:
   device::DeviceSettings settings_;

@@ -79,7 +79,7 @@ HandRun feel_free(const Options& options, const scene::Scene& scene, remote::Scr
   settings.hello.token = own_token();
   settings.hello.name = "feel";
   remote::FreeHand hand(settings, device, scene.tools[0], on_table ? nullptr : &guarded.watchdog,
-                        equipment.servo_clock());
+                        on_table ? equipment.device(scene.tools[0].device).servo_clock() : nullptr);
   if (!hand.loop().notice().empty()) spdlog::warn("{}", hand.loop().notice());
   hand.start();
   if (!hand.thread().refused().empty()) spdlog::warn("{}", hand.thread().refused());

@@ -7,7 +7,7 @@
 namespace myotact::app {
 
 Hands::Hands(const scene::Scene& scene, std::size_t led, GuardedMotors& guarded, const Equipment& equipment)
-    : led_(led), mouse_(scene::start_of_hand(scene, led < scene.tools.size() ? led : 0)) {
+    : led_(led), guarded_(guarded), mouse_(scene::start_of_hand(scene, led < scene.tools.size() ? led : 0)) {
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {
     const std::string& name = scene.tools[t].device;
     if (t == led) {
@@ -37,6 +37,14 @@ std::vector<view::DeviceNews> Hands::news(const scene::Scene& scene) const {
                     placed.in_world->is_clutched()});
   }
   return news;
+}
+
+scene::Ticking Hands::ticking() const {
+  scene::Ticking ticking{simulated_.empty() ? nullptr : &guarded_.watchdog, nullptr};
+  for (const Placed& placed : placed_) {
+    if (ticking.servo == nullptr) ticking.servo = placed.device->servo_clock();
+  }
+  return ticking;
 }
 
 void Hands::ask_clutch(bool held) const {

@@ -32,10 +32,13 @@ class Hands {
   void ask_clutch(bool held) const;
   /// Of those on the table: their right, up and towards the person are the picture's from now on.
   void follow_view(const std::array<std::array<double, 3>, 3>& axes_world) const;
-  bool has_simulated() const { return !simulated_.empty(); }
+  /// Who ticks and watches over them: the servo clock of those on the table, which one has; the watchdog of those
+  /// simulated.
+  scene::Ticking ticking() const;
 
  private:
   std::size_t led_;
+  GuardedMotors& guarded_;
   device::MouseDevice mouse_;
   std::vector<std::unique_ptr<device::SimulatedDevice>> simulated_;
   struct Placed {

@@ -126,8 +126,7 @@ RunSummary run_free(const Options& options, const scene::Scene& scene, simulatio
   RunSummary summary;
   const Hands hands(scene, scene.tools.size(), guarded, equipment);
   const auto recorder = open_recorder(options, scene, hands.profiles());
-  scene::FreeSession session(scene, simulation, hands.devices(), recorder.get(),
-                             {hands.has_simulated() ? &guarded.watchdog : nullptr, equipment.servo_clock()});
+  scene::FreeSession session(scene, simulation, hands.devices(), recorder.get(), hands.ticking());
   summary.notice = session.notice();
   // A person's hand has no end; a signal ends it.
   const double end_s = options.seconds.value_or(equipment.empty() ? session.script_end_s() : kForever_s);

@@ -54,8 +54,7 @@ Stage::Stage(const Options& options, GuardedMotors& guarded, const Equipment& eq
       hands_(scene_, led_tool(options, scene_), guarded, equipment),
       simulation_(scene_.specimen, scene_.settings),
       recorder_(open_recorder(options, scene_, hands_.profiles())),
-      session_(scene_, simulation_, hands_.devices(), recorder_.get(),
-               {hands_.has_simulated() ? &guarded.watchdog : nullptr, equipment.servo_clock()}),
+      session_(scene_, simulation_, hands_.devices(), recorder_.get(), hands_.ticking()),
       watch_(scene_) {
   if (!session_.notice().empty()) spdlog::warn("{}", session_.notice());
 }

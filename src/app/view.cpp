@@ -221,7 +221,7 @@ class Performance {
     try {
       session.start();
     } catch (const Error& failure) {
-      if (is_first) throw;
+      if (is_first || building_.devices.empty()) throw;
       session.stop();  // ends a recording, which begins anew
       const std::string told = fmt::format("{}. The mouse leads until you open a scene again.", failure.what());
       spdlog::warn("{}", told);
@@ -236,8 +236,9 @@ class Performance {
     if (shown_.replay) shown_.replay->session.stop();
     if (shown_.mirror) shown_.mirror->stop();
     if (!shown_.stage) return;
-    stopped_ = shown_.stage->session().forces_stopped();  // a scene that is opened does not bring them back
-    if (const scene::FreeTiming timing = shown_.stage->session().stop(); !timing.refused.empty()) {
+    scene::FreeSession& session = shown_.stage->session();
+    if (session.running()) stopped_ = session.forces_stopped();  // a scene that is opened does not bring them back
+    if (const scene::FreeTiming timing = session.stop(); !timing.refused.empty()) {
       spdlog::warn("{}", timing.refused);
     }
   }

@@ -234,6 +234,7 @@ TEST_F(DevicesTest, OneThatNoLongerStartsLeavesTheSceneToTheMouseUntilItIsPlugge
   gui.click("keep.record");  // the scene from its start
   EXPECT_TRUE(gui.wait_until([&](const json& state) { return goes_on(state) && state["devices"].empty(); }));
   EXPECT_NE(gui.value_of("news.message").find("The mouse leads until you open a scene again."), std::string::npos);
+  EXPECT_FALSE(stopped(gui.state()));
   gui.screenshot("mouse");
   std::filesystem::remove(unplugged);
   gui.let_draw();
