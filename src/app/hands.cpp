@@ -54,8 +54,9 @@ void Hands::ask_clutch(bool held) const {
 void Hands::follow_view(const std::array<std::array<double, 3>, 3>& axes_world) const {
   Mat3 axes;
   for (int axis = 0; axis < 3; ++axis) axes.col(axis) = to_vec3(axes_world[static_cast<std::size_t>(axis)]);
-  if (axes.isZero()) return;                                                                 // there is no picture yet
-  const Mat3 world_from_picture = Eigen::Quaterniond(axes).normalized().toRotationMatrix();  // a picture's are floats
+  if (axes.isZero()) return;  // there is no picture yet
+  // Normalized, since a picture's axes are floats.
+  const Mat3 world_from_picture = Eigen::Quaterniond(axes).normalized().toRotationMatrix();
   for (const Placed& placed : placed_) placed.in_world->ask_turn(world_from_picture * placed.picture_from_device);
 }
 

@@ -214,7 +214,7 @@ class Performance {
   }
 
   /// A device that no longer starts costs the window no more than its force: the mouse leads until a scene is opened
-  /// again. The first one was asked for by its name.
+  /// again. Not for the first scene, whose device was asked for by its name.
   void start_stage(bool is_first) {
     scene::FreeSession& session = shown_.stage->session();
     session.follow_on(requests_of(window_.controls(), driven_), stopped_);

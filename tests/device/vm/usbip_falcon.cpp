@@ -147,7 +147,7 @@ void UsbipFalcon::unlink(const Header& header) {
   put_number(answer, 0, kUnlinked);
   put_number(answer, 4, number_at(header, kSequence));
   put_number(answer, 20, was_there ? negative(ECONNRESET) : 0);
-  [[maybe_unused]] const ssize_t written = ::write(ours_, answer.data(), answer.size());
+  say(answer);
 }
 
 /// What the device has to say, or the chip's status alone once a latency.
@@ -178,7 +178,12 @@ void UsbipFalcon::answer(std::uint32_t sequence, std::uint32_t status, std::span
   put_number(bytes, 20, status);
   put_number(bytes, 24, length);
   bytes.insert(bytes.end(), data.begin(), data.end());
-  [[maybe_unused]] const ssize_t written = ::write(ours_, bytes.data(), bytes.size());
+  say(bytes);
+}
+
+/// A kernel that has detached the device meanwhile hears nothing, and that is no fault.
+void UsbipFalcon::say(std::span<const std::uint8_t> bytes) {
+  [[maybe_unused]] const ssize_t sent = ::send(ours_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
 }
 
 }  // namespace myotact::device::falcon

@@ -44,6 +44,7 @@ class UsbipFalcon {
   void unlink(const Header& header);
   void give_receipts();
   void answer(std::uint32_t sequence, std::uint32_t status, std::span<const std::uint8_t> data, std::uint32_t length);
+  void say(std::span<const std::uint8_t> bytes);
   bool read_all(std::span<std::uint8_t> bytes) const;
 
   int ours_ = -1, kernels_ = -1;

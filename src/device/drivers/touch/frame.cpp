@@ -29,10 +29,10 @@ Consequence consequence_of(Code error) {
     case kCommunication:
     case kCommunicationSettings:
     case kTimer:
-      return {
-          kDoubt_ns,
-          "The device does not answer: see to its cable and its power; if that does not help, open the scene again.",
-          true};
+      return {kDoubt_ns,
+              "The device does not answer: see to its cable and its power; if that does not help, open the scene again "
+              "or start anew.",
+              true};
     default:
       return {kDoubt_ns, "The device reports an error; it goes on when there is none any more."};
   }

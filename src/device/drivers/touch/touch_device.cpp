@@ -199,7 +199,8 @@ DeviceReport TouchDevice::report() const noexcept {
   if (framed_ns != 0 && realtime::steady_now_ns() > framed_ns + kSilence_ns) {
     report.phase = DevicePhase::Lost;
     report.rate_Hz = 0.0;
-    report.hint = "The device's servo loop has stopped: plug the device in again and open the scene again.";
+    report.hint =
+        "The device's servo loop has stopped: plug the device in again and open the scene again or start anew.";
   }
   return report;
 }
