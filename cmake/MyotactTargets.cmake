@@ -7,6 +7,36 @@ target_compile_options(myotact_options INTERFACE -Wall -Wextra -Wpedantic -Wconv
 target_compile_definitions(myotact_options INTERFACE EIGEN_MPL2_ONLY)
 target_include_directories(myotact_options INTERFACE "${PROJECT_SOURCE_DIR}/src")
 
+# myotact_declare_headers(NAME LINKS targets... HEADERS headers...): headers that are compiled once for all sources of the
+# targets that myotact_precompile() names. Sources still include what they use: clang-tidy reads each without them.
+function(myotact_declare_headers name)
+  cmake_parse_arguments(ARG "" "" "LINKS;HEADERS" ${ARGN})
+  file(CONFIGURE OUTPUT "${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp" CONTENT "")
+  add_library(${name} OBJECT "${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp")
+  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
+  target_link_libraries(${name} PRIVATE myotact_options ${ARG_LINKS})
+  target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
+endfunction()
+
+# myotact_precompile(HEADERS targets...): for targets that link myotact_core. Out of a precompiled header, g++ 12 warns of
+# the strings of its own library (its bug 105329); by -fpch-preprocess ccache knows what is in it.
+function(myotact_precompile headers)
+  if(CMAKE_DISABLE_PRECOMPILE_HEADERS)  # nor does clang-tidy know g++'s options
+    return()
+  endif()
+  foreach(target IN LISTS ARGN)
+    target_precompile_headers(${target} REUSE_FROM ${headers})
+    target_compile_options(${target} PRIVATE
+      $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread>)
+  endforeach()
+endfunction()
+
+set(MYOTACT_CORE_LINKS Eigen3::Eigen nlohmann_json::nlohmann_json fmt::fmt spdlog::spdlog OpenSSL::Crypto)
+set(MYOTACT_COMMON_HEADERS
+  <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <functional> <map> <memory> <numbers> <optional> <span>
+  <string> <string_view> <thread> <utility> <variant> <vector> <Eigen/Core> <Eigen/Geometry> <fmt/format.h>)
+myotact_declare_headers(myotact_headers LINKS ${MYOTACT_CORE_LINKS} HEADERS ${MYOTACT_COMMON_HEADERS})
+
 # myotact_library(FOLDER SOURCES files... LINKS targets...): the static library myotact_FOLDER of one src/ folder.
 # A link line names the folders that this one may include.
 function(myotact_library folder)
@@ -14,34 +44,48 @@ function(myotact_library folder)
   if(ARG_SOURCES)
     add_library(myotact_${folder} STATIC ${ARG_SOURCES})
     target_link_libraries(myotact_${folder} PUBLIC myotact_options ${ARG_LINKS})
+    myotact_precompile(myotact_headers myotact_${folder})
   else()
     add_library(myotact_${folder} INTERFACE)
     target_link_libraries(myotact_${folder} INTERFACE myotact_options ${ARG_LINKS})
   endif()
 endfunction()
 
-# myotact_test(NAME [DRAWS] [ALONE] LABELS labels... SOURCES files... LINKS targets...): one GoogleTest program, each case a
-# ctest entry. DRAWS: it starts Mesa, whose threads trip the leak check at the end now and then; our own leaks show in
-# the other tests. ALONE: no other test runs beside it.
+# myotact_test(NAME [DRAWS] [LOCKS resources...] LABELS labels... SOURCES files... LINKS targets...): one GoogleTest program,
+# each case a ctest entry. DRAWS: it starts Mesa, whose threads trip the leak check at the end now and then; our own leaks
+# show in the other tests. LOCKS: what it shares with others, one of which runs at a time.
+#
+# Under a sanitizer a program is one entry, because to start it takes longer than most of its cases. What is slow there, or
+# measures time, is not built with the rest and not run.
 function(myotact_test name)
-  cmake_parse_arguments(ARG "DRAWS;ALONE" "TIMEOUT" "LABELS;SOURCES;LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "DRAWS" "TIMEOUT" "LABELS;LOCKS;SOURCES;LINKS" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 300)
   endif()
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE myotact_options ${ARG_LINKS} GTest::gtest GTest::gmock GTest::gtest_main)
+  myotact_precompile(myotact_test_headers ${name})
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
   target_compile_definitions(${name} PRIVATE MYOTACT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   # One word, since lists do not survive gtest_discover_tests; ctest's -L and -LE find each label in it.
   string(REPLACE ";" "-" labels "${ARG_LABELS}")
-  set(environment)
+  set(properties LABELS "${labels}" TIMEOUT ${ARG_TIMEOUT})
   if(ARG_DRAWS)
-    set(environment ENVIRONMENT ASAN_OPTIONS=detect_leaks=0)
+    list(APPEND properties ENVIRONMENT ASAN_OPTIONS=detect_leaks=0)
   endif()
-  set(alone)
-  if(ARG_ALONE)
-    set(alone RUN_SERIAL TRUE)
+  if(labels MATCHES "slow")
+    list(APPEND properties COST 100)  # first, so that no long one is left over at the end
   endif()
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST
-    PROPERTIES LABELS "${labels}" TIMEOUT ${ARG_TIMEOUT} ${environment} ${alone})
+  if(ARG_LOCKS)
+    string(REPLACE ";" "," locks "${ARG_LOCKS}")
+    list(APPEND properties RESOURCE_LOCK "${locks}")
+  endif()
+  if(NOT MYOTACT_SANITIZED)
+    gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES ${properties})
+  elseif(labels MATCHES "slow|soak|realtime")
+    set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
+  else()
+    add_test(NAME ${name} COMMAND ${name} --gtest_brief=1)
+    set_tests_properties(${name} PROPERTIES ${properties} TIMEOUT 2400)
+  endif()
 endfunction()

@@ -30,13 +30,25 @@ install_missing() {
   fi
 }
 
+# phase NAME COMMAND...: runs it and tells how long it took.
+phase() {
+  local name="$1" start=$SECONDS
+  shift
+  "$@"
+  printf -- '-- %s: %d min %02d s\n' "$name" $(((SECONDS - start) / 60)) $(((SECONDS - start) % 60)) >&2
+}
+
 # build PRESET [cmake options...] [-- targets...]: configures when needed and builds.
 build() {
   local preset="$1" options=() targets=()
   shift
   while [ $# -gt 0 ] && [ "$1" != "--" ]; do options+=("$1"); shift; done
   if [ $# -gt 0 ]; then shift; targets=(--target "$@"); fi
-  if command -v ccache >/dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
+  if command -v ccache >/dev/null; then
+    export CMAKE_CXX_COMPILER_LAUNCHER=ccache
+    export CCACHE_SLOPPINESS="${CCACHE_SLOPPINESS:-pch_defines,time_macros}"  # or it leaves precompiled headers alone
+    export CCACHE_DEPEND="${CCACHE_DEPEND:-1}"  # else what is not in the cache is preprocessed once more
+  fi
   if [ ! -f "$project/build/$preset/build.ninja" ] || [ ${#options[@]} -gt 0 ]; then
     (cd "$project" && cmake --preset "$preset" "${options[@]}" >&2)
   fi

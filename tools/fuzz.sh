@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Feeds made-up bytes to every reader of files, of the network and of devices, two at a time: for 30 s each, or SECONDS,
-# or -runs=N inputs. Ends with 1 when one crashes, leaks, hangs or breaks its promise; the bytes that did it are left in build/fuzz/findings/.
+# or -runs=N inputs. Ends with 1 when one crashes, leaks, hangs or breaks its promise; the bytes that did it are left in
+# build/fuzz/findings/. A change gets some seconds; fuzz_long.sh is for a release.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -16,13 +17,13 @@ targets=("${@:2}")
 if [ ${#targets[@]} -eq 0 ]; then targets=(stl obj ply off vtk_surface vtk_tets tetgen medit json specimen lesson work marks wire local_model scene_frame inverse_messages device_bytes); fi
 
 install_missing "$project/tools/packages.txt" "$project/tools/packages-test.txt"
-build fuzz -- fuzz_targets
+build asan -- fuzz_targets
 
 # fuzz TARGET: what it finds worth keeping goes to build/, so that the corpus in the repository stays small.
 fuzz() {
   local build="$project/build/fuzz" status=0
   mkdir -p "$build/corpus/$1" "$build/findings"
-  "$build/tests/fuzz/fuzz_$1" "$amount" -seed=1 -max_len=4096 -rss_limit_mb=1024 -timeout=10 -print_final_stats=1 \
+  "$project/build/asan/tests/fuzz/fuzz_$1" "$amount" -seed=1 -max_len=4096 -rss_limit_mb=1024 -timeout=10 -print_final_stats=1 \
     -artifact_prefix="$build/findings/$1-" "$build/corpus/$1" "$project/tests/fuzz/corpus/$1" \
     >"$build/$1.log" 2>&1 || status=$?
   if [ "$status" -eq 0 ]; then

@@ -12,13 +12,21 @@ case "${1:-}" in
     ;;
 esac
 
-install_missing "$project/tools/packages.txt" "$project/tools/packages-test.txt"
-build release
+# run_tests PRESET ctest options...
+run_tests() {
+  local preset="$1"
+  shift
+  ctest --test-dir "$project/build/$preset" -j2 --output-on-failure "$@"
+}
+
+phase "packages" install_missing "$project/tools/packages.txt" "$project/tools/packages-test.txt"
+phase "release, build" build release
 if [ "${1:-}" = "--quick" ]; then
-  exec ctest --test-dir "$project/build/release" -j2 --output-on-failure -L 'unit|physics' -LE 'slow|bench'
+  phase "release, unit and physics tests" run_tests release -L 'unit|physics' -LE 'slow|bench'
+  exit
 fi
-ctest --test-dir "$project/build/release" -j2 --output-on-failure -LE 'bench|soak'
-build asan
+phase "release, tests" run_tests release -LE 'bench|soak'
+phase "address sanitizer, build" build asan
 # Timing means nothing under sanitizers; the slow tests and the validation cases ran above, and what these call is
 # tested here too.
-exec ctest --test-dir "$project/build/asan" -j2 --output-on-failure -LE 'bench|slow|realtime|validation'
+phase "address sanitizer, tests" run_tests asan -LE 'bench|slow|realtime|validation'

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "anatomy/read_body.h"
 #include "anatomy/read_line.h"

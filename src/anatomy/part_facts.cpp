@@ -1,5 +1,7 @@
 #include "anatomy/part_facts.h"
 
+#include <nlohmann/json.hpp>
+
 #include "core/json_reader.h"
 
 namespace myotact::anatomy {

@@ -128,7 +128,7 @@ struct Specimen {
   std::vector<Overlap> overlaps;
 };
 
-/// Reads a specimen folder (FORMATS: specimen.json, bones/*.ply, skins/*.ply, muscles/*.vtk) and checks it.
+/// Reads a specimen folder (specimen.json, bones/*.ply, skins/*.ply, muscles/*.vtk) and checks it.
 /// Throws Error NoInput or BadData naming file, place, value, allowed range and remedy.
 Specimen load_specimen(const std::filesystem::path& folder);
 /// The same with `text` in the place of specimen.json; the meshes it names are read from the folder.

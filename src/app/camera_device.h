@@ -12,7 +12,7 @@ namespace myotact::app {
 /// A SpaceMouse that turns the view instead of moving a tool (--camera).
 class CameraDevice {
  public:
-  /// Opens it. Throws Error: Usage for a device that is none, Unavailable.
+  /// Opens it. Throws Error: Usage for an unknown device, Unavailable.
   CameraDevice(const std::string& name, device::DeviceSettings settings);
   ~CameraDevice() { device_->close(); }
   CameraDevice(const CameraDevice&) = delete;

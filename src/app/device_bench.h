@@ -19,7 +19,7 @@ namespace myotact::app {
 class DeviceBench {
  public:
   /// Opens the device. `on_table`: the same one where it is real, else null. `watchdog`: of its motors, or null. All
-  /// outlive this. `most_N`: that it ever pulls with; half of what the device bears is never exceeded. Throws Error
+  /// outlive this. `most_N`: that it ever pulls with; half of what the device supports is never exceeded. Throws Error
   /// Unavailable.
   DeviceBench(device::Device& device, device::HardwareDevice* on_table, realtime::Watchdog* watchdog, double most_N);
 

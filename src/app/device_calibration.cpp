@@ -15,7 +15,7 @@ namespace myotact::app {
 
 namespace {
 
-/// A balance for kitchens or anglers tells a weight of 200 g to a few per cent, and no motor is warmed by it.
+/// A balance for kitchens or anglers shows a weight of 200 g to a few per cent, and no motor is warmed by it.
 constexpr double kWeighed_N = 2.0;
 constexpr double kGrams_N = 1e3 / 9.81;
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
 #include "app/fidelity_page.h"
@@ -71,7 +72,7 @@ int scene_fidelity(const Options& options) {
   request.truth = options.truth == "steps" ? measure::Truth::Steps : measure::Truth::Ticks;
   const Subject subject = subject_of(options);
   if (subject.scene.settings.tether) {
-    throw bad_data(subject.scene.name, "/original", "has one spring and no touch to judge; name a limb, such as elbow");
+    throw bad_data(subject.scene.name, "/original", "has one spring and no touch to grade; name a limb, such as elbow");
   }
   request.device = subject.device.name;
   request.profile = subject.device.profile;
@@ -91,7 +92,7 @@ int scene_fidelity(const Options& options) {
   std::cout << (options.json ? json : measure::scene_fidelity_text(found)) << std::flush;
   if (interruption() != 0) return interruption();
   const bool passed =
-      found.planted ? found.planted->all_found() : measure::worst_grade(measure::judge(found)) < measure::Grade::Poor;
+      found.planted ? found.planted->all_found() : measure::worst_grade(measure::grade(found)) < measure::Grade::Poor;
   return static_cast<int>(passed ? ExitStatus::Done : ExitStatus::CheckFailed);
 }
 

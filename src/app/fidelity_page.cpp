@@ -10,14 +10,14 @@
 
 #include "core/text.h"
 #include "measure/fidelity/scene_fidelity_report.h"
-#include "view/chart_svg.h"
+#include "view/charts/chart_svg.h"
 
 namespace myotact::app {
 
 namespace {
 
 using measure::Grade;
-using measure::JudgedFigure;
+using measure::GradedFigure;
 using measure::SceneFidelity;
 
 constexpr const char* kHead = R"(<!DOCTYPE html>
@@ -148,18 +148,19 @@ std::string range_chart(const SceneFidelity& fidelity) {
   return svg + "</svg>\n";
 }
 
-std::string summary(const SceneFidelity& fidelity, const std::vector<JudgedFigure>& figures) {
+std::string summary(const SceneFidelity& fidelity, const std::vector<GradedFigure>& figures) {
   const measure::ForceComparison& whole = fidelity.compared.front().found;
-  if (!std::isfinite(whole.gain)) return "<p>Nothing was felt that could be judged.</p>\n";
+  if (!std::isfinite(whole.gain)) return "<p>Nothing was felt that could be graded.</p>\n";
   const auto grade = measure::worst_grade(figures);
   std::string html = fmt::format("<p>On the whole {}: the worst figure decides. ", graded(grade));
   html += fmt::format(
-      "While the hand was in touch ({:.2f} s judged) the commanded force differed from the true one by {:.1f} % (root "
+      "While the hand was in touch ({:.2f} s compared) the commanded force differed from the true one by {:.1f} % "
+      "(root "
       "mean square; at worst {:.2f} N of {:.2f} N). It was {:.1f} % too {}, {:.1f} ms {}, turned by {:.1f} degrees, "
       "and jittered by {:.0f} mN.</p>\n",
       1e-3 * static_cast<double>(whole.ticks), 100.0 * whole.error_rms_share, whole.error_worst_N, whole.true_peak_N,
       100.0 * std::abs(whole.gain - 1.0), whole.gain >= 1.0 ? "strong" : "weak", 1e3 * std::abs(whole.lag_s),
-      whole.lag_s >= 0.0 ? "late" : "early", 57.29577951 * whole.turn_angle_rad(), 1e3 * whole.noise_rms_N);
+      whole.lag_s >= 0.0 ? "late" : "early", 57.29577951 * whole.rotation_angle_rad(), 1e3 * whole.noise_rms_N);
   html += fmt::format("<p>The truth is {}. ", measure::truth_text(fidelity.truth));
   if (fidelity.haptic_part && fidelity.step_part)
     html += fmt::format(
@@ -176,11 +177,11 @@ std::string summary(const SceneFidelity& fidelity, const std::vector<JudgedFigur
   return html;
 }
 
-std::string figure_table(const std::vector<JudgedFigure>& figures) {
+std::string figure_table(const std::vector<GradedFigure>& figures) {
   std::string html =
       "<h2>Figures</h2>\n<table><tr><th>what</th><th class=\"number\">value</th><th>unit</th><th>verdict</th>"
       "<th class=\"number\">good to</th><th class=\"number\">fair to</th><th>where the bounds are from</th></tr>\n";
-  for (const JudgedFigure& figure : figures)
+  for (const GradedFigure& figure : figures)
     html += fmt::format(R"(<tr><td>{}</td><td class="number">{:.3g}</td><td>{}</td><td>{}</td>)"
                         R"(<td class="number">{:g}</td><td class="number">{:g}</td><td class="source">{}</td></tr>)",
                         escape_markup(figure.name), figure.value, figure.unit, graded(figure.grade()), figure.good,
@@ -192,7 +193,7 @@ std::string figure_table(const std::vector<JudgedFigure>& figures) {
 std::string comparison_row(const std::string& name, const measure::ForceComparison& c) {
   std::string row = fmt::format("<tr><td>{}</td>", escape_markup(name));
   for (const double value : {c.true_rms_N, 100.0 * c.error_rms_share, 100.0 * c.error_worst_share, c.gain,
-                             1e3 * c.lag_s, 57.29577951 * c.turn_angle_rad(), 1e3 * c.noise_rms_N})
+                             1e3 * c.lag_s, 57.29577951 * c.rotation_angle_rad(), 1e3 * c.noise_rms_N})
     row += fmt::format(R"(<td class="number">{:.3g}</td>)", value);
   return row + "</tr>\n";
 }
@@ -236,7 +237,7 @@ std::string explained(const std::string& svg, const char* why) {
 }  // namespace
 
 std::string fidelity_page(const SceneFidelity& fidelity) {
-  const std::vector<JudgedFigure> figures = measure::judge(fidelity);
+  const std::vector<GradedFigure> figures = measure::grade(fidelity);
   std::string html = kHead;
   html += fmt::format("<h1>How true is what is felt: {}</h1>\n<p>{}; device: {}.</p>\n", escape_markup(fidelity.scene),
                       escape_markup(fidelity.title), escape_markup(fidelity.device));
@@ -246,9 +247,10 @@ std::string fidelity_page(const SceneFidelity& fidelity) {
   html += explained(force_chart(fidelity),
                     "The two lines should lie on each other. Of every stretch of time the lowest and the highest value "
                     "are drawn, so that no jitter is hidden.");
-  html += explained(error_chart(fidelity),
-                    "What the hand felt wrongly, by axis of the world; zero where a tick is not judged. Spikes belong "
-                    "to first touches and to letting go.");
+  html +=
+      explained(error_chart(fidelity),
+                "What the hand felt wrongly, by axis of the world; zero where a tick is not compared. Spikes belong "
+                "to first touches and to letting go.");
   html += explained(
       scatter_chart(fidelity),
       "Dots off the line are wrong in strength; a slope other than 1 is a stiffness that feels wrong by as much.");

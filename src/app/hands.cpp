@@ -57,7 +57,7 @@ void Hands::follow_view(const std::array<std::array<double, 3>, 3>& axes_world) 
   if (axes.isZero()) return;  // there is no picture yet
   // Normalized, since a picture's axes are floats.
   const Mat3 world_from_picture = Eigen::Quaterniond(axes).normalized().toRotationMatrix();
-  for (const Placed& placed : placed_) placed.in_world->ask_turn(world_from_picture * placed.picture_from_device);
+  for (const Placed& placed : placed_) placed.in_world->ask_rotation(world_from_picture * placed.picture_from_device);
 }
 
 bool is_persons(const scene::Scene& scene, std::size_t tool, std::size_t led) {
@@ -66,7 +66,7 @@ bool is_persons(const scene::Scene& scene, std::size_t tool, std::size_t led) {
 
 void leave_hands_to_people(scene::Scene& scene, std::size_t led) {
   std::erase_if(scene.script, [&](const scene::ScriptAction& action) {
-    return scene::moves_hand(action.deed) && is_persons(scene, action.tool, led);
+    return scene::moves_hand(action.what) && is_persons(scene, action.tool, led);
   });
 }
 

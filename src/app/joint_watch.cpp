@@ -20,7 +20,7 @@ measure::StiffnessRow row_of(const scene::Scene& scene, const messages::SceneFra
   row.K_contact_Nm_rad = joint.contact_Nm_rad;
   row.net_torque_Nm = joint.torque_Nm;
   row.preview = joint.preview;
-  row.held = row.converged = true;  // what does not hold, the session's notice tells
+  row.held = row.converged = true;  // what does not hold, the session's notice says
   for (std::size_t m = 0; m < joint.muscles.size(); ++m) {
     const messages::MuscleJointFrame& part = joint.muscles[m];
     row.K_muscle_Nm_rad += part.line_muscle_Nm_rad;
@@ -37,15 +37,15 @@ JointWatch::JointWatch(const scene::Scene& scene) : scene_(scene) {
   if (scene.co_contraction) lines_ = measure::line_limb(scene);
 }
 
-const view::JointReadings& JointWatch::read(const messages::SceneFrame& frame, double common,
-                                            scene::FreeSession& session) {
+const view::JointReadings& JointWatch::read(const messages::SceneFrame& frame, scene::FreeSession& session) {
   const auto now = std::chrono::steady_clock::now();
   if (!lines_ || frame.joints.empty() || now < next_) return readings_;
   next_ = now + kPeriod;
   const measure::StiffnessRow row = row_of(scene_, frame);
   std::vector<double> angles_rad;
   for (const messages::JointFrame& joint : frame.joints) angles_rad.push_back(joint.angle_rad);
-  const measure::BandPart band = measure::whole_band(measure::stiffness_band(*lines_, angles_rad, common));
+  const measure::BandPart band =
+      measure::whole_band(measure::stiffness_band(*lines_, angles_rad, frame.control.common_now));
   readings_ = {row.K_schur_Nm_rad - band.down_Nm_rad,
                row.K_schur_Nm_rad + band.up_Nm_rad,
                row.K_muscle_Nm_rad,

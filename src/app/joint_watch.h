@@ -7,7 +7,7 @@
 #include "messages/scene_frame.h"
 #include "scene/free_session.h"
 #include "scene/scene_file.h"
-#include "view/joint_readings.h"
+#include "view/state/joint_readings.h"
 
 namespace myotact::app {
 
@@ -16,8 +16,8 @@ class JointWatch {
  public:
   explicit JointWatch(const scene::Scene& scene);
 
-  /// Readings of the frame; the last ones until it is time for new ones. `common`: level of co-contraction asked for.
-  const view::JointReadings& read(const messages::SceneFrame& frame, double common, scene::FreeSession& session);
+  /// Readings of the frame; the last ones until it is time for new ones. The band is of the level in force.
+  const view::JointReadings& read(const messages::SceneFrame& frame, scene::FreeSession& session);
 
  private:
   const scene::Scene& scene_;

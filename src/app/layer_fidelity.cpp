@@ -7,7 +7,7 @@
 #include "app/options.h"
 #include "core/error.h"
 #include "core/file.h"
-#include "view/chart_svg.h"
+#include "view/charts/chart_svg.h"
 
 namespace myotact::app {
 

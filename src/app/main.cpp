@@ -111,7 +111,7 @@ CLI::App* add_fidelity(CLI::App& program, Options& options) {
       ->add_option(
           "--truth", options.truth,
           "what is true: steps (what the scene's own steps gave) or ticks (the path again, simulated with a step of "
-          "1 ms: five times slower, and tells besides what the scene's step leaves out)")
+          "1 ms: five times slower, and also shows what the scene's step leaves out)")
       ->check(CLI::IsMember({"ticks", "steps"}))
       ->capture_default_str();
   fidelity->add_option("--plant", options.plant,

@@ -1,6 +1,7 @@
 #include "app/mirror_stage.h"
 
 #include <algorithm>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -37,7 +38,7 @@ net::ClientSettings client_settings(const Options& options) {
   settings.server = server_of(options);
   settings.hello.role = role_of(options);
   settings.hello.wants.hand = takes_a_hand(options);
-  settings.hello.wants.frames = settings.hello.wants.readings = true;
+  settings.hello.wants.frames = settings.hello.wants.readings = settings.hello.wants.in_force = true;
   settings.hello.token = token_for(settings.hello.role);
   settings.hello.name = "view";
   return settings;
@@ -61,6 +62,7 @@ MirrorStage::MirrorStage(const Options& options)
 
 void MirrorStage::start() {
   if (hand_) hand_->start();
+  started_ = std::chrono::steady_clock::now();
 }
 
 void MirrorStage::stop() noexcept {
@@ -68,26 +70,42 @@ void MirrorStage::stop() noexcept {
   if (watcher_) watcher_->stop();
 }
 
-void MirrorStage::fetch_frame(messages::SceneFrame& frame) {
-  mirror_->fetch_frame(frame);
-  if (!hand_) return;
-  hand_->loop().felt().update();
-  remote::show_own_hand(hand_->loop().felt().front(), frame);
+double MirrorStage::shown_s(const messages::SceneFrame&) const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
 }
 
-std::string MirrorStage::lead(const view::ViewControls& controls, const scene::Requests& requests) {
+bool MirrorStage::fetch_frame(messages::SceneFrame& frame) {
+  const bool is_new = mirror_->fetch_frame(frame);
+  if (!hand_) return is_new;
+  hand_->loop().felt().update();
+  remote::show_own_hand(hand_->loop().felt().front(), frame);
+  return true;
+}
+
+void MirrorStage::lead(const view::ViewControls& controls) {
   mouse_.set_pointer(to_vec3(controls.hand_world_m), controls.hand_buttons);
-  if (hand_ && controls.arms != arms_) hand_->loop().stop_forces(false);
-  if (hand_ && controls.stops != stops_) hand_->loop().stop_forces(true);  // last: of both, the stop counts
-  arms_ = controls.arms;
-  stops_ = controls.stops;
-  if (mirror_->request(requests) || told_) return "";
-  told_ = true;
+}
+
+std::string MirrorStage::push(const messages::Command& command) {
+  if (std::holds_alternative<messages::EndRecording>(command.order)) {
+    return "a recording ends where the scene is simulated: at the server";
+  }
+  if (mirror_->push(command)) return "";
   return "only an instructor changes the scene: connect with --role instructor, and the instructor's token where the "
          "server has one";
 }
 
-view::WindowSettings MirrorStage::window_settings() const {
+void MirrorStage::stop_own_hand(bool stopped) noexcept {
+  stopped_ = stopped;
+  if (hand_) hand_->loop().stop_forces(stopped);
+}
+
+void MirrorStage::stop_forces(bool stopped) noexcept {
+  stop_own_hand(stopped);
+  if (stopped) mirror_->ask_stop();
+}
+
+view::WindowSettings MirrorStage::window_settings(const Options&) const {
   view::WindowSettings settings;
   settings.facts = facts_of(scene_);
   const auto& scenes = settings.facts.scenes;

@@ -1,51 +1,58 @@
 #pragma once
 
-#include <cstdint>
+#include <chrono>
 #include <memory>
 #include <string>
 
-#include "app/options.h"
+#include "app/stage.h"
 #include "device/mouse_device.h"
 #include "net/client.h"
 #include "net/scene_inquiry.h"
 #include "remote/free_hand.h"
 #include "remote/mirror.h"
-#include "view/window.h"
+#include "view/window/window.h"
 
 namespace myotact::app {
 
 /// A window on a scene that a server simulates: a viewer looks on, an instructor leads, and with --device mouse one of
 /// the scene's hands is here.
-class MirrorStage {
+class MirrorStage final : public Stage, public scene::Session {
  public:
   /// Joins the server of --connect and opens its scene from this machine's files, which takes seconds; any thread.
   /// Throws Error.
   explicit MirrorStage(const Options& options);
-  ~MirrorStage() { stop(); }
+  ~MirrorStage() override { stop(); }
   MirrorStage(const MirrorStage&) = delete;
   MirrorStage& operator=(const MirrorStage&) = delete;
 
-  const scene::Scene& scene() const { return scene_; }
-  view::WindowSettings window_settings() const;
+  const scene::Scene& scene() const override { return scene_; }
+  scene::Session& session() override { return *this; }
+  view::WindowSettings window_settings(const Options& options) const override;
+  void lead(const view::ViewControls& controls) override;
+  /// By the wall: a server's time began long ago.
+  double shown_s(const messages::SceneFrame& newest) const override;
+  bool is_outdated() const override { return mirror_->shows_another_scene(answer_.scene_json); }
 
-  void start();  // of the hand
-  void stop() noexcept;
-
-  void fetch_frame(messages::SceneFrame& frame);
-  /// What the person asks for; `requests` are the same for the simulation. Returns why it is not done, or nothing.
-  std::string lead(const view::ViewControls& controls, const scene::Requests& requests);
-  /// The server was started again with another scene than this.
-  bool is_outdated() const { return mirror_->shows_another_scene(answer_.scene_json); }
+  void start_stopped() override { stop_own_hand(true); }
+  void start() override;
+  void stop() noexcept override;
+  bool running() const override { return true; }  // a server that is gone is looked for until it is back
+  bool fetch_frame(messages::SceneFrame& frame) override;
+  [[nodiscard]] std::string push(const messages::Command& command) override;
+  /// A stop is for all who are connected; enabled again is only the hand here.
+  void stop_forces(bool stopped) noexcept override;
+  bool forces_stopped() const noexcept override { return hand_ ? hand_->loop().is_stopped() : stopped_; }
 
  private:
+  void stop_own_hand(bool stopped) noexcept;
   net::SceneAnswer answer_;
   scene::Scene scene_;
   device::MouseDevice mouse_;
   std::unique_ptr<remote::FreeHand> hand_;  // one of the two
   std::unique_ptr<net::Client> watcher_;
   std::unique_ptr<remote::Mirror> mirror_;
-  std::uint32_t arms_ = 0, stops_ = 0;  // asked for so far
-  bool told_ = false;                   // that a viewer changes nothing
+  bool stopped_ = false;  // without a hand here: remembered for the session after this one
+  std::chrono::steady_clock::time_point started_;
 };
 
 }  // namespace myotact::app

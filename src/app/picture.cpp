@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
-#include "view/limb_bounds.h"
-#include "view/offscreen.h"
+#include "view/look/limb_bounds.h"
+#include "view/look/start_view.h"
+#include "view/pictures/offscreen.h"
 
 namespace myotact::app {
 

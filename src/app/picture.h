@@ -8,7 +8,7 @@
 #include "messages/scene_frame.h"
 #include "scene/scene_file.h"
 #include "simulation/simulation.h"
-#include "view/show_options.h"
+#include "view/look/show_options.h"
 
 namespace myotact::app {
 

@@ -15,11 +15,11 @@ namespace myotact::app {
 
 namespace {
 
-/// Above, a tick of 1 ms cannot render it stably on any listed device (references name 5000 N/m as the largest).
+/// Above, a tick of 1 ms cannot render it stably on any listed device (assets/devices/: 5000 N/m at most).
 constexpr double kLargestStiffness_N_m = 10'000.0;
 
 void require_range(const char* option, double value, double low, double high, const char* unit) {
-  if (value >= low && value <= high) return;  // false for what is no number
+  if (value >= low && value <= high) return;  // false for what is not a number
   throw Error(ExitStatus::Usage,
               fmt::format("{}: is {}; must be in {} .. {} {}", option, to_text(value), low, high, unit));
 }

@@ -43,7 +43,7 @@ struct RunSummary {
   std::uint64_t steps = 0;
   scene::Extremes extremes;
   scene::ShoveRecord shove;  // joint -1: none was asked for
-  std::string notice;        // what the device does not bear of the scene's settings
+  std::string notice;        // what the device does not support of the scene's settings
   nlohmann::json realtime;   // timing of a run on the wall clock
 };
 
@@ -139,7 +139,8 @@ RunSummary run_free(const Options& options, const scene::Scene& scene, simulatio
     session.fetch_frame(frame);
     if (frame.time_s >= end_s) break;
   }
-  const scene::FreeTiming timing = session.stop();
+  session.stop();
+  const scene::FreeTiming timing = session.timing();
   if (!session.recording_fault().empty()) throw Error(ExitStatus::InputOutput, session.recording_fault());
   summary.simulated_s = timing.simulated_s;
   summary.wall_s = timing.wall_s;

@@ -18,8 +18,8 @@ view::SceneFacts facts_of(const scene::Scene& scene) {
   return facts;
 }
 
-view::SceneState start_of(const scene::Scene& scene) {
-  view::SceneState start;
+messages::ControlState start_of(const scene::Scene& scene) {
+  messages::ControlState start;
   start.gravity = scene.settings.gravity_m_s2.norm() > 0.0;
   if (scene.co_contraction) {
     start.common = scene.co_contraction->common;

@@ -9,7 +9,7 @@ namespace myotact::app {
 /// opened.
 view::SceneFacts facts_of(const scene::Scene& scene);
 
-/// What its controls show at first.
-view::SceneState start_of(const scene::Scene& scene);
+/// What is in force when it begins.
+messages::ControlState start_of(const scene::Scene& scene);
 
 }  // namespace myotact::app

@@ -42,12 +42,15 @@ void ScriptedStudent::play(const Answers& answers) {
 void ScriptedStudent::begin_step() {
   selected_ = {};
   const learn::Setting& set = run_->step().set;
-  scene::Conductor& conductor = session_->conductor();
-  if (set.gravity) conductor.ask_gravity(*set.gravity ? Vec3(0.0, 0.0, -9.81) : Vec3::Zero());
-  if (set.hold_posture) conductor.ask_hold_posture(*set.hold_posture);
-  if (set.common || set.difference)
-    conductor.ask_co_contraction(set.common.value_or(0.0), set.difference.value_or(0.0));
-  if (set.flexors) conductor.ask_levels(*set.flexors, *set.extensors);
+  const auto set_scene = [&](const messages::Order& order) {
+    session_->conductor().apply({order, messages::Commander::Lesson});
+  };
+  if (set.gravity) set_scene(messages::SetGravity{*set.gravity});
+  if (set.hold_posture) set_scene(messages::HoldPosture{*set.hold_posture});
+  if (set.common || set.difference) {
+    set_scene(messages::CoContract{set.common.value_or(0.0), set.difference.value_or(0.0)});
+  }
+  if (set.flexors) set_scene(messages::SetLevels{*set.flexors, *set.extensors});
   constexpr double kRead_s = 1.0;  // until all is at rest
   wait(kRead_s);
 }
@@ -117,7 +120,7 @@ void ScriptedStudent::answer_task(const learn::StiffenTask& task, const std::str
   constexpr double kRise = 0.1, kEach_s = 0.5;
   const double most = parse_number(word).value_or(1.0);
   for (double common = kRise; common < most + 0.5 * kRise && !run_->state().done; common += kRise) {
-    session_->conductor().ask_co_contraction(std::min(common, most), 0.0);
+    session_->conductor().apply({messages::CoContract{std::min(common, most), 0.0}});
     wait(kEach_s);
   }
   if (!run_->state().done) wait(task.hold_s + kEach_s);
@@ -133,8 +136,8 @@ Vec3 ScriptedStudent::hand_m() const {
   return session_->conductor().hand(0, simulation_->time_s()).position_world_m;
 }
 
-void ScriptedStudent::begin(const scene::Deed& deed, double duration_s) {
-  session_->conductor().begin({simulation_->time_s(), duration_s, deed, 0});
+void ScriptedStudent::begin(const scene::Action& action, double duration_s) {
+  session_->conductor().begin({simulation_->time_s(), duration_s, action, 0});
 }
 
 void ScriptedStudent::let_go() {

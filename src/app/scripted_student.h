@@ -48,7 +48,7 @@ class ScriptedStudent {
   bool touch(int muscle);
   /// Until the lesson has seen the joint turn, or no place is left to take the line at.
   void pull(int muscle);
-  void begin(const scene::Deed& deed, double duration_s);
+  void begin(const scene::Action& action, double duration_s);
   void let_go();
   /// Round the limb at a distance, to the side from which the muscle is reached.
   void go_to_side(int muscle, const Reach& reach);

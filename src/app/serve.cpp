@@ -15,7 +15,7 @@
 #include "app/network_options.h"
 #include "app/options.h"
 #include "core/error.h"
-#include "net/websocket_door.h"
+#include "net/websocket_listener.h"
 #include "remote/lockstep_server.h"
 #include "remote/served_scene.h"
 
@@ -24,19 +24,20 @@ namespace myotact::app {
 namespace {
 
 /// On this machine alone everybody may join; from elsewhere only who was given a token.
-net::DoorRules door_of(const Options& options) {
-  net::DoorRules door = {token_of("MYOTACT_TOKEN"), token_of("MYOTACT_INSTRUCTOR_TOKEN")};
-  if (net::is_loopback(options.bind)) return door;
-  if (!door.token) door.token = net::new_token();
-  if (!door.instructor_token) door.instructor_token = net::new_token();
-  return door;
+net::AccessPolicy access_policy_of(const Options& options) {
+  net::AccessPolicy access_policy = {token_of("MYOTACT_TOKEN"), token_of("MYOTACT_INSTRUCTOR_TOKEN")};
+  if (net::is_loopback(options.bind)) return access_policy;
+  if (!access_policy.token) access_policy.token = net::new_token();
+  if (!access_policy.instructor_token) access_policy.instructor_token = net::new_token();
+  return access_policy;
 }
 
 /// What clients need to know, one line each on standard output, where no log keeps it.
-void tell(const Options& options, std::uint16_t port, const net::DoorRules& door) {
+void tell(const Options& options, std::uint16_t port, const net::AccessPolicy& access_policy) {
   std::cout << "tcp " << options.bind << ':' << port << '\n';
-  if (door.token) std::cout << "token " << net::to_text(*door.token) << '\n';
-  if (door.instructor_token) std::cout << "instructor_token " << net::to_text(*door.instructor_token) << '\n';
+  if (access_policy.token) std::cout << "token " << net::to_text(*access_policy.token) << '\n';
+  if (access_policy.instructor_token)
+    std::cout << "instructor_token " << net::to_text(*access_policy.instructor_token) << '\n';
   std::cout.flush();
 }
 
@@ -54,28 +55,28 @@ nlohmann::json counters_json(const net::ServerCounters& counters) {
           {"dropped_controls", counters.dropped_controls}};
 }
 
-int serve_lockstep(const Options& options, const scene::Scene& scene, const net::DoorRules& door) {
-  remote::LockstepServer server({options.bind, options.port}, scene, door, options.seed);
-  tell(options, server.port(), door);
+int serve_lockstep(const Options& options, const scene::Scene& scene, const net::AccessPolicy& access_policy) {
+  remote::LockstepServer server({options.bind, options.port}, scene, access_policy, options.seed);
+  tell(options, server.port(), access_policy);
   server.serve([] { return interruption() != 0; });
   return interruption();
 }
 
-int serve_free(const Options& options, const scene::Scene& scene, const net::DoorRules& door) {
+int serve_free(const Options& options, const scene::Scene& scene, const net::AccessPolicy& access_policy) {
   const auto recorder = open_recorder(options, scene, std::vector<device::DeviceProfile>(scene.tools.size()));
   simulation::Simulation simulation(scene.specimen, scene.settings);
   remote::ServeSettings settings;
   settings.endpoint = {options.bind, options.port};
-  settings.server.door = door;
+  settings.server.access_policy = access_policy;
   settings.seed = options.seed;
   remote::ServedScene served(scene, simulation, settings, recorder.get());
-  std::optional<net::WebSocketDoor> websocket;
+  std::optional<net::WebSocketListener> websocket;
   if (!options.no_websocket) {
     websocket.emplace(net::Endpoint{options.bind, options.websocket_port}, served.server(), options.origins);
     std::cout << "websocket " << options.bind << ':' << websocket->port() << '\n';
   }
   served.start();
-  tell(options, served.server().port(), door);
+  tell(options, served.server().port(), access_policy);
   while (interruption() == 0 && served.running() && served.time_s() < options.seconds.value_or(1e12)) {
     served.obey();
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -100,9 +101,9 @@ int serve(const Options& options) {
         fmt::format("--record: a recording is of the scene's own {} hands; leave --hands out", scene.tools.size()));
   }
   if (options.hands) scene = remote::with_hands(std::move(scene), *options.hands);
-  const net::DoorRules door = door_of(options);
+  const net::AccessPolicy access_policy = access_policy_of(options);
   watch_for_interruption();
-  return options.lockstep ? serve_lockstep(options, scene, door) : serve_free(options, scene, door);
+  return options.lockstep ? serve_lockstep(options, scene, access_policy) : serve_free(options, scene, access_policy);
 }
 
 }  // namespace myotact::app

@@ -1,42 +1,47 @@
 #pragma once
 
-#include <cstddef>
 #include <memory>
+#include <string>
 #include <vector>
 
-#include "app/hands.h"
-#include "app/joint_watch.h"
 #include "app/options.h"
-#include "scene/free_session.h"
-#include "simulation/simulation.h"
-#include "view/window.h"
+#include "messages/scene_frame.h"
+#include "scene/scene_file.h"
+#include "scene/session.h"
+#include "view/window/window.h"
 
 namespace myotact::app {
 
-/// A scene on the wall clock with all that belongs to it. Another scene is another stage, built while this one runs.
+class Equipment;
+struct GuardedMotors;
+
+/// What a window shows, with all that belongs to it: a scene, its session, and what the person has of it in hand.
+/// Another scene is another stage, built while this one runs. On the drawing thread, once it is made.
 class Stage {
  public:
-  /// Loads and builds, which takes seconds; any thread. Throws Error. `guarded` and `equipment` outlive it.
-  Stage(const Options& options, GuardedMotors& guarded, const Equipment& equipment);
-  ~Stage();
+  virtual ~Stage() = default;
 
-  scene::Scene& scene() { return scene_; }
-  scene::FreeSession& session() { return session_; }
-  const view::JointReadings& readings(const messages::SceneFrame& frame, double common) {
-    return watch_.read(frame, common, session_);
-  }
-  void move_hand(const view::ViewControls& controls);
-  std::vector<view::DeviceNews> device_news() const { return hands_.news(scene_); }
+  virtual const scene::Scene& scene() const = 0;
+  virtual scene::Session& session() = 0;
   /// `options`: what it was made with.
-  view::WindowSettings window_settings(const Options& options) const;
+  virtual view::WindowSettings window_settings(const Options& options) const = 0;
+  /// Once a picture: what the person holds and moves.
+  virtual void lead(const view::ViewControls& controls) = 0;
 
- private:
-  scene::Scene scene_;
-  Hands hands_;
-  simulation::Simulation simulation_;
-  std::unique_ptr<scene::RecordingWriter> recorder_;
-  scene::FreeSession session_;
-  JointWatch watch_;
+  /// Simulated here and now: it can be recorded, and where no frame comes a step does not end.
+  virtual bool simulates() const { return false; }
+  virtual view::JointReadings readings(const messages::SceneFrame&) { return {}; }
+  virtual std::vector<view::DeviceNews> device_news() const { return {}; }
+  /// How long it has been shown, by its own clock [s].
+  virtual double shown_s(const messages::SceneFrame& newest) const { return newest.time_s; }
+  /// There is another scene now where this one comes from.
+  virtual bool is_outdated() const { return false; }
+  /// After the session's stop(): what the system did not permit; empty: nothing.
+  virtual std::string refused() const { return {}; }
 };
+
+/// A server's scene, a recording or a scene that is simulated here, as the options say; takes seconds, any thread.
+/// Throws Error. `guarded` and `equipment` outlive it.
+std::unique_ptr<Stage> make_stage(const Options& options, GuardedMotors& guarded, const Equipment& equipment);
 
 }  // namespace myotact::app

@@ -18,7 +18,7 @@
 #include "measure/line/line_stiffness.h"
 #include "measure/stiffness_band.h"
 #include "measure/stiffness_part.h"
-#include "view/chart_svg.h"
+#include "view/charts/chart_svg.h"
 
 namespace myotact::app {
 

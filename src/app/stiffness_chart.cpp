@@ -9,8 +9,8 @@
 
 #include "core/file.h"
 #include "messages/scene_frame.h"
-#include "view/chart_svg.h"
-#include "view/map_svg.h"
+#include "view/charts/chart_svg.h"
+#include "view/charts/map_svg.h"
 
 namespace myotact::app {
 

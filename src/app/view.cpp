@@ -13,16 +13,15 @@
 #include <spdlog/spdlog.h>
 
 #include "app/camera_device.h"
+#include "app/equipment.h"
+#include "app/guarded_motors.h"
 #include "app/interruption.h"
-#include "app/mirror_stage.h"
 #include "app/options.h"
-#include "app/picture.h"
 #include "app/stage.h"
 #include "core/error.h"
 #include "core/file.h"
-#include "scene/replay_session.h"
-#include "view/display_loss.h"
-#include "view/window.h"
+#include "view/window/display_loss.h"
+#include "view/window/window.h"
 
 namespace myotact::app {
 
@@ -35,29 +34,6 @@ constexpr double kForever_s = 1e12;
 void leave_time_to_the_simulation(std::chrono::steady_clock::duration drawing) {
   constexpr std::chrono::milliseconds kPicture(16);
   std::this_thread::sleep_for(std::max<std::chrono::steady_clock::duration>(kPicture - drawing, drawing));
-}
-
-/// `driven`: the person took over from the script before; where undo goes back to the script's, the levels that the
-/// scene started with stand for it.
-scene::Requests requests_of(const view::ViewControls& controls, bool driven) {
-  const view::SceneState& state = controls.scene;
-  scene::Requests requests;
-  requests.flexors = state.flexors;
-  requests.extensors = state.extensors;
-  requests.common = state.common;
-  requests.difference = state.difference;
-  requests.levels_asked = state.drive == view::Drive::Levels;
-  requests.balance_asked = state.drive == view::Drive::Balance || (state.drive == view::Drive::Script && driven);
-  requests.hold_posture = state.hold_posture;
-  requests.gravity = state.gravity;
-  requests.paused = controls.paused;
-  requests.stops = controls.stops;
-  requests.arms = controls.arms;
-  requests.steps = controls.steps;
-  requests.resets = controls.resets;
-  requests.shoves = controls.shoves;
-  requests.recording_ends = controls.recording_ends;
-  return requests;
 }
 
 /// A file that is whole whenever it is read; unlike write_file() it does not wait for the disk.
@@ -97,49 +73,10 @@ Options options_of(const Options& given, const view::SceneWish& wish) {
   return options;
 }
 
-/// A recording that is played, and nothing that could be felt.
-struct ReplayStage {
-  explicit ReplayStage(const Options& options)
-      : loaded(scene::load_recording(*options.recording, scene_overrides_of(options))), session(loaded) {}
-
-  view::WindowSettings window_settings(const Options& options) const {
-    view::WindowSettings settings;
-    view::SceneFacts& facts = settings.facts;
-    facts.scenes = scene::built_in_scenes();
-    facts.name = loaded.scene.name;
-    const bool built_in = std::find(facts.scenes.begin(), facts.scenes.end(), facts.name) != facts.scenes.end();
-    facts.file = built_in ? facts.name : options.scene;  // to go back to
-    facts.title = "Myotact: " + options.recording->filename().string();
-    facts.joint = watched_joint(loaded.scene);
-    facts.replay_s = session.length_s();
-    return settings;
-  }
-
-  const scene::LoadedRecording loaded;
-  scene::ReplaySession session;
-};
-
-/// One of the three.
-struct Built {
-  std::unique_ptr<Stage> stage;
-  std::unique_ptr<ReplayStage> replay;
-  std::unique_ptr<MirrorStage> mirror;
-
-  explicit operator bool() const { return stage || replay || mirror; }
-  const anatomy::Specimen& specimen() const {
-    if (mirror) return mirror->scene().specimen;
-    return stage ? stage->scene().specimen : replay->loaded.scene.specimen;
-  }
-  view::WindowSettings window_settings(const Options& options) const {
-    if (mirror) return mirror->window_settings();
-    return stage ? stage->window_settings(options) : replay->window_settings(options);
-  }
-};
-
 /// The window and what it shows: one stage that runs and, after a wish for another, the next one being built.
-class Performance {
+class WindowApp {
  public:
-  explicit Performance(const Options& options)
+  explicit WindowApp(const Options& options)
       : options_(options), equipment_(options), report_(options.report_state), next_(begin()) {
     if (options.camera && equipment_.has(*options.camera)) {
       throw Error(ExitStatus::Usage, "--camera " + *options.camera + ": moves a tool already (--device)");
@@ -147,19 +84,18 @@ class Performance {
     if (options.camera) camera_.emplace(*options.camera, device_settings_of(options));
   }
 
-  ~Performance() {
+  ~WindowApp() {
     view::on_display_loss({});
     if (next_.valid()) next_.wait();
   }
-  Performance(const Performance&) = delete;
-  Performance& operator=(const Performance&) = delete;
+  WindowApp(const WindowApp&) = delete;
+  WindowApp& operator=(const WindowApp&) = delete;
 
   /// Until the window is closed, the time is over or the program is interrupted. Throws Error when there is no display,
   /// or when the first scene cannot be opened.
   void run(double end_s) {
     view::on_display_loss([this] {
-      if (shown_.stage) shown_.stage->session().stop();
-      if (shown_.mirror) shown_.mirror->stop();
+      if (shown_) shown_->session().stop();
     });
     while (!window_.should_close() && interruption() == 0 && runs()) {
       if (next_.valid() && next_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) change_stage();
@@ -169,28 +105,21 @@ class Performance {
   }
 
  private:
-  bool runs() const {
-    return (!shown_.stage || shown_.stage->session().running() || next_.valid()) &&
-           (!shown_.replay || shown_.replay->session.running());
-  }
+  bool runs() const { return !shown_ || shown_->session().running() || next_.valid(); }
 
-  std::future<Built> build(const Options& options) {
+  std::future<std::unique_ptr<Stage>> build(const Options& options) {
     building_ = options;
-    return std::async(std::launch::async, [this, options]() -> Built {
-      if (options.connect) return {nullptr, nullptr, std::make_unique<MirrorStage>(options)};
-      if (options.recording) return {nullptr, std::make_unique<ReplayStage>(options), nullptr};
-      return {std::make_unique<Stage>(options, guarded_, equipment_), nullptr, nullptr};
-    });
+    return std::async(std::launch::async, [this, options] { return make_stage(options, guarded_, equipment_); });
   }
 
-  std::future<Built> begin() {
+  std::future<std::unique_ptr<Stage>> begin() {
     if (!options_.session) return build(options_);
     work_ = view::read_work(*options_.session, scene::built_in_scenes());
     return build(options_of(options_, {work_->scene, work_->tissue, {}, work_}));
   }
 
   void change_stage() {
-    Built built;
+    std::unique_ptr<Stage> built;
     try {
       built = next_.get();
     } catch (const Error& failure) {
@@ -201,23 +130,20 @@ class Performance {
     }
     end_session();
     const bool is_first = !shown_;
-    view::WindowSettings settings = built.window_settings(building_);
+    view::WindowSettings settings = built->window_settings(building_);
     settings.work = std::exchange(work_, std::nullopt);
-    window_.open(built.specimen(), settings);
+    window_.open(built->scene().specimen, settings);
     shown_ = std::move(built);
     frame_ = {};
-    driven_ = false;
-    if (shown_.stage) start_stage(is_first);
-    if (shown_.replay) shown_.replay->session.start();
-    if (shown_.mirror) shown_.mirror->start();
+    start_session(is_first);
     heard_ = opened_ = std::chrono::steady_clock::now();
   }
 
   /// A device that no longer starts costs the window no more than its force: the mouse leads until a scene is opened
   /// again. Not for the first scene, whose device was asked for by its name.
-  void start_stage(bool is_first) {
-    scene::FreeSession& session = shown_.stage->session();
-    session.follow_on(requests_of(window_.controls(), driven_), stopped_);
+  void start_session(bool is_first) {
+    scene::Session& session = shown_->session();
+    if (stopped_) session.start_stopped();
     try {
       session.start();
     } catch (const Error& failure) {
@@ -233,32 +159,23 @@ class Performance {
   }
 
   void end_session() {
-    if (shown_.replay) shown_.replay->session.stop();
-    if (shown_.mirror) shown_.mirror->stop();
-    if (!shown_.stage) return;
-    scene::FreeSession& session = shown_.stage->session();
+    if (!shown_) return;
+    scene::Session& session = shown_->session();
     if (session.running()) stopped_ = session.forces_stopped();  // a scene that is opened does not bring them back
-    if (const scene::FreeTiming timing = session.stop(); !timing.refused.empty()) {
-      spdlog::warn("{}", timing.refused);
-    }
+    session.stop();
+    if (const std::string refused = shown_->refused(); !refused.empty()) spdlog::warn("{}", refused);
   }
 
   /// One picture; false when it was the last.
   bool draw(double end_s) {
     const auto since = std::chrono::steady_clock::now();
-    if (shown_.stage && shown_.stage->session().fetch_frame(frame_)) heard_ = since;
-    if (shown_.replay) shown_.replay->session.fetch_frame(frame_);
-    if (shown_.mirror) shown_.mirror->fetch_frame(frame_);
-    // A server's time began long ago.
-    const double shown_s = shown_.mirror ? std::chrono::duration<double>(since - opened_).count() : frame_.time_s;
-    const bool last = shown_s >= end_s;
+    if (shown_ && shown_->session().fetch_frame(frame_)) heard_ = since;
+    const bool last = shown_ && shown_->shown_s(frame_) >= end_s;
     if (last) window_.save_next_picture(options_.out / "window.png");
-    if (shown_.stage) {
+    if (shown_) {
       const double silence_s = std::chrono::duration<double>(since - heard_).count();
-      window_.set_news({shown_.stage->session().recording(), next_.valid(), silence_s, shown_.stage->device_news()});
-      window_.set_readings(shown_.stage->readings(frame_, common_));
-    } else if (shown_) {
-      window_.set_news({false, next_.valid(), 0.0});
+      window_.set_news({next_.valid(), shown_->simulates() ? silence_s : 0.0, shown_->device_news()});
+      window_.set_readings(shown_->readings(frame_));
     }
     if (camera_) follow_camera();
     const view::ViewControls& controls = window_.draw(frame_);
@@ -274,28 +191,24 @@ class Performance {
     if (const std::string hint = camera_->take_hint(); !hint.empty()) window_.tell(*options_.camera + ": " + hint);
   }
 
-  /// What the person asks for goes to the session and the hand.
+  /// What the person asks for goes to the session and the hand; a stop before anything else.
   void lead(const view::ViewControls& controls) {
-    common_ = controls.scene.common;
-    driven_ = driven_ || controls.scene.drive != view::Drive::Script;
-    if (shown_.replay) shown_.replay->session.play_to(controls.replay_to_s);
-    if (shown_.stage) {
-      shown_.stage->session().request(requests_of(controls, driven_));
-      shown_.stage->move_hand(controls);
+    if (!shown_) return;
+    scene::Session& session = shown_->session();
+    if (const auto on = window_.take_forces_on()) session.stop_forces(!*on);
+    for (const messages::Command& command : window_.take_commands()) {
+      if (const std::string why_not = session.push(command); !why_not.empty()) window_.tell(why_not);
     }
-    if (!shown_.mirror) return;
-    const std::string refused = shown_.mirror->lead(controls, requests_of(controls, driven_));
-    if (!refused.empty()) window_.tell(refused);
+    shown_->lead(controls);
     constexpr std::chrono::seconds kPatience(5);  // between two tries, where this machine lacks the files
-    if (!shown_.mirror->is_outdated() || next_.valid() || std::chrono::steady_clock::now() < opened_ + kPatience)
-      return;
+    if (!shown_->is_outdated() || next_.valid() || std::chrono::steady_clock::now() < opened_ + kPatience) return;
     opened_ = std::chrono::steady_clock::now();
     next_ = build(options_);
   }
 
   /// Builds the scene that the person wants.
   void follow(const view::SceneWish& wish) {
-    if (shown_.mirror && wish.recording) {
+    if (wish.recording && !shown_->simulates()) {
       return window_.tell("a scene is recorded where it is simulated: start the server with --record FILE");
     }
     work_ = wish.work;
@@ -309,24 +222,22 @@ class Performance {
   Options building_;                     // of the newest stage
   std::optional<view::SavedWork> work_;  // that it is to begin with
   WindowReport report_;
-  Built shown_;              // none before the first is built
-  std::future<Built> next_;  // being built
-  view::Window window_;      // after the stages: it shows their specimens
+  std::unique_ptr<Stage> shown_;              // none before the first is built
+  std::future<std::unique_ptr<Stage>> next_;  // being built
+  view::Window window_;                       // after the stages: it shows their specimens
   messages::SceneFrame frame_;
   std::chrono::steady_clock::time_point heard_;   // when the newest frame came
   std::chrono::steady_clock::time_point opened_;  // what is shown
-  double common_ = 0.0;
-  bool driven_ = false;
-  bool stopped_ = false;  // forces, when the session before ended
+  bool stopped_ = false;                          // forces, when the session before ended
 };
 
 }  // namespace
 
 int view(const Options& options) {
   if (options.seconds) make_writable_folder(options.out);
-  Performance performance(options);
+  WindowApp app(options);
   watch_for_interruption();
-  performance.run(options.seconds.value_or(kForever_s));
+  app.run(options.seconds.value_or(kForever_s));
   return interruption();
 }
 

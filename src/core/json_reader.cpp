@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "core/file.h"
 #include "core/text.h"
@@ -54,7 +55,7 @@ std::string reason(const std::string& message) {
   return position == std::string::npos ? message : message.substr(position + 2);
 }
 
-/// Whether the word at a place of the text is one of those that programs write for what is no number.
+/// Whether the word at a place of the text is one of those that programs write for what is not a number.
 bool is_no_number(const std::string& text, std::size_t byte) {
   const auto in_word = [&](std::size_t place) {
     return place < text.size() && std::isalpha(static_cast<unsigned char>(text[place])) != 0;

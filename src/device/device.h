@@ -9,8 +9,8 @@
 
 namespace myotact::device {
 
-/// What a device can bear and how it moves by itself. Initial values: a desktop stylus of the 3 N class
-/// (reference: makers' data sheets, ranges of identified models).
+/// What a device can support and how it moves by itself. Initial values: a desktop stylus of the 3 N class
+/// (assets/devices/ names the source of each quantity).
 struct DeviceProfile {
   double peak_force_N = 3.3;
   double continuous_force_N = 0.88;  // root mean square that the motors bear for ever without overheating
@@ -21,7 +21,7 @@ struct DeviceProfile {
   double resolution_m = 20e-6;    // of the encoder, at the stylus
   bool shows_force_only = false;  // nothing moves the hand, as of a mouse: no speed of it is dangerous
   int delay_ticks = 0;            // from reading a position to the force that answers it
-  double motion_scale = 1.0;      // metres that the positions tell for a metre of the hand: of a device that is placed
+  double motion_scale = 1.0;  // metres that the positions report for a metre of the hand: of a device that is placed
   std::array<double, 3> workspace_m{0.16, 0.12, 0.07};  // edges of the box that the stylus reaches: right, up, towards
 };
 

@@ -32,7 +32,7 @@ void check(const Placement& placement) {
   const Mat3& turn = placement.world_from_device;
   if (!((turn * turn.transpose() - Mat3::Identity()).norm() < 1e-9 && turn.determinant() > 0.0 &&
         placement.middle_world_m.allFinite())) {
-    throw std::invalid_argument("a device is placed by a rotation and a point; these numbers are none");
+    throw std::invalid_argument("a device's placement must be a rotation matrix and a finite point");
   }
 }
 
@@ -49,7 +49,10 @@ DeviceProfile as_the_world_sees(DeviceProfile profile, double scale) {
 }  // namespace
 
 PlacedDevice::PlacedDevice(HardwareDevice& device, const Placement& placement)
-    : device_(device), placement_(placement), middle_m_(placement.middle_world_m), turns_(placement.world_from_device) {
+    : device_(device),
+      placement_(placement),
+      middle_m_(placement.middle_world_m),
+      rotations_(placement.world_from_device) {
   check(placement);
   profile_ = as_the_world_sees(device.profile(), placement.scale);
 }
@@ -59,11 +62,11 @@ void PlacedDevice::open() {
   profile_ = as_the_world_sees(device_.profile(), placement_.scale);
 }
 
-void PlacedDevice::follow_turn(const Vec3& on_table_m) noexcept {
-  turns_.update();
-  if (feels_force_ || turns_.front() == turn()) return;
+void PlacedDevice::follow_rotation(const Vec3& on_table_m) noexcept {
+  rotations_.update();
+  if (feels_force_ || rotations_.front() == turn()) return;
   const Vec3 tool_m = in_world(on_table_m);
-  placement_.world_from_device = turns_.front();
+  placement_.world_from_device = rotations_.front();
   middle_m_ = tool_m - placement_.scale * (turn() * on_table_m);
 }
 
@@ -89,7 +92,7 @@ messages::DeviceState PlacedDevice::read(std::uint64_t now_ns) noexcept {
   if (!on_table_m.allFinite()) return state;  // the loop sees what is wrong with it
   const double dt_s = now_ns > last_ns_ ? std::min(1e-9 * static_cast<double>(now_ns - last_ns_), kLongestTick_s) : 0.0;
   last_ns_ = now_ns;
-  follow_turn(on_table_m);
+  follow_rotation(on_table_m);
   follow_clutch((state.buttons & messages::kClutchButton) != 0, on_table_m);
   if (device_.connected() && !is_clutched_)
     drive_bubble(on_table_m, dt_s);  // a place from before it was lost drives nothing

@@ -12,7 +12,7 @@ namespace myotact::device {
 
 /// How the workspace of a device lies in the world.
 struct Placement {
-  /// A rotation: columns are the device's right, up and towards the person. At first; ask_turn() changes it.
+  /// A rotation: columns are the device's right, up and towards the person. At first; ask_rotation() changes it.
   Mat3 world_from_device = Mat3::Identity();
   Vec3 middle_world_m = Vec3::Zero();  // where the middle of the workspace lies at first
   double scale = 1.0;                  // metres in the world for a metre on the table, 0.05 .. 20
@@ -23,8 +23,8 @@ struct Placement {
 
 /// A device on the table as one in the world: turned, scaled, moved on by clutch and bubble.
 ///
-/// Turn (ask_turn): the workspace turns about the tool, which stays where it is, as soon as no force is felt: one that
-/// turned under the hand would do work that no hand did.
+/// Turn (ask_rotation): the workspace turns about the tool, which stays where it is, as soon as no force is felt: one
+/// that turned under the hand would do work that no hand did.
 ///
 /// Clutch (kClutchButton held): the tool stays, the hand goes back to where it has room. Bubble (Dominjon et al. 2005,
 /// after its idea): outside the radius the middle moves outwards with a speed that grows with the cube of the way out.
@@ -51,12 +51,12 @@ class PlacedDevice : public Device {
   void ask_clutch(bool held) noexcept { asked_clutch_ = held; }
   /// One thread, any: from then on the hand's right, up and towards the person are these columns of a rotation, as of a
   /// view that was turned.
-  void ask_turn(const Mat3& world_from_device) noexcept { turns_.publish(world_from_device); }
+  void ask_rotation(const Mat3& world_from_device) noexcept { rotations_.publish(world_from_device); }
   /// Any thread: whether the last read() found it held, here or on the device.
   bool is_clutched() const noexcept { return is_clutched_; }
 
  private:
-  void follow_turn(const Vec3& on_table_m) noexcept;
+  void follow_rotation(const Vec3& on_table_m) noexcept;
   void follow_clutch(bool clutched, const Vec3& on_table_m) noexcept;
   void drive_bubble(const Vec3& on_table_m, double dt_s) noexcept;
   Vec3 in_world(const Vec3& on_table_m) const { return middle_m_ + placement_.scale * (turn() * on_table_m); }
@@ -67,7 +67,7 @@ class PlacedDevice : public Device {
   DeviceProfile profile_;
   Vec3 middle_m_;  // of the workspace, in the world
   Vec3 held_at_m_ = Vec3::Zero();
-  realtime::LatestValue<Mat3> turns_;
+  realtime::LatestValue<Mat3> rotations_;
   std::atomic<bool> asked_clutch_{false};
   std::atomic<bool> is_clutched_{false};
   bool feels_force_ = false;

@@ -13,7 +13,7 @@
 namespace myotact::device {
 
 /// A relaxed hand that holds a stylus and pulls it towards where it wants to be
-/// (reference: 0.05-0.3 kg, 1-10 N s/m, 50-500 N/m).
+/// (within 0.05-0.3 kg, 1-10 N s/m, 50-500 N/m: general knowledge).
 struct HandProfile {
   double mass_kg = 0.1;
   double damping_Ns_m = 4.0;     // between the stylus and the hand's target

@@ -7,13 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "core/at.h"
+
 namespace myotact::geometry {
 
 namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Adds a grid over the parallelogram at `corner`, outside along u x v. Grids do not share vertices.
 void add_grid(TriangleMesh& mesh, const Vec3& corner, const Vec3& u, const Vec3& v, int cells) {

@@ -54,7 +54,7 @@ void PolygonCutter::place(std::span<const int> corners, const TriangleMesh& mesh
 }
 
 /// Sets the turn at a corner, and whether nothing of the polygon lies in its triangle.
-void PolygonCutter::judge(std::size_t index) {
+void PolygonCutter::classify(std::size_t index) {
   const Corner& a = corners_[before(index)];
   const Corner& c = corners_[after(index)];
   Corner& b = corners_[index];
@@ -69,10 +69,10 @@ void PolygonCutter::judge(std::size_t index) {
   });
 }
 
-void PolygonCutter::judge_all() {
+void PolygonCutter::classify_all() {
   for (std::size_t i = 0; i < corners_.size(); ++i)
     corners_[i].turn = side(corners_[before(i)], corners_[i], corners_[after(i)]);
-  for (std::size_t i = 0; i < corners_.size(); ++i) judge(i);
+  for (std::size_t i = 0; i < corners_.size(); ++i) classify(i);
 }
 
 template <class Fits>
@@ -90,7 +90,7 @@ std::size_t PolygonCutter::choose() {
   if (index == corners_.size() && fresh_starts_ > 0) {
     // What stood in the way by touching only may be gone.
     --fresh_starts_;
-    judge_all();
+    classify_all();
     index = first(is_ear);
     if (index == corners_.size()) fresh_starts_ = 0;
   }
@@ -103,7 +103,7 @@ void PolygonCutter::take_off(std::size_t index, TriangleMesh& mesh) {
   mesh.triangles.push_back({corners_[before(index)].vertex, corners_[index].vertex, corners_[after(index)].vertex});
   corners_.erase(corners_.begin() + static_cast<std::ptrdiff_t>(index));
   const std::size_t next = index % corners_.size();
-  for (const std::size_t changed : {before(next), next}) judge(changed);
+  for (const std::size_t changed : {before(next), next}) classify(changed);
 }
 
 bool PolygonCutter::cut(std::span<const int> corners, TriangleMesh& mesh) {
@@ -112,7 +112,7 @@ bool PolygonCutter::cut(std::span<const int> corners, TriangleMesh& mesh) {
     return true;
   }
   place(corners, mesh);
-  judge_all();
+  classify_all();
   fresh_starts_ = 32;  // enough for outlines that touch themselves; bounds the work for those that are a tangle
   bool simple = true;
   while (corners_.size() > 3) {

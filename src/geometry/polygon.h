@@ -28,8 +28,8 @@ class PolygonCutter {
 
   static int side(const Corner& from, const Corner& to, const Corner& point);
   void place(std::span<const int> corners, const TriangleMesh& mesh);
-  void judge(std::size_t index);
-  void judge_all();
+  void classify(std::size_t index);
+  void classify_all();
   /// The first corner from the second on, for the fan, that fits; as many as there are corners when none does.
   template <class Fits>
   std::size_t first(Fits&& fits) const;
@@ -39,7 +39,7 @@ class PolygonCutter {
   std::size_t after(std::size_t index) const { return index + 1 == corners_.size() ? 0 : index + 1; }
 
   std::vector<Corner> corners_;  // not taken off yet
-  int fresh_starts_ = 0;         // how often all corners may still be judged anew
+  int fresh_starts_ = 0;         // how often all corners may still be classified anew
 };
 
 }  // namespace myotact::geometry

@@ -34,7 +34,7 @@ double Numbers::take(Scalar type) {
   if (encoding_ == Encoding::Text) {
     const std::string_view word = words_.next();
     const auto value = parse_number(word);
-    if (!value) throw words_.error(fmt::format("\"{}\" is no number", shown(word)));
+    if (!value) throw words_.error(fmt::format("\"{}\" is not a number", shown(word)));
     return *value;
   }
   const std::string_view bytes = words_.bytes(size_of(type));

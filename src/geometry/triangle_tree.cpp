@@ -3,14 +3,9 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/at.h"
+
 namespace myotact::geometry {
-namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
 
 TriangleTree::TriangleTree(const TriangleMesh& mesh) : triangles_(mesh.triangles) {
   if (triangles_.empty()) return;

@@ -8,7 +8,7 @@
 
 namespace myotact::haptics {
 
-/// What went wrong in a tick, as bits of ToolState::faults. fault_texts() tells what was done and what to do.
+/// What went wrong in a tick, as bits of ToolState::faults. fault_texts() says what was done and what to do.
 enum class Fault : std::uint32_t {
   NonFiniteForce = 1u << 0,
   NonFiniteDevice = 1u << 1,

@@ -5,20 +5,17 @@
 
 #include <fmt/format.h>
 
+#include "core/at.h"
 #include "core/error.h"
 #include "layer/bullet_contacts.h"
 #include "layer/bullet_tissue.h"
 #include "layer/bullet_world.h"
 #include "layer/engine_surfaces.h"
-#include "simulation/local_grip.h"
-#include "simulation/tool_springs.h"
+#include "simulation/touch/local_grip.h"
+#include "simulation/touch/tool_springs.h"
 
 namespace myotact::layer {
 namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 std::unique_ptr<btConvexShape> shape_of(const ToolBody& tool) {
   if (tool.shape == ToolBody::Shape::Sphere) return std::make_unique<btSphereShape>(tool.radius_m);
@@ -54,7 +51,7 @@ class BulletEngine final : public Engine {
   BulletWorld world_;
   BulletTissue tissue_;
   EngineSurfaces surfaces_;
-  /// Angles and rates as Bullet has them, in the form from which our own simulation tells how a body in hand moves.
+  /// Angles and rates as Bullet has them, in the form from which our own simulation says how a body in hand moves.
   simulation::Limb limb_;
   simulation::SkeletonLoads joints_alone_;              // without gravity and motion
   std::vector<std::unique_ptr<btConvexShape>> shapes_;  // one a tool
@@ -75,7 +72,7 @@ BulletEngine::BulletEngine(const anatomy::Specimen& specimen, const BulletSettin
   simulation::read_out(limb_);
 }
 
-/// The force at the end of the substep, as far as the point's velocity tells where it is then. No stiffer than brings
+/// The force at the end of the substep, as far as the point's velocity says where it is then. No stiffer than brings
 /// the body, taken for itself, to the target in one substep: beyond twice that the motion would grow.
 void BulletEngine::push_spring(const simulation::ToolSpring& spring, double h_s, Vec3& force_N) {
   const Vec3 p_W = world_.body_pose(spring.body) * spring.body_rest_m;

@@ -36,7 +36,8 @@ bool has_bullet();
 ///
 /// A tool's body is no part of the world: Bullet's collision detection is asked what it meets, so it pushes nothing.
 /// The springs of a tool (contact, bone in hand) pull at every substep with k (target - p - h v), the place at the end
-/// of the substep as far as velocity tells it; stiffer than what brings the point home in one substep they are not.
+/// of the substep as far as the velocity predicts it; stiffer than what brings the point home in one substep they are
+/// not.
 ///
 /// Bullet rounds its shapes by collision margins, 40 mm unless told, more than our tools are wide. Here they are zero
 /// for hulls and meshes: a sphere on a face is then reported exactly (1e-9 m), while a box, which Bullet tests by

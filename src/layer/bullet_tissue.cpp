@@ -16,11 +16,12 @@
 #include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
 #include <fmt/format.h>
 
+#include "core/at.h"
 #include "core/error.h"
 #include "geometry/tet_mesh.h"
 #include "layer/bullet_contacts.h"
 #include "layer/bullet_vectors.h"
-#include "simulation/tissue_material.h"
+#include "simulation/muscle/tissue_material.h"
 
 namespace myotact::layer {
 namespace {
@@ -28,10 +29,6 @@ namespace {
 int count_of(std::size_t size) {
   return static_cast<int>(size);
 }
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// Our muscle across its fibres, but for its volume: linear tets lock at 3 MPa. 200 kPa leave a Poisson ratio of 0.476.
 constexpr simulation::StableNeoHookean kMatrix{simulation::kMuscleMatrix.matrix.shear_Pa, 200e3};
 /// Of the stiffness, times the step: a press comes to rest within a few steps, and no slower.

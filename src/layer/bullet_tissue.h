@@ -7,8 +7,8 @@
 #include "anatomy/specimen.h"
 #include "core/vector.h"
 #include "messages/local_model.h"
-#include "simulation/limb.h"
-#include "simulation/skin_embedding.h"
+#include "simulation/limb/limb.h"
+#include "simulation/skin/skin_embedding.h"
 
 class btConvexShape;
 

@@ -4,16 +4,10 @@
 #include <limits>
 
 #include "anatomy/touch_surfaces.h"
+#include "core/at.h"
 #include "geometry/closest_point.h"
 
 namespace myotact::layer {
-namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
 
 void name_touched_triangle(const messages::LocalModel& around, messages::ToolState& tool) {
   const Vec3 touched_m = to_vec3(tool.touched_world_m);

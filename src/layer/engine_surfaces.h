@@ -6,7 +6,7 @@
 #include "anatomy/specimen.h"
 #include "core/pose.h"
 #include "messages/tool_state.h"
-#include "simulation/local_patch.h"
+#include "simulation/touch/local_patch.h"
 
 namespace myotact::layer {
 

@@ -6,14 +6,11 @@
 
 #include <Eigen/Geometry>
 
+#include "core/at.h"
 #include "geometry/closest_point.h"
 
 namespace myotact::layer {
 namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// The nearest place of one surface to a point, and on which side of it the point is.
 struct Nearest {

@@ -6,14 +6,14 @@
 #include <fmt/format.h>
 
 #include "core/vector.h"
-#include "haptics/moving_surface.h"
+#include "haptics/proxy/moving_surface.h"
 
 namespace myotact::layer {
 
 namespace {
 
 constexpr std::array<ReportDefectText, kReportDefects> kTexts = {{
-    {ReportDefect::NotFinite, "place or depth is no number",
+    {ReportDefect::NotFinite, "place or depth is not a number",
      "the contact was left out. Look at the engine's time step and at masses and stiffnesses that differ much."},
     {ReportDefect::NoNormal, "contact without a normal",
      "it was left out. Look for triangles without area in the collision shape, and for a tool in a body's middle."},
@@ -25,7 +25,7 @@ constexpr std::array<ReportDefectText, kReportDefects> kTexts = {{
      "it was left out. The engine lost the body: look at its time step."},
     {ReportDefect::TooMany, "number of contacts out of range",
      "the first ones were taken. Let the adapter report the deepest, as many as there is room for."},
-    {ReportDefect::UnsoundSurface, "surface or pose is no number",
+    {ReportDefect::UnsoundSurface, "surface or pose is not a number",
      "the whole model was refused: force zero, then back through the ramp. Look at the engine's time step."},
     {ReportDefect::Silent, "engine hung",
      "forces faded and come back through the ramp. Make its step cheaper, or look for what it waits for."},

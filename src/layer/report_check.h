@@ -36,7 +36,7 @@ struct ReportDefectText {
 std::span<const ReportDefectText> report_defect_texts();
 
 /// Looks through what an engine hands to a tool, before the tool sees it: what is wrong is taken out, never mended into
-/// a force; it is counted, and told once a kind. Used by the engine's thread; counts by any.
+/// a force; it is counted, and reported once a kind. Used by the engine's thread; counts by any.
 class ReportCheck {
  public:
   /// `engine` outlives this.

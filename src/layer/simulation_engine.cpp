@@ -2,15 +2,12 @@
 
 #include <utility>
 
+#include "core/at.h"
 #include "layer/engine_surfaces.h"
 #include "layer/model_contacts.h"
 
 namespace myotact::layer {
 namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 std::vector<int> bodies_of_surfaces(const anatomy::Specimen& specimen) {
   std::vector<int> bodies(specimen.muscles.size(), -1);

@@ -71,7 +71,7 @@ Task read_name(JsonObject& task, const anatomy::Specimen& specimen) {
 }
 
 Task read_press(JsonObject& task, const anatomy::Specimen& specimen) {
-  // A student's device bears a few newtons; below a twentieth of one its friction hides the difference.
+  // A student's device supports a few newtons; below a twentieth of one its friction hides the difference.
   constexpr double kLeast_N = 0.05, kMost_N = 20.0;
   PressTask press;
   press.muscle = require_muscle(task.at("muscle"), specimen);

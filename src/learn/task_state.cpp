@@ -35,7 +35,7 @@ const messages::ToolFrame* tool_on(const Part& part, const Observation& seen) {
   return found == seen.frame.tools.end() ? nullptr : &*found;
 }
 
-/// Two decimals are what an instrument on a screen tells.
+/// Two decimals are what an instrument on a screen shows.
 std::string rounded(double value) {
   return to_text(std::round(value * 100.0) / 100.0);
 }
@@ -77,7 +77,7 @@ void watch_task(const PredictTask& task, const Look& look, TaskState& state) {
   const messages::JointFrame* joint = joint_of(look.seen.frame, task.joint);
   const auto muscle = static_cast<std::size_t>(task.muscle);
   if (joint == nullptr || muscle >= joint->muscles.size()) return;
-  state.lever_m = joint->muscles[muscle].lever_m;
+  state.moment_arm_m = joint->muscles[muscle].moment_arm_m;
   if (!state.predicted) return;
   const auto& tools = look.seen.frame.tools;
   const bool pulls = std::any_of(tools.begin(), tools.end(),

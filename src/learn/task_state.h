@@ -36,8 +36,8 @@ struct TaskState {
   double held_s = 0.0;   // so long now, of the time that is asked for
   double force_N = 0.0;  // on the hand
   std::optional<Motion> predicted;
-  double lever_m = 0.0;     // of the muscle about the joint, positive flexes
-  double turned_rad = 0.0;  // since the line was taken, positive flexed; or since the step began
+  double moment_arm_m = 0.0;  // of the muscle about the joint, positive flexes
+  double turned_rad = 0.0;    // since the line was taken, positive flexed; or since the step began
   double stiffness_Nm_rad = 0.0, lowest_Nm_rad = 0.0;
 
   // To tell what is new.

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "simulation/hill_muscle.h"
+#include "simulation/line/hill_muscle.h"
 
 namespace myotact::measure {
 
@@ -20,7 +20,7 @@ struct JointResponse {
   std::vector<SlowFibre> fibres;
 };
 
-/// Adds a muscle whose lever is r [m, positive flexes] and changes by dr/dq [m/rad].
+/// Adds a muscle whose moment arm is r [m, positive flexes] and changes by dr/dq [m/rad].
 void add_muscle(double r_m, double dr_dq_m, const simulation::HillForce& force, JointResponse& response);
 
 /// Rates of (angle, angular velocity, reach of each slow fibre), size 2 + fibres.

@@ -1,7 +1,7 @@
 #include "measure/line_limb.h"
 
-#include "simulation/line_model.h"
-#include "simulation/skeleton_loads.h"
+#include "simulation/line/line_model.h"
+#include "simulation/skeleton/skeleton_loads.h"
 
 namespace myotact::measure {
 

@@ -50,7 +50,7 @@ JointResponse response_before(const scene::ShoveRecord& record) {
   response.damping_Nms_rad = record.before.joint_damping_Nms_rad;
   for (const simulation::MuscleAtJoint& muscle : record.muscles_before) {
     if (muscle.unit) {
-      add_muscle(muscle.lever_m, muscle.lever_slope_m_rad, *muscle.unit, response);
+      add_muscle(muscle.moment_arm_m, muscle.moment_arm_slope_m_rad, *muscle.unit, response);
     } else {
       response.stiffness_Nm_rad += muscle.stiffness_Nm_rad;
       response.damping_Nms_rad += muscle.line_damping_Nms_rad;
@@ -92,10 +92,10 @@ ShoveReport report_shove(const scene::ShoveRecord& record) {
 }
 
 std::string shove_text(const ShoveReport& report) {
-  return fmt::format("Slow push: {:.2f} N m/rad (read: {:.2f}). Stroke: the swing differs from that of K, B, I and the "
-                     "tendons by at most {:.1f} %.\n{}",
-                     report.pushed_stiffness_Nm_rad, report.read_stiffness_Nm_rad, 100.0 * report.swing_error,
-                     report.why);
+  return fmt::format(
+      "Slow push: {:.2f} N m/rad (read: {:.2f}). Stroke: the swing differs from that of K, B, I and the "
+      "tendons by at most {:.1f} %.\n{}",
+      report.pushed_stiffness_Nm_rad, report.read_stiffness_Nm_rad, 100.0 * report.swing_error, report.why);
 }
 
 }  // namespace myotact::measure

@@ -30,7 +30,7 @@ struct CaseMesh {
   std::vector<int> patches;       // of each tet, for T4F; empty: found by the solver
 };
 
-/// Nodes that a condition acts on or an output tells of.
+/// Nodes that a condition acts on or an output is about.
 struct NodeSet {
   std::vector<int> nodes;  // ascending
   int plane_axis = -1;     // 0, 1, 2 of a set that is a plane

@@ -23,18 +23,18 @@ struct Summand {
 std::array<Summand, 5> summands_of(const StiffnessRow& row) {
   const double lines = row.K_muscle_Nm_rad + row.K_geometry_Nm_rad;
   const double beyond_lines = row.K_schur_Nm_rad - row.K_passive_Nm_rad - row.K_contact_Nm_rad - lines;
-  return {
-      {{"the fibres' own stiffness at their levers (r^2 k)", row.K_muscle_Nm_rad,
-        [](const MusclePart& part) { return part.K_muscle_Nm_rad; },
-        "a shorter rest stretch, which brings the fibres back below their optimum length"},
-       {"the levers that change as the joint turns (-(dr/dq) F)", row.K_geometry_Nm_rad,
-        [](const MusclePart& part) { return part.K_geometry_Nm_rad; },
-        "lines that wrap round the bone and keep their levers, or a shorter rest stretch, which stiffens the fibres"},
-       {"the bulk of the muscles beyond their lines", beyond_lines,
-        [](const MusclePart& part) { return part.K_schur_Nm_rad - part.K_muscle_Nm_rad - part.K_geometry_Nm_rad; },
-        "bone and neighbours that hold the bellies in place"},
-       {"contact between tissues", row.K_contact_Nm_rad, nullptr, "tissues that touch elsewhere"},
-       {"the joint's own spring", row.K_passive_Nm_rad, nullptr, "a stiffer joint"}}};
+  return {{{"the fibres' own stiffness at their moment arms (r^2 k)", row.K_muscle_Nm_rad,
+            [](const MusclePart& part) { return part.K_muscle_Nm_rad; },
+            "a shorter rest stretch, which brings the fibres back below their optimum length"},
+           {"the moment arms that change as the joint rotates (-(dr/dq) F)", row.K_geometry_Nm_rad,
+            [](const MusclePart& part) { return part.K_geometry_Nm_rad; },
+            "lines that wrap round the bone and keep their moment arms, or a shorter rest stretch, which stiffens the "
+            "fibres"},
+           {"the bulk of the muscles beyond their lines", beyond_lines,
+            [](const MusclePart& part) { return part.K_schur_Nm_rad - part.K_muscle_Nm_rad - part.K_geometry_Nm_rad; },
+            "bone and neighbours that hold the bellies in place"},
+           {"contact between tissues", row.K_contact_Nm_rad, nullptr, "tissues that touch elsewhere"},
+           {"the joint's own spring", row.K_passive_Nm_rad, nullptr, "a stiffer joint"}}};
 }
 
 /// The key as words, without the limb that may stand before it.
@@ -66,7 +66,7 @@ std::string balance_text(const StiffnessRow& row, const std::array<Summand, 5>& 
   std::string text = fmt::format("K = {:.2f} N m/rad; its largest part is {}, {:+.2f}{}", row.K_schur_Nm_rad,
                                  first.what, first.K_Nm_rad, leader_text(row, first));
   if (sign * against.K_Nm_rad > 0.0) {
-    text += fmt::format("; against it works {}, {:+.2f}{}", against.what, against.K_Nm_rad, leader_text(row, against));
+    text += fmt::format("; against it: {}, {:+.2f}{}", against.what, against.K_Nm_rad, leader_text(row, against));
   }
   return text + ".";
 }
@@ -91,8 +91,9 @@ std::string explain_stiffness(const StiffnessRow& row) {
                     row.K_low_Nm_rad, row.K_high_Nm_rad);
   }
   if (!row.stuck_line.empty()) {
-    text += fmt::format(" The line of {} cannot clear its wrap surface at this angle: its lever is not to be trusted.",
-                        row.stuck_line);
+    text +=
+        fmt::format(" The line of {} cannot clear its wrap surface at this angle: its moment arm is not to be trusted.",
+                    row.stuck_line);
   }
   if (!row.converged) text += " Some static solve did not converge: do not quote these figures.";
   if (!row.held) text += " The muscles do not hold the joint at this angle.";

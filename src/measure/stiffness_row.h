@@ -22,7 +22,7 @@ struct BandPart {
   double down_Nm_rad = 0.0, up_Nm_rad = 0.0;  // >= 0
 };
 
-/// One row of stiffness.csv (FORMATS: Tables) and what only its JSON holds. Numbers that could not be found are NaN.
+/// One row of stiffness.csv and what only its JSON holds. Numbers that could not be found are NaN.
 struct StiffnessRow {
   std::string joint;
   double q_rad = 0.0;
@@ -40,7 +40,7 @@ struct StiffnessRow {
   bool held = false;       // net torque balanced to within 1e-3 of the stronger side's, before any difference is added
   bool converged = false;  // every static solve of the row did
   bool preview = false;    // mass-spring muscles have a part in it
-  std::string stuck_line;  // key of a muscle whose line cannot clear its wrap here, or empty; `why` tells it
+  std::string stuck_line;  // key of a muscle whose line cannot clear its wrap here, or empty; `why` names it
   std::vector<BandPart> band;
   std::vector<MusclePart> muscles;  // that pull on the joint
   std::string why;                  // see stiffness_reason.h

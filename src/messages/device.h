@@ -21,9 +21,10 @@ struct DeviceCommand {
 
 inline constexpr std::uint32_t kGrabButton = 1u << 0;      // held: the nearest muscle line is in hand
 inline constexpr std::uint32_t kGrabBoneButton = 1u << 1;  // held: the nearest point of a bone is in hand
-/// Held: the hand moves on the table and the tool stays where it is. No force meanwhile; it comes back through the ramp.
+/// Held: the hand moves on the table and the tool stays where it is. No force meanwhile; it comes back through the
+/// ramp.
 inline constexpr std::uint32_t kClutchButton = 1u << 3;
-inline constexpr std::uint32_t kStopButton = 1u << 2;      // pressed: emergency stop; releasing it re-enables nothing
+inline constexpr std::uint32_t kStopButton = 1u << 2;  // pressed: emergency stop; releasing it re-enables nothing
 
 static_assert(std::is_trivially_copyable_v<DeviceState> && std::is_trivially_copyable_v<DeviceCommand>);
 

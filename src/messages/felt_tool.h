@@ -7,7 +7,7 @@
 
 namespace myotact::messages {
 
-/// What the haptic loop tells the drawing of a tool, newest wins, whether the simulation steps or is paused.
+/// What the haptic loop hands to the drawing of a tool, newest wins, whether the simulation steps or is paused.
 struct FeltTool {
   ToolState tool;
   ForceParts parts;             // they add up to tool.force_world_N

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "messages/control_state.h"
+
 namespace myotact::messages {
 
 /// What a tool looks and feels like: a fingertip, the tip of a stylus, a clamp that takes bones.
@@ -53,7 +55,7 @@ struct MuscleJointFrame {
   double stiffness_Nm_rad = 0.0;      // of its tissue
   double line_muscle_Nm_rad = 0.0;    // r^2 k of its line
   double line_geometry_Nm_rad = 0.0;  // -(dr/dq) F of its line
-  double lever_m = 0.0;               // r of its line, the moment arm; positive flexes
+  double moment_arm_m = 0.0;          // r of its line, the moment arm; positive flexes
 };
 
 /// Numbers of a joint for plots and panels.
@@ -92,6 +94,7 @@ struct SceneFrame {
   std::vector<JointFrame> joints;
   std::vector<ToolFrame> tools;
   RateFrame rates;
+  ControlState control;
   std::string notice;  // what the person should know now, or nothing
 };
 

@@ -18,7 +18,7 @@ struct ToolContact {
   double stiffness_N_m = 0.0;  // of the coupling spring, isotropic; 0: no contact
 };
 
-/// What the haptic loop tells the simulation, newest wins. The simulation adds the springs implicitly to its solve.
+/// What the haptic loop hands to the simulation, newest wins. The simulation adds the springs implicitly to its solve.
 struct ToolState {
   std::uint64_t sequence = 0;  // 0: nobody has the tool in hand
   std::uint64_t time_ns = 0;

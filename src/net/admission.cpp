@@ -4,7 +4,7 @@
 
 namespace myotact::net {
 
-std::optional<Bye> refusal_of(const Frame& first, const DoorRules& rules, Hello& hello) {
+std::optional<Bye> refusal_of(const Frame& first, const AccessPolicy& rules, Hello& hello) {
   if (first.header.type != FrameType::Hello || !decode(first.payload, hello)) {
     return Bye{ByeReason::BadFrame, "the first frame is to be a sound Hello"};
   }

@@ -150,6 +150,7 @@ bool Client::take(const Frame& frame) {
     case FrameType::SceneDelta:
     case FrameType::BonePoses:
     case FrameType::Readings:
+    case FrameType::InForce:
       sound = decoder_.take(frame);
       if (sound && decoder_.is_whole()) frames_.publish(decoder_.frame());
       break;

@@ -6,19 +6,20 @@ namespace myotact::net {
 
 namespace {
 
+/// Of numbers without a sign, which wrap as intended: clocks of two machines differ by anything, and what the other
+/// side reports may be any number.
 std::int64_t difference(std::uint64_t a, std::uint64_t b) noexcept {
-  return static_cast<std::int64_t>(a - b);  // wraps as intended: clocks of two machines differ by anything
+  return static_cast<std::int64_t>(a - b);
 }
 
 }  // namespace
 
 void ClockEstimate::add(const PingTimes& times) noexcept {
-  const std::int64_t there = difference(times.arrived_there, times.left_here);
-  const std::int64_t back = difference(times.left_there, times.arrived_here);
   const std::int64_t round_trip =
-      difference(times.arrived_here, times.left_here) - difference(times.left_there, times.arrived_there);
+      difference(times.arrived_here - times.left_here, times.left_there - times.arrived_there);
   if (round_trip < 0) return;  // no true answer
-  samples_[count_ % kKept] = {there + (back - there) / 2, round_trip};
+  const std::uint64_t one_way = static_cast<std::uint64_t>(round_trip) / 2;
+  samples_[count_ % kKept] = {difference(times.arrived_there, times.left_here + one_way), round_trip};
   ++count_;
 }
 

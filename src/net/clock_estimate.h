@@ -6,7 +6,7 @@
 
 namespace myotact::net {
 
-/// What one ping and its answer tell, by the clocks of both sides [ns].
+/// What one ping and its answer report, by the clocks of both sides [ns].
 struct PingTimes {
   std::uint64_t left_here = 0, arrived_there = 0, left_there = 0, arrived_here = 0;
 };

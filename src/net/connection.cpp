@@ -105,7 +105,7 @@ bool Connection::admit() {
   const std::optional<Frame> frame = next_frame();
   if (!frame) return false;
   Hello hello;
-  if (const auto refusal = refusal_of(*frame, server_.settings.door, hello)) {
+  if (const auto refusal = refusal_of(*frame, server_.settings.access_policy, hello)) {
     refuse(refusal->reason, refusal->text);
     return false;
   }
@@ -264,7 +264,7 @@ void Connection::refuse(ByeReason reason, const std::string& text) {
 }
 
 void Connection::complain(const std::string& what) {
-  if (server_.is_new_complaint(what)) spdlog::warn("{}: closed: {} (told once)", peer_, what);
+  if (server_.is_new_complaint(what)) spdlog::warn("{}: closed: {} (reported once)", peer_, what);
 }
 
 }  // namespace myotact::net

@@ -94,7 +94,7 @@ void visit_joint(Cursor& cursor, Joint& joint) {
     cursor.number(part.stiffness_Nm_rad);
     cursor.number(part.line_muscle_Nm_rad);
     cursor.number(part.line_geometry_Nm_rad);
-    cursor.number(part.lever_m);
+    cursor.number(part.moment_arm_m);
   });
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "net/byte_cursor.h"
+#include "net/control_state_codec.h"
 #include "net/readings_codec.h"
 #include "net/scene_encoder.h"
 
@@ -56,6 +57,8 @@ bool SceneDecoder::take(const Frame& frame) {
       return take_poses(frame.payload);
     case FrameType::Readings:
       return decode_readings(frame.payload, frame_);
+    case FrameType::InForce:
+      return decode_control_state(frame.payload, frame_.control);
     default:
       return false;
   }

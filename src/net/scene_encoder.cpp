@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "net/byte_cursor.h"
+#include "net/control_state_codec.h"
 #include "net/readings_codec.h"
 
 namespace myotact::net {
@@ -108,6 +109,7 @@ std::vector<const EncodedFrame*> frames_to_send(const EncodedScene& scene, const
   for (const EncodedFrame& frame : scene.deltas) frames.push_back(&frame);
   frames.push_back(&scene.poses);
   if (wants.readings) frames.push_back(&scene.readings);
+  if (wants.in_force) frames.push_back(&scene.in_force);
   return frames;
 }
 
@@ -126,6 +128,8 @@ std::shared_ptr<const EncodedScene> SceneEncoder::encode(const messages::SceneFr
   scene->poses = encode_poses(frame);
   scene->readings = {FrameType::Readings, {}};
   encode_readings(frame, scene->readings.payload);
+  scene->in_force = {FrameType::InForce, {}};
+  encode_control_state(frame.control, scene->in_force.payload);
   return scene;
 }
 

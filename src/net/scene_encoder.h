@@ -35,7 +35,7 @@ struct SceneKey {
 struct EncodedScene {
   std::shared_ptr<const SceneKey> key;
   std::vector<EncodedFrame> deltas;  // one a skin
-  EncodedFrame poses, readings;
+  EncodedFrame poses, readings, in_force;
 };
 
 /// What a client that was shown `shown` last (null: nothing yet) is to be sent of `scene`, in this order.

@@ -9,7 +9,7 @@ namespace myotact::net {
 
 class FrameStream;
 
-/// What a server tells everybody who joins.
+/// What a server sends everybody who joins.
 struct SceneAnswer {
   Welcome welcome;
   std::string scene_json;

@@ -46,7 +46,7 @@ void Server::adopt(Socket socket, const std::string& peer) {
     connections_.push_back(std::make_unique<Connection>(std::move(socket), peer, state_));
   } catch (const std::exception& failure) {  // no memory, no thread: this one does not come in
     state_.count(&ServerCounters::failed);
-    if (state_.is_new_complaint(failure.what())) spdlog::warn("{}: closed: {} (told once)", peer, failure.what());
+    if (state_.is_new_complaint(failure.what())) spdlog::warn("{}: closed: {} (reported once)", peer, failure.what());
   }
 }
 

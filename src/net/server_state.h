@@ -24,7 +24,7 @@ struct ServerSettings {
   std::string scene_json;     // told every client after its Welcome
   std::vector<Bytes> meshes;  // payloads of Mesh frames, told after it to clients that want them
   std::uint64_t step_ns = 0;  // of the simulation
-  DoorRules door;
+  AccessPolicy access_policy;
   std::size_t most_connections = 64;  // a class, its instructors and some mirrors
   std::size_t most_waiting = 16;      // that have not said Hello yet; a new one takes the place of the oldest
   std::chrono::milliseconds hello_wait{3000};

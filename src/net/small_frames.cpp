@@ -66,7 +66,8 @@ const char* describe(Role role) noexcept {
 
 SmallFrame encode(const Hello& hello) {
   const auto wants = static_cast<std::uint8_t>((hello.wants.hand ? 1 : 0) | (hello.wants.frames ? 2 : 0) |
-                                               (hello.wants.readings ? 4 : 0) | (hello.wants.meshes ? 8 : 0));
+                                               (hello.wants.readings ? 4 : 0) | (hello.wants.meshes ? 8 : 0) |
+                                               (hello.wants.in_force ? 16 : 0));
   return Payload(FrameType::Hello)
       .put(hello.version, static_cast<std::uint8_t>(hello.role), wants, static_cast<std::uint8_t>(hello.hand),
            hello.resume_id, hello.token)
@@ -83,8 +84,8 @@ bool decode(std::span<const std::uint8_t> payload, Hello& hello) {
   const bool has_hand = get_enum(in, HandWish::Any, HandWish::Right, hello.hand);
   in.get(hello.resume_id);
   in.get(hello.token);
-  hello.wants = {(wants & 1) != 0, (wants & 2) != 0, (wants & 4) != 0, (wants & 8) != 0};
-  return has_role && has_hand && wants < 16 && get_text(in, kMostName, hello.name);
+  hello.wants = {(wants & 1) != 0, (wants & 2) != 0, (wants & 4) != 0, (wants & 8) != 0, (wants & 16) != 0};
+  return has_role && has_hand && wants < 32 && get_text(in, kMostName, hello.name);
 }
 
 SmallFrame encode(const Welcome& welcome) noexcept {

@@ -31,6 +31,7 @@ std::optional<std::size_t> most_of(std::uint8_t type) noexcept {
     case FrameType::Ping:
     case FrameType::Pong:
     case FrameType::Bye:
+    case FrameType::InForce:
       return kSmallPayload;
     case FrameType::LocalModel:
     case FrameType::SceneKey:

@@ -36,6 +36,7 @@ enum class FrameType : std::uint8_t {
   BonePoses = 19,
   Readings = 20,
   Mesh = 21,
+  InForce = 22,
   Control = 32,
 };
 

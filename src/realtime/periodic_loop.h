@@ -9,7 +9,7 @@ std::uint64_t steady_now_ns() noexcept;
 
 /// Wakes its thread at absolute deadlines: sleeps until shortly before, then spins, so that the wake-up lag of the
 /// scheduler does not show. Never spins alone: under SCHED_FIFO the kernel would take the processor away for 50 ms of
-/// every second (reference: measured p99 of 40 ms).
+/// every second (measured: p99 of 40 ms).
 class PeriodicLoop {
  public:
   /// Deadlines that lie at most `catch_up` periods back are still served, one right after the other; 0 skips all that

@@ -1,18 +1,17 @@
 #pragma once
 
+#include <optional>
 #include <string>
-#include <vector>
 
-#include "scene/free_session.h"
+#include "messages/command.h"
 
 namespace myotact::remote {
 
-/// Adds what one Control frame asks for to what was asked for so far; src/net/README.md lists the controls. Throws
-/// Error BadData that names the place.
-void add_control(const std::string& json, scene::Requests& requests);
+/// What one Control frame asks for; src/net/README.md lists the controls. Nothing: the emergency stop, which goes
+/// beside every queue. Throws Error BadData that names the place.
+std::optional<messages::Order> order_of(const std::string& control);
 
-/// The Control frames that ask for what changed, stops aside: those have a frame of their own, which everybody may
-/// send.
-std::vector<std::string> controls_between(const scene::Requests& before, const scene::Requests& now);
+/// The Control frame that asks for it; nothing for what only the scene's own machine is asked.
+std::optional<std::string> control_of(const messages::Order& order);
 
 }  // namespace myotact::remote

@@ -36,7 +36,7 @@ std::string first_of(const Texts&... texts) {
 std::string tool_misfit(const messages::ToolFrame& tool, const anatomy::Specimen& specimen) {
   const bool drawable = is_place(tool.tool_world_m) && is_place(tool.proxy_world_m) && is_place(tool.grip_world_m) &&
                         is_place(tool.force_world_N) && std::isfinite(tool.radius_m) && tool.radius_m >= 0.0;
-  return first_of(drawable ? "" : "a tool whose place, force or radius is no number",
+  return first_of(drawable ? "" : "a tool whose place, force or radius is not a number",
                   wrong_index("grabbed line", tool.grabbed_line, specimen.muscles.size()),
                   wrong_index("touched muscle", tool.touched_muscle, specimen.muscles.size()),
                   wrong_index("grabbed body", tool.grabbed_body, specimen.bodies.size()),
@@ -56,7 +56,7 @@ std::string muscle_misfit(const messages::SceneFrame& frame, const anatomy::Spec
     problem =
         wrong_count("vertices of a skin", frame.skins_world_m[m].size(), specimen.muscles[m].skin.positions_m.size());
     const auto& line = frame.lines_world_m[m];
-    if (!std::all_of(line.begin(), line.end(), is_place)) problem = "a muscle line with a place that is no number";
+    if (!std::all_of(line.begin(), line.end(), is_place)) problem = "a muscle line with a place that is not a number";
   }
   return problem;
 }

@@ -13,9 +13,8 @@ namespace myotact::remote {
 /// does to the force is the gate's business: it fades, and comes back through the ramp with new models.
 class FreeHand {
  public:
-  /// Joins with the first hand that is free. `device`, `watchdog` (null: none) and `servo` (null: our own ticks) outlive
-  /// it. Throws Error Unavailable:
-  /// no server, refused, no hand free.
+  /// Joins with the first hand that is free. `device`, `watchdog` (null: none) and `servo` (null: our own ticks)
+  /// outlive it. Throws Error Unavailable: no server, refused, no hand free.
   FreeHand(const net::ClientSettings& settings, device::Device& device, const scene::ToolSettings& tool,
            realtime::Watchdog* watchdog, device::ServoClock* servo = nullptr);
   ~FreeHand() { stop(); }

@@ -60,7 +60,8 @@ void LockstepHand::exchange() {
     }
     if (frame->header.type != net::FrameType::LocalModel) continue;
     if (!net::decode(frame->payload, loop_.models().back())) {
-      throw Error(ExitStatus::Unavailable, fmt::format("{}:{}: sent a model that is none", server_.host, server_.port));
+      throw Error(ExitStatus::Unavailable,
+                  fmt::format("{}:{}: sent an invalid contact model", server_.host, server_.port));
     }
     loop_.models().publish();
     return;

@@ -29,11 +29,11 @@ LockstepServer::Run::Run(const scene::Scene& scene)
       conductor(scene, simulation),
       clock_ns(haptics::kTickPeriod_ns) {}  // as LockstepSession's: time 0 means "never" to a device
 
-LockstepServer::LockstepServer(const net::Endpoint& endpoint, scene::Scene scene, const net::DoorRules& door,
-                               std::uint64_t seed)
+LockstepServer::LockstepServer(const net::Endpoint& endpoint, scene::Scene scene,
+                               const net::AccessPolicy& access_policy, std::uint64_t seed)
     : listener_(net::listen_at(endpoint)),
       scene_(std::move(scene)),
-      door_(door),
+      access_policy_(access_policy),
       message_(scene_message(scene_, seed)),
       step_ns_(static_cast<std::uint64_t>(std::llround(scene_.settings.dt_s * 1e9))) {}
 
@@ -78,7 +78,7 @@ bool LockstepServer::welcome(net::FrameStream& stream, net::Wants& wants) {
   const auto first = stream.read();
   if (!first) return false;
   net::Hello hello;
-  if (const auto refusal = net::refusal_of(*first, door_, hello)) {
+  if (const auto refusal = net::refusal_of(*first, access_policy_, hello)) {
     stream.write(net::encode(*refusal), 0);
     return false;
   }
@@ -129,6 +129,7 @@ bool LockstepServer::show(net::FrameStream& stream, const net::Wants& wants, con
   if (wants.frames) {
     messages::SceneFrame frame;
     run.simulation.write_frame(frame);
+    frame.control = run.conductor.control();
     frame.sequence = run.steps + 1;
     messages::FeltTool felt;
     felt.tool = state;

@@ -23,7 +23,8 @@ namespace myotact::remote {
 class LockstepServer {
  public:
   /// Listens from now on. Throws Error.
-  LockstepServer(const net::Endpoint& endpoint, scene::Scene scene, const net::DoorRules& door, std::uint64_t seed);
+  LockstepServer(const net::Endpoint& endpoint, scene::Scene scene, const net::AccessPolicy& access_policy,
+                 std::uint64_t seed);
 
   std::uint16_t port() const { return net::port_of(listener_); }
   /// Client after client, until `stopped` or the simulation fails. Throws Error.
@@ -51,7 +52,7 @@ class LockstepServer {
 
   net::Socket listener_;
   scene::Scene scene_;
-  net::DoorRules door_;
+  net::AccessPolicy access_policy_;
   std::string message_;
   std::uint64_t step_ns_;
 };

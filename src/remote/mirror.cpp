@@ -1,8 +1,7 @@
 #include "remote/mirror.h"
 
 #include <algorithm>
-#include <utility>
-#include <vector>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -32,13 +31,10 @@ bool Mirror::fetch_frame(messages::SceneFrame& frame) {
   return true;
 }
 
-bool Mirror::request(const scene::Requests& requests) {
-  const scene::Requests before = std::exchange(asked_, requests).value_or(requests);
-  if (requests.stops != before.stops) client_->ask_stop();
-  const std::vector<std::string> controls = controls_between(before, requests);
-  if (controls.empty()) return true;
-  if (client_->status().welcome.role != net::Role::Instructor) return false;
-  for (const std::string& control : controls) client_->ask(control);
+bool Mirror::push(const messages::Command& command) {
+  const std::optional<std::string> control = control_of(command.order);
+  if (!control || client_->status().welcome.role != net::Role::Instructor) return false;
+  client_->ask(*control);
   return true;
 }
 

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <optional>
 #include <string>
 
+#include "messages/command.h"
 #include "messages/felt_tool.h"
 #include "messages/scene_frame.h"
 #include "net/client.h"
-#include "scene/free_session.h"
 #include "scene/scene_file.h"
 
 namespace myotact::remote {
@@ -20,9 +19,11 @@ class Mirror {
   /// The newest frame that fits the scene. While there is no connection, or the frames do not fit, the last one that
   /// did, whose notice says why. False: nothing new.
   bool fetch_frame(messages::SceneFrame& frame);
-  /// Asks the server for what changed since the last call; the first call asks for nothing. Anybody's stops go out, of
-  /// the rest only an instructor's. False: something did not.
-  bool request(const scene::Requests& requests);
+  /// Asks the server for it. False: it did not go out, for it is not an instructor's, or not to be asked from
+  /// elsewhere.
+  [[nodiscard]] bool push(const messages::Command& command);
+  /// Anybody's: stops the forces of all.
+  void ask_stop() { client_->ask_stop(); }
   /// The server was started again with another scene.
   bool shows_another_scene(const std::string& scene_json) const;
 
@@ -34,7 +35,6 @@ class Mirror {
   messages::SceneFrame newest_, fitting_;
   std::string misfit_;
   std::string told_;  // notice of the connection in the last frame
-  std::optional<scene::Requests> asked_;
 };
 
 /// A hand whose loop runs here is drawn as it is felt here, not as the server heard of it: its tool in the frame is the

@@ -7,11 +7,11 @@
 
 namespace myotact::remote {
 
-/// What a server tells every client of its scene, as JSON: {"scene": {name, title, seed, text, specimen {name, sha256},
-/// muscles[], bones[], bodies[], joints[], tools[]}}; keys in the order in which frames number them.
+/// What a server sends every client of its scene, as JSON: {"scene": {name, title, seed, text, specimen {name,
+/// sha256}, muscles[], bones[], bodies[], joints[], tools[]}}; keys in the order in which frames number them.
 std::string scene_message(const scene::Scene& scene, std::uint64_t seed);
 
-/// The same scene from this machine's own files. Throws Error BadData for a message that is none, NoInput where the
+/// The same scene from this machine's own files. Throws Error BadData for an invalid message, NoInput where the
 /// specimen is missing, BadData where it is another than the server's.
 scene::Scene scene_of_message(const std::string& message);
 

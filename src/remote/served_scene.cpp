@@ -55,13 +55,6 @@ net::ServerSettings server_settings(const scene::Scene& scene, const ServeSettin
   return settings;
 }
 
-scene::Requests start_of(const scene::Scene& scene) {
-  scene::Requests requests;
-  requests.gravity = scene.settings.gravity_m_s2.norm() > 0.0;
-  requests.hold_posture = scene.co_contraction && scene.co_contraction->hold_posture;
-  return requests;
-}
-
 }  // namespace
 
 scene::Scene with_hands(scene::Scene scene, std::size_t hands) {
@@ -80,8 +73,7 @@ ServedScene::ServedScene(const scene::Scene& scene, simulation::Simulation& simu
     : channels_(make_channels(scene.tools.size())),
       hands_(places_of(channels_, scene)),
       server_(std::make_unique<net::Server>(settings.endpoint, server_settings(scene, settings), hands_)),
-      session_(scene, simulation, remote_tools(channels_), recorder),
-      requests_(start_of(scene)) {
+      session_(scene, simulation, remote_tools(channels_), recorder) {
   session_.on_models([this] { server_->ring(); });
 }
 
@@ -98,7 +90,8 @@ void ServedScene::start() {
 scene::FreeTiming ServedScene::stop() {
   closing_ = true;
   if (encoder_.joinable()) encoder_.join();
-  return session_.stop();
+  session_.stop();
+  return session_.timing();
 }
 
 /// As often as a screen shows them; what is between two is never encoded.
@@ -115,19 +108,18 @@ void ServedScene::encode_frames() {
 }
 
 void ServedScene::obey() {
-  bool changed = false;
   while (const auto request = server_->take_request()) {
     try {
-      const std::uint32_t stops = requests_.stops;
-      add_control(request->text, requests_);
-      if (requests_.stops != stops) server_->stop_forces();
-      changed = true;
+      const std::optional<messages::Order> order = order_of(request->text);
+      if (!order) {
+        server_->stop_forces();
+      } else if (const std::string why = session_.push({*order, messages::Commander::Network}); !why.empty()) {
+        server_->refuse(request->client, why);
+      }
     } catch (const Error& failure) {
       server_->refuse(request->client, failure.what());
     }
   }
-  if (!changed) return;
-  session_.request(requests_);
 }
 
 }  // namespace myotact::remote

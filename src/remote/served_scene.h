@@ -56,7 +56,6 @@ class ServedScene {
   net::HandTable hands_;
   std::unique_ptr<net::Server> server_;
   scene::FreeSession session_;  // after the server, whose bell it rings to its end
-  scene::Requests requests_;
   std::atomic<double> time_s_{0.0};
   std::atomic<bool> closing_{false};
   std::thread encoder_;

@@ -1,11 +1,13 @@
 #include "scene/conductor.h"
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 #include <Eigen/Geometry>
 
-#include "scene/turned_torques.h"
+#include "scene/rotated_torques.h"
 
 namespace myotact::scene {
 
@@ -15,7 +17,6 @@ namespace {
 constexpr double kStartAside_m = 0.15;
 constexpr double kStartAbove_m = 0.05;  // where there are no muscles: a hand's breadth
 constexpr double kStartApart_m = 0.08;  // of two hands, each from the middle: as a person holds them
-constexpr double kSliderGlide_s = 0.1;  // a slider's jump is spread over this
 /// Settles that mend what the table's interpolation leaves over: from 0.06 N m to below 1e-4 on the canine stifle.
 constexpr int kStartCorrections = 2;
 
@@ -83,16 +84,30 @@ Conductor::Conductor(const Scene& scene, simulation::Simulation& simulation)
   settle();
 }
 
-void Conductor::restart() {
+double Conductor::now_s() const {
+  return simulation_->time_s() - script_start_s_;
+}
+
+/// The torque table is kept. The clock runs on: times of the script count from here. What a person set stays.
+void Conductor::obey(const messages::Reset&, const When&) {
+  const messages::ControlState before = control();
+  const messages::Commander holder = holder_;
   hands_ = hands_at_start(*scene_);
   next_action_ = 0;
   script_start_s_ = simulation_->time_s();
   flexor_level_.reset();
   extensor_level_.reset();
+  drive_ = messages::Drive::Script;
+  driver_ = holder_ = messages::Commander::Script;
   shoves_.clear();
   shove_test_ = ShoveTest(scene_->settings.dt_s);
   torques_ = measured_torques_;
   settle();
+  if (before.drive == messages::Drive::Levels)
+    apply({messages::SetLevels{before.flexors, before.extensors}, before.driver});
+  if (before.drive == messages::Drive::Balance)
+    apply({messages::CoContract{before.common, before.difference}, before.driver});
+  if (holder != messages::Commander::Script) apply({messages::HoldPosture{before.hold_posture}, holder});
 }
 
 void Conductor::settle() {
@@ -103,6 +118,8 @@ void Conductor::settle() {
     const CoContraction& set = *scene_->co_contraction;
     common_ = {0.0, 0.0, set.common, set.common};
     difference_ = {0.0, 0.0, set.difference, set.difference};
+    scripted_ = {set.common, set.difference};
+    scripted_end_s_ = 0.0;
     co_contracting_ = hold_posture_ = set.hold_posture;
     trim_.restart(start_joint_);
     if (co_contracting_) drive_co_contraction(0.0, excitations);
@@ -120,26 +137,31 @@ void Conductor::settle() {
 }
 
 void Conductor::begin(const ScriptAction& action) {
-  hands_[action.tool].begin(action, *simulation_);
-  const auto ramp = [&](const Ramp& now, double to) {
-    return Ramp{action.start_s, action.end_s(), now.at(action.start_s), to};
-  };
-  if (const auto* deed = std::get_if<Activate>(&action.deed)) {
-    Ramp& activation = activations_[static_cast<std::size_t>(deed->muscle)];
-    activation = ramp(activation, deed->to);
-  } else if (const auto* co_contract = std::get_if<CoContract>(&action.deed)) {
-    common_ = ramp(common_, co_contract->common);
-    difference_ = ramp(difference_, co_contract->difference);
-    co_contracting_ = scene_->co_contraction.has_value();
-  } else if (const auto* hold = std::get_if<HoldPosture>(&action.deed)) {
-    ask_hold_posture(hold->on);
-  } else if (std::holds_alternative<Shove>(action.deed)) {
-    shoves_.push_back(action);
-  } else if (const auto* test = std::get_if<TestShove>(&action.deed)) {
-    shove_test_.start(test->joint, *simulation_);
-  } else if (const auto* picture = std::get_if<TakePicture>(&action.deed)) {
-    picture_ = *picture;
-  }
+  if (moves_hand(action.what)) return hands_[action.tool].begin(action, *simulation_);
+  if (const auto* picture = std::get_if<TakePicture>(&action.what)) picture_ = *picture;
+  std::visit(
+      [&](const auto& what) {
+        if constexpr (std::is_constructible_v<messages::Order, decltype(what)>) {
+          carry_out({what, messages::Commander::Script, action.duration_s}, action.start_s);
+        }
+      },
+      action.what);
+}
+
+void Conductor::apply(const messages::Command& command) {
+  carry_out(command, now_s());
+}
+
+void Conductor::carry_out(const messages::Command& command, double start_s) {
+  const When when{command.by, start_s, start_s + command.over_s};
+  std::visit(
+      [&]<class Order>(const Order& order) {
+        // These are the session's: they say whether there is a step at all.
+        if constexpr (!messages::kIsOneOf<Order, messages::Pause, messages::SingleStep, messages::EndRecording>) {
+          obey(order, when);
+        }
+      },
+      command.order);
 }
 
 void Conductor::drive_co_contraction(double time_s, std::vector<double>& excitations) {
@@ -182,10 +204,9 @@ void Conductor::prepare_step(double simulated_s, StepRecord& input) {
     drive_co_contraction(time_s, input.excitations);
   }
   input.joint_torques_Nm.assign(scene_->specimen.joints.size(), 0.0);
-  std::erase_if(shoves_, [&](const ScriptAction& shove) { return shove.end_s() <= time_s; });
-  for (const ScriptAction& action : shoves_) {
-    const auto& shove = std::get<Shove>(action.deed);
-    input.joint_torques_Nm[static_cast<std::size_t>(shove.joint)] += shove.torque_Nm;
+  std::erase_if(shoves_, [&](const Push& push) { return push.end_s <= time_s; });
+  for (const Push& push : shoves_) {
+    input.joint_torques_Nm[static_cast<std::size_t>(push.shove.joint)] += push.shove.torque_Nm;
   }
   if (shove_test_.under_way()) {
     const auto joint = static_cast<std::size_t>(shove_test_.joint());
@@ -198,25 +219,105 @@ std::optional<TakePicture> Conductor::take_picture() {
   return std::exchange(picture_, std::nullopt);
 }
 
-void Conductor::ask_levels(double flexors, double extensors) {
+/// Who asks again for what leads already does not begin its glide anew.
+void Conductor::obey(const messages::SetLevels& levels, const When& when) {
   if (!scene_->co_contraction) return;
-  const double now_s = simulation_->time_s() - script_start_s_;
+  const bool leads = flexor_level_ && flexor_level_->to == levels.flexors && extensor_level_->to == levels.extensors;
+  if (leads) return;
   const auto glide = [&](const std::optional<Ramp>& level, double to) {
-    return Ramp{now_s, now_s + kSliderGlide_s, level ? level->at(now_s) : to, to};
+    return Ramp{when.start_s, when.end_s, level ? level->at(when.start_s) : to, to};
   };
-  flexor_level_ = glide(flexor_level_, flexors);
-  extensor_level_ = glide(extensor_level_, extensors);
+  flexor_level_ = glide(flexor_level_, levels.flexors);
+  extensor_level_ = glide(extensor_level_, levels.extensors);
+  drive_ = messages::Drive::Levels;
+  driver_ = when.by;
   co_contracting_ = true;
 }
 
-void Conductor::ask_co_contraction(double common, double difference) {
-  if (!scene_->co_contraction) return;
-  const double now_s = simulation_->time_s() - script_start_s_;
+void Conductor::balance_by(const messages::CoContract& balance, const When& when) {
   flexor_level_.reset();
   extensor_level_.reset();
-  common_ = {now_s, now_s + kSliderGlide_s, common_.at(now_s), common};
-  difference_ = {now_s, now_s + kSliderGlide_s, difference_.at(now_s), difference};
+  common_ = {when.start_s, when.end_s, common_.at(when.start_s), balance.common};
+  difference_ = {when.start_s, when.end_s, difference_.at(when.start_s), balance.difference};
   co_contracting_ = true;
+}
+
+/// As SetLevels; the script is heard while a person leads, and obeyed when it leads again.
+void Conductor::obey(const messages::CoContract& balance, const When& when) {
+  if (!scene_->co_contraction) return;
+  const bool is_scripts = when.by == messages::Commander::Script;
+  if (is_scripts) {
+    scripted_ = balance;
+    scripted_end_s_ = when.end_s;
+    if (drive_ != messages::Drive::Script) return;
+  } else {
+    const bool same = common_.to == balance.common && difference_.to == balance.difference;
+    if (drive_ == messages::Drive::Balance && same) return;
+    drive_ = messages::Drive::Balance;
+    driver_ = when.by;
+  }
+  balance_by(balance, when);
+}
+
+/// Where the script never drove the balance, the levels that the scene began with stand for it.
+void Conductor::obey(const messages::FollowScript&, const When& when) {
+  if (drive_ == messages::Drive::Script) return;
+  drive_ = messages::Drive::Script;
+  driver_ = messages::Commander::Script;
+  balance_by(scripted_, {when.by, when.start_s, std::max(when.end_s, scripted_end_s_)});
+}
+
+void Conductor::obey(const messages::Activate& activate, const When& when) {
+  Ramp& activation = activations_[static_cast<std::size_t>(activate.muscle)];
+  activation = {when.start_s, when.end_s, activation.at(when.start_s), activate.to};
+}
+
+void Conductor::obey(const messages::HoldPosture& hold, const When& when) {
+  holder_ = when.by;
+  if (hold.on && !hold_posture_ && scene_->co_contraction) {
+    std::vector<double> present_rad;
+    for (std::size_t j = 0; j < scene_->joints.size(); ++j) {
+      present_rad.push_back(simulation_->joint(static_cast<int>(j)).angle_rad);
+    }
+    torques_ = rotated_torques(measured_torques_, *scene_, start_angles(*scene_), present_rad);
+    trim_.restart(simulation_->joint(scene_->co_contraction->joint));
+  }
+  hold_posture_ = hold.on;
+}
+
+void Conductor::obey(const messages::SetGravity& gravity, const When&) {
+  constexpr double kGravity_m_s2 = 9.81;
+  const Vec3& own_m_s2 = scene_->settings.gravity_m_s2;
+  const Vec3 down_m_s2 = own_m_s2.isZero() ? Vec3(0.0, 0.0, -kGravity_m_s2) : own_m_s2;
+  gravity_m_s2_ = gravity.on ? down_m_s2 : Vec3::Zero();
+}
+
+void Conductor::obey(const messages::Shove& shove, const When& when) {
+  shoves_.push_back({shove, when.end_s});
+}
+
+void Conductor::obey(const messages::TestShove& test, const When&) {
+  const int joint = test.joint < 0 && scene_->co_contraction ? scene_->co_contraction->joint : test.joint;
+  if (joint >= 0) shove_test_.start(joint, *simulation_);
+}
+
+messages::ControlState Conductor::control() const {
+  const double time_s = now_s();
+  messages::ControlState state;
+  state.drive = drive_;
+  state.driver = driver_;
+  const bool script_drives = drive_ == messages::Drive::Script;
+  state.common = script_drives ? common_.at(time_s) : common_.to;
+  state.difference = script_drives ? difference_.at(time_s) : difference_.to;
+  if (co_contracting_) state.common_now = common_.at(time_s);
+  if (flexor_level_) {
+    state.flexors = flexor_level_->to;
+    state.extensors = extensor_level_->to;
+    state.common_now = std::min(flexor_level_->at(time_s), extensor_level_->at(time_s));
+  }
+  state.hold_posture = hold_posture_;
+  state.gravity = gravity_m_s2_.norm() > 0.0;
+  return state;
 }
 
 std::string Conductor::notice() const {
@@ -230,7 +331,8 @@ std::string Conductor::notice() const {
   }
   if (const int muscle = simulation_->stuck_line(); muscle >= 0) {
     return "the line of " + scene_->specimen.muscles[static_cast<std::size_t>(muscle)].key +
-           " cannot clear its wrap surface in this posture: its end lies inside it, so that its lever is not to be "
+           " cannot clear its wrap surface in this posture: its end lies inside it, so that its moment arm is not to "
+           "be "
            "trusted; turn the joint back, or move the wrap or the end in the specimen";
   }
   if (balanced_ || !co_contracting_) return "";
@@ -238,22 +340,6 @@ std::string Conductor::notice() const {
   return "the muscles cannot balance the " + joint +
          " in this posture: the passive pull of one side is more than the other can hold; choose a posture nearer to "
          "the middle of its range";
-}
-
-void Conductor::ask_shove_test() {
-  if (scene_->co_contraction) shove_test_.start(scene_->co_contraction->joint, *simulation_);
-}
-
-void Conductor::ask_hold_posture(bool on) {
-  if (on && !hold_posture_ && scene_->co_contraction) {
-    std::vector<double> present_rad;
-    for (std::size_t j = 0; j < scene_->joints.size(); ++j) {
-      present_rad.push_back(simulation_->joint(static_cast<int>(j)).angle_rad);
-    }
-    torques_ = turned_torques(measured_torques_, *scene_, start_angles(*scene_), present_rad);
-    trim_.restart(simulation_->joint(scene_->co_contraction->joint));
-  }
-  hold_posture_ = on;
 }
 
 double Conductor::script_end_s() const {

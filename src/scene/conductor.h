@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "messages/command.h"
+#include "messages/control_state.h"
 #include "scene/co_contraction.h"
 #include "scene/recording.h"
 #include "scene/scene_file.h"
@@ -14,17 +16,13 @@
 
 namespace myotact::scene {
 
-/// Carries out the scene's script, and what a window asks for, step by step: decides what the muscles and joints are
+/// Carries out the scene's script, and what people ask for, step by step: decides what the muscles and joints are
 /// told and where the hand wants to be. Lives on the simulation's thread.
 class Conductor {
  public:
   /// Puts the simulation at rest in the scene's posture; measures the torque table when the scene co-contracts.
   /// Where there is no complete equilibrium the motion starts from what comes nearest, and notice() says so.
   Conductor(const Scene& scene, simulation::Simulation& simulation);
-
-  /// Back to the starting posture and the beginning of the script; the torque table is kept. The clock runs on: times
-  /// of the script count from here.
-  void restart();
 
   /// Fills excitations, torques and gravity of the step that starts at `simulated_s`. Starts the script's due actions.
   void prepare_step(double simulated_s, StepRecord& input);
@@ -35,15 +33,16 @@ class Conductor {
   std::optional<TakePicture> take_picture();
 
   /// Begins an action that the script does not hold; its start is a time of the script's clock, which begins at 0 and
-  /// with every restart. For a hand that decides as it goes.
+  /// with every reset. For a hand that decides as it goes.
   void begin(const ScriptAction& action);
 
-  // What the window's sliders ask for; they overrule the script from then on.
-  void ask_levels(double flexors, double extensors);
-  void ask_co_contraction(double common, double difference);
-  void ask_hold_posture(bool on);
-  void ask_shove_test();  // of the co-contraction's joint
-  void ask_gravity(const Vec3& gravity_m_s2) { gravity_m_s2_ = gravity_m_s2; }
+  /// Carries out now what somebody asks of muscles, joints, gravity or the whole scene. From then on the levels that a
+  /// person asked for lead, until the script is to lead again. What concerns clock and recording is left to the
+  /// session.
+  void apply(const messages::Command& command);
+
+  /// What is in force now, as far as the muscles and gravity go.
+  messages::ControlState control() const;
 
   /// What a person should know about the last step, or nothing: muscles that cannot hold the posture, a
   /// line caught in its wrap.
@@ -59,7 +58,30 @@ class Conductor {
     double at(double time_s) const;
   };
 
+  /// Who asks, from when to when, by the script's clock.
+  struct When {
+    messages::Commander by = messages::Commander::Script;
+    double start_s = 0.0, end_s = 0.0;
+  };
+  /// A constant torque under way.
+  struct Push {
+    messages::Shove shove;
+    double end_s = 0.0;
+  };
+
   void settle();
+  double now_s() const;  // of the script's clock
+  void carry_out(const messages::Command& command, double start_s);
+  void obey(const messages::SetLevels& levels, const When& when);
+  void obey(const messages::CoContract& balance, const When& when);
+  void obey(const messages::FollowScript& script, const When& when);
+  void obey(const messages::Activate& activate, const When& when);
+  void obey(const messages::HoldPosture& hold, const When& when);
+  void obey(const messages::SetGravity& gravity, const When& when);
+  void obey(const messages::Shove& shove, const When& when);
+  void obey(const messages::TestShove& test, const When& when);
+  void obey(const messages::Reset& reset, const When& when);
+  void balance_by(const messages::CoContract& balance, const When& when);
   bool posture_is_held(double time_s) const;
   void trim_posture(double time_s);
   void drive_co_contraction(double time_s, std::vector<double>& excitations);
@@ -76,12 +98,17 @@ class Conductor {
   std::size_t next_action_ = 0;
   std::vector<Ramp> activations_;  // one a muscle
   Ramp common_, difference_;
+  messages::CoContract scripted_;                      // what the script would have, whoever leads
+  double scripted_end_s_ = 0.0;                        // when it is there
   std::optional<Ramp> flexor_level_, extensor_level_;  // set by the sliders: no balance
+  messages::Drive drive_ = messages::Drive::Script;
+  messages::Commander driver_ = messages::Commander::Script;  // who set it
+  messages::Commander holder_ = messages::Commander::Script;  // who said last whether the posture is held
   bool co_contracting_ = false;
   bool hold_posture_ = false;
   bool balanced_ = true;  // of the last step
   bool starts_at_rest_ = true;
-  std::vector<ScriptAction> shoves_;  // under way
+  std::vector<Push> shoves_;  // under way
   Vec3 gravity_m_s2_;
   std::optional<TakePicture> picture_;
 };

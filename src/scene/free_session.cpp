@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -24,6 +25,9 @@ namespace {
 /// does. 30 ms at 100 Hz is less than two frames of the window.
 constexpr std::uint64_t kStepsToCatchUp = 3;
 
+/// More than a person can say, or a class by the network, while one step takes its time.
+constexpr std::size_t kMostCommands = 1024;
+
 std::uint64_t nanoseconds(double seconds) {
   return static_cast<std::uint64_t>(std::llround(seconds * 1e9));
 }
@@ -44,6 +48,7 @@ FreeSession::FreeSession(const Scene& scene, simulation::Simulation& simulation,
       recorder_(recorder),
       recording_(recorder != nullptr),
       conductor_(scene, simulation),
+      commands_(kMostCommands),
       rates_(scene.settings.dt_s),
       extremes_(devices.size()) {
   for (std::size_t t = 0; t < devices.size(); ++t) {
@@ -52,8 +57,6 @@ FreeSession::FreeSession(const Scene& scene, simulation::Simulation& simulation,
   }
   notice_ = stiffness_notices(loops_, scene);
   if (!loops_.empty()) haptic_thread_.emplace(loops_, ticking.watchdog, ticking.servo);
-  obeyed_.gravity = scene.settings.gravity_m_s2.norm() > 0.0;
-  obeyed_.hold_posture = scene.co_contraction && scene.co_contraction->hold_posture;
 }
 
 FreeSession::~FreeSession() {
@@ -84,15 +87,19 @@ void FreeSession::start() {
   });
 }
 
-FreeTiming FreeSession::stop() {
+void FreeSession::stop() {
   haptics::stop_forces(loops_, true);  // now, not after the step that is under way
   running_ = false;
   if (thread_.joinable()) thread_.join();
   if (haptic_thread_) haptic_thread_->stop();
   end_recording();
+  stopped_ns_ = realtime::steady_now_ns();
   if (failure_) std::rethrow_exception(failure_);
+}
+
+FreeTiming FreeSession::timing() const {
   FreeTiming timing;
-  timing.wall_s = static_cast<double>(realtime::steady_now_ns() - started_ns_) * 1e-9;
+  timing.wall_s = static_cast<double>(stopped_ns_ - started_ns_) * 1e-9;
   timing.simulated_s = simulation_->time_s();
   timing.steps = step_count_;
   timing.step = steps_.summary();
@@ -107,26 +114,13 @@ FreeTiming FreeSession::stop() {
   return timing;
 }
 
-void FreeSession::follow_on(const Requests& until_now, bool stopped) {
-  arms_ = until_now.arms;
-  stops_ = until_now.stops;
-  starts_stopped_ = stopped;
-  obeyed_.resets = until_now.resets;
-  obeyed_.shoves = until_now.shoves;
-  obeyed_.steps = until_now.steps;
-  obeyed_.recording_ends = until_now.recording_ends;
-}
-
 bool FreeSession::forces_stopped() const noexcept {
   return std::any_of(loops_.begin(), loops_.end(), [](const haptics::HapticLoop* loop) { return loop->is_stopped(); });
 }
 
-void FreeSession::request(const Requests& requests) {
-  if (requests.arms != arms_) haptics::stop_forces(loops_, false);
-  if (requests.stops != stops_) haptics::stop_forces(loops_, true);  // last: of both, the stop counts
-  arms_ = requests.arms;
-  stops_ = requests.stops;
-  requests_.publish(requests);
+std::string FreeSession::push(const messages::Command& command) {
+  if (commands_.push(command)) return "";
+  return "the simulation has too much to obey already, so that this was not done; try again when it goes on";
 }
 
 bool FreeSession::fetch_frame(messages::SceneFrame& frame) {
@@ -140,17 +134,16 @@ ShoveRecord FreeSession::fetch_shove() {
   return shoves_.front();
 }
 
-void FreeSession::obey(const Requests& requests) {
-  if (requests.resets != obeyed_.resets) conductor_.restart();  // first: what else is asked for is of the new beginning
-  if (requests.levels_asked) conductor_.ask_levels(requests.flexors, requests.extensors);
-  if (requests.balance_asked) conductor_.ask_co_contraction(requests.common, requests.difference);
-  if (requests.hold_posture != obeyed_.hold_posture) conductor_.ask_hold_posture(requests.hold_posture);
-  if (requests.gravity != obeyed_.gravity) {
-    constexpr double kGravity_m_s2 = 9.81;
-    conductor_.ask_gravity(requests.gravity ? Vec3(0.0, 0.0, -kGravity_m_s2) : Vec3::Zero());
+void FreeSession::obey(const messages::Command& command) {
+  if (const auto* pause = std::get_if<messages::Pause>(&command.order)) {
+    paused_ = pause->on;
+  } else if (std::holds_alternative<messages::SingleStep>(command.order)) {
+    ++single_steps_;
+  } else if (std::holds_alternative<messages::EndRecording>(command.order)) {
+    end_recording();
+  } else {
+    conductor_.apply(command);
   }
-  if (requests.shoves != obeyed_.shoves) conductor_.ask_shove_test();
-  if (requests.recording_ends != obeyed_.recording_ends) end_recording();
 }
 
 /// A full disk ends the recording, not the session.
@@ -182,14 +175,9 @@ void FreeSession::simulate() {
   loop.start();
   while (running_.load(std::memory_order_relaxed)) {
     loop.wait();
-    bool single_step = false;
-    if (requests_.update()) {
-      const Requests& requests = requests_.front();
-      obey(requests);
-      single_step = requests.steps != obeyed_.steps;
-      obeyed_ = requests;
-    }
-    if (!obeyed_.paused || single_step) {
+    for (messages::Command command; commands_.pop(command);) obey(command);
+    if (!paused_ || single_steps_ > 0) {
+      single_steps_ = std::max(single_steps_ - 1, 0);
       const std::uint64_t begin_ns = realtime::steady_now_ns();
       step();
       steps_.add(realtime::steady_now_ns() - begin_ns);
@@ -262,7 +250,7 @@ void FreeSession::publish_models() {
   for (std::size_t t = 0; t < tools_.size(); ++t) {
     RemoteHand& hand = tools_[t]->hand;
     const messages::ToolState& state = tools_[t]->newest;
-    const ModelRecord model{++tools_[t]->model_sequence, realtime::steady_now_ns(), obeyed_.paused,
+    const ModelRecord model{++tools_[t]->model_sequence, realtime::steady_now_ns(), paused_,
                             state.tool_position_world_m, 0};
     write_model(*simulation_, {state, static_cast<int>(t), model, step_ns, report_radius_m(scene_->tools[t])},
                 hand.models->back());
@@ -308,6 +296,9 @@ void FreeSession::publish_frame() {
     count.missed_ticks = haptic_thread_->missed_count();
   }
   frame.rates = rates_.add(count);
+  frame.control = conductor_.control();
+  frame.control.paused = paused_;
+  frame.control.recording = recording();
   frame.notice = recording_fault_.empty() ? fault_text() : recording_fault_;
   if (frame.notice.empty()) frame.notice = conductor_.notice();
   ++frame.sequence;

@@ -14,9 +14,12 @@
 
 #include "device/device.h"
 #include "device/simulated_device.h"
+#include "haptics/haptic_group.h"
 #include "haptics/haptic_loop.h"
 #include "haptics/haptic_thread.h"
+#include "messages/command.h"
 #include "messages/scene_frame.h"
+#include "realtime/bounded_fifo.h"
 #include "realtime/latest_value.h"
 #include "realtime/period_histogram.h"
 #include "scene/conductor.h"
@@ -26,26 +29,10 @@
 #include "scene/recording.h"
 #include "scene/remote_hand.h"
 #include "scene/scene_file.h"
+#include "scene/session.h"
 #include "simulation/simulation.h"
 
 namespace myotact::scene {
-
-/// What a window asks of a running session; plain, newest wins.
-struct Requests {
-  double flexors = 0.0, extensors = 0.0;
-  double common = 0.0, difference = 0.0;
-  bool levels_asked = false;   // the first two lead from now on
-  bool balance_asked = false;  // the second two do; neither: the script
-  bool hold_posture = true;
-  bool gravity = false;
-  bool paused = false;
-  std::uint32_t stops = 0;           // emergency stops asked for so far
-  std::uint32_t arms = 0;            // times that forces were enabled again
-  std::uint32_t steps = 0;           // single steps asked for so far
-  std::uint32_t resets = 0;          // resets asked for so far
-  std::uint32_t shoves = 0;          // shove tests asked for so far
-  std::uint32_t recording_ends = 0;  // times that a recording was to end
-};
 
 /// What a free run reports when it ends.
 struct FreeTiming {
@@ -75,34 +62,33 @@ struct Ticking {
 /// Runs a scene on the wall clock: the haptic thread at 1 kHz, the simulation thread at its own step, the caller draws.
 /// Every tool has a device, a haptic loop and channels of its own; no lock is shared between them. A remote hand has
 /// its loop and device elsewhere, and here the channels alone.
-class FreeSession {
+class FreeSession final : public Session {
  public:
   /// `devices`: one a tool of the scene. All references must outlive the session. Throws Error.
   FreeSession(const Scene& scene, simulation::Simulation& simulation, std::span<const ToolDevice> devices,
               RecordingWriter* recorder, const Ticking& ticking = {});
-  ~FreeSession();
+  ~FreeSession() override;
 
-  /// Throws Error where a device's servo clock does not start: nothing runs then.
-  void start();
-  /// Before start(): what was asked for until now, which is not new; `stopped`: forces stay off until `arms` counts on,
-  /// as after a stop in the session before.
-  void follow_on(const Requests& until_now, bool stopped);
+  void start_stopped() override { starts_stopped_ = true; }
+  void start() override;
   /// Before start(): what the simulation's thread calls when the models of the hands are new.
   void on_models(std::function<void()> call) { on_models_ = std::move(call); }
-  /// Forces to zero, threads joined. Rethrows what ended the simulation thread, if anything did.
-  FreeTiming stop();
+  void stop() override;
+  /// After stop().
+  FreeTiming timing() const;
 
-  /// Any thread: whether forces were stopped, by request or on a device.
-  bool forces_stopped() const noexcept;
-  bool running() const { return running_.load(std::memory_order_relaxed); }
+  bool forces_stopped() const noexcept override;
+  bool running() const override { return running_.load(std::memory_order_relaxed); }
   double script_end_s() const { return conductor_.script_end_s(); }
-  const std::string& notice() const { return notice_; }  // what the devices do not bear of the settings
+  const std::string& notice() const { return notice_; }  // what the devices do not support of the settings
+
+  /// All haptic loops, whatever the simulation is busy with.
+  void stop_forces(bool stopped) noexcept override { haptics::stop_forces(loops_, stopped); }
 
   // ---- the drawing thread
-  /// A stop goes to all haptic loops at once, whatever the simulation is busy with, and stays until `arms` counts on.
-  void request(const Requests& requests);
-  /// Copies the newest frame; false when there is none newer.
-  bool fetch_frame(messages::SceneFrame& frame);
+  /// Obeyed in order, before the next step. Dropped, and told, where the queue is full. One thread.
+  [[nodiscard]] std::string push(const messages::Command& command) override;
+  bool fetch_frame(messages::SceneFrame& frame) override;
   /// Whether a recording is being written. One that cannot be written any more ends, and the notice says why; what was
   /// written stays readable, and the session goes on.
   bool recording() const { return recording_.load(std::memory_order_relaxed); }
@@ -128,7 +114,7 @@ class FreeSession {
   void move_scripted_hands(double time_s);
   void hear(Tool& tool) const;
   messages::FeltTool felt_by(const Tool& tool) const;
-  void obey(const Requests& requests);
+  void obey(const messages::Command& command);
   void step();
   void publish_models();
   void publish_frame();
@@ -153,9 +139,9 @@ class FreeSession {
   std::thread thread_;
   std::atomic<bool> running_{false};
   std::exception_ptr failure_;
-  realtime::LatestValue<Requests> requests_;
-  Requests obeyed_;
-  std::uint32_t stops_ = 0, arms_ = 0;  // obeyed; the drawing thread's
+  realtime::BoundedFifo<messages::Command> commands_;  // from the drawing to the simulation
+  bool paused_ = false;
+  int single_steps_ = 0;  // asked for and not made yet
   bool starts_stopped_ = false;
   // From the simulation to the drawing: neither waits for the other.
   realtime::LatestValue<messages::SceneFrame> frames_;
@@ -163,7 +149,7 @@ class FreeSession {
   realtime::PeriodHistogram steps_;
   RateMeter rates_;
   std::uint64_t step_count_ = 0;
-  std::uint64_t started_ns_ = 0;
+  std::uint64_t started_ns_ = 0, stopped_ns_ = 0;
   Extremes extremes_;
   StepRecord input_;
 };

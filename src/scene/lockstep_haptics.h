@@ -18,7 +18,7 @@ namespace myotact::scene {
 /// Settings of a scene's tool for its haptic loop.
 haptics::HapticSettings haptic_settings(const ToolSettings& tool);
 
-/// The settings that a scene's tools have and their devices do not bear, one line a tool; or nothing.
+/// The settings that a scene's tools have and their devices do not support, one line a tool; or nothing.
 std::string stiffness_notices(std::span<haptics::HapticLoop* const> loops, const Scene& scene);
 
 /// The haptic loops of a scene's tools on the virtual clock:
@@ -38,7 +38,7 @@ class LockstepHaptics {
   std::size_t tool_count() const { return loops_.size(); }
   const messages::FeltTool& felt_tool(std::size_t tool) const { return loops_[tool]->felt_tool(); }
   const haptics::HapticTick& last_tick(std::size_t tool) const { return loops_[tool]->last_tick(); }
-  const std::string& notice() const { return notice_; }  // what the devices do not bear of the settings
+  const std::string& notice() const { return notice_; }  // what the devices do not support of the settings
 
  private:
   std::uint64_t step_ns_;

@@ -7,7 +7,6 @@
 #include <cstring>
 #include <optional>
 #include <string_view>
-
 #include <utility>
 
 #include <fmt/format.h>

@@ -18,7 +18,7 @@ namespace myotact::scene {
 std::string recording_header(const Scene& scene, std::uint64_t seed,
                              const std::vector<device::DeviceProfile>& profiles);
 
-/// What the recorded devices could bear, one a tool; that of a simulated one where a recording does not say. Throws
+/// What the recorded devices could support, one a tool; that of a simulated one where a recording does not say. Throws
 /// Error BadData.
 std::vector<device::DeviceProfile> devices_of_recording(const nlohmann::json& header,
                                                         const std::filesystem::path& file);
@@ -26,7 +26,7 @@ std::vector<device::DeviceProfile> devices_of_recording(const nlohmann::json& he
 /// The scene that a recording's header describes. Throws Error BadData, also for a recording of a later version.
 Scene scene_of_recording(const nlohmann::json& header, const std::filesystem::path& file, const Overrides& overrides);
 
-/// Throws Error BadData unless every step tells each muscle, each joint and each tool of the scene something.
+/// Throws Error BadData unless every step has an entry for each muscle, joint and tool of the scene.
 void require_fit(const Recording& recording, const Scene& scene, const std::filesystem::path& file);
 
 }  // namespace myotact::scene

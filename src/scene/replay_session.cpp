@@ -1,6 +1,7 @@
 #include "scene/replay_session.h"
 
 #include <chrono>
+#include <variant>
 
 #include <nlohmann/json.hpp>
 
@@ -11,6 +12,12 @@
 #include "scene/tool_frame.h"
 
 namespace myotact::scene {
+
+namespace {
+
+constexpr std::size_t kMostCommands = 256;  // of some pictures
+
+}  // namespace
 
 LoadedRecording load_recording(const std::filesystem::path& file, const Overrides& overrides) {
   Recording recording = read_recording(file);
@@ -28,7 +35,8 @@ ReplaySession::ReplaySession(const LoadedRecording& loaded)
       simulation_(loaded.scene.specimen, loaded.scene.settings),
       start_(loaded.scene, simulation_),
       hands_(loaded.scene, loaded.recording, loaded.devices),
-      start_s_(simulation_.time_s()) {}
+      start_s_(simulation_.time_s()),
+      commands_(kMostCommands) {}
 
 ReplaySession::~ReplaySession() {
   running_ = false;
@@ -60,6 +68,10 @@ void ReplaySession::stop() {
   if (failure_) std::rethrow_exception(failure_);
 }
 
+std::string ReplaySession::push(const messages::Command& command) {
+  return commands_.push(command) ? "" : "the recording is simulated too slowly to obey; try again";
+}
+
 bool ReplaySession::fetch_frame(messages::SceneFrame& frame) {
   if (!frames_.update()) return false;
   frame = frames_.front();
@@ -70,6 +82,7 @@ void ReplaySession::simulate() {
   const std::vector<StepRecord>& steps = loaded_->recording.steps;
   std::size_t next = 0;
   while (running_.load(std::memory_order_relaxed)) {
+    if (obey()) publish_frame();
     const double ahead_s = simulation_.time_s() - start_s_;
     if (next == steps.size() || ahead_s >= wanted_s_.load(std::memory_order_relaxed)) {
       std::this_thread::sleep_for(std::chrono::milliseconds(2));  // a fifth of a step
@@ -83,6 +96,15 @@ void ReplaySession::simulate() {
   }
 }
 
+/// True where something is shown otherwise from now on.
+bool ReplaySession::obey() {
+  const bool before = paused_;
+  for (messages::Command command; commands_.pop(command);) {
+    if (const auto* pause = std::get_if<messages::Pause>(&command.order)) paused_ = pause->on;
+  }
+  return paused_ != before;
+}
+
 void ReplaySession::publish_frame() {
   messages::SceneFrame& frame = frames_.back();
   simulation_.write_frame(frame);
@@ -93,6 +115,8 @@ void ReplaySession::publish_frame() {
     }
   }
   frame.time_s -= start_s_;
+  frame.control = start_.control();  // a recording holds what the muscles got, not who asked for it
+  frame.control.paused = paused_;
   ++frame.sequence;
   frames_.publish();
 }

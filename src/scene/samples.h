@@ -16,7 +16,7 @@ struct ToolSample {
   double line_tension_N = 0.0;  // of the line in hand, 0 without one
 };
 
-/// samples.csv (FORMATS: Tables): one row a tick. Numbers are shortest round-trip text, so equal runs give equal bytes.
+/// samples.csv: one row a tick. Numbers are shortest round-trip text, so equal runs give equal bytes.
 class SampleTable {
  public:
   /// `hands`: left or right, of each tool. The columns of several carry it in front.

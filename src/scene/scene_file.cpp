@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "anatomy/find_line_defects.h"
 #include "anatomy/hinge_chains.h"
@@ -15,8 +16,8 @@
 #include "device/profile_file.h"
 #include "scene/tether_file.h"
 #include "scene/texture_file.h"
-#include "simulation/line_model.h"
-#include "simulation/skeleton.h"
+#include "simulation/line/line_model.h"
+#include "simulation/skeleton/skeleton.h"
 
 namespace myotact::scene {
 

@@ -10,8 +10,8 @@
 #include "anatomy/specimen.h"
 #include "core/overrides.h"
 #include "core/vector.h"
-#include "haptics/force_methods.h"
-#include "haptics/texture_set.h"
+#include "haptics/effects/texture_set.h"
+#include "haptics/force_method.h"
 #include "messages/scene_frame.h"
 #include "scene/script.h"
 #include "simulation/simulation.h"
@@ -59,7 +59,7 @@ struct JointSetting {
   bool locked = false;
 };
 
-/// A scene file (FORMATS: Scene) with every name resolved against its specimen.
+/// A scene file (assets/scenes/README.md) with every name resolved against its specimen.
 struct Scene {
   std::string name, title;
   std::string note;  // what a person should know about the scene's settings, shown with it

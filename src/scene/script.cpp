@@ -32,7 +32,7 @@ Vec3 direction(const JsonValue& value) {
 
 constexpr double kDeepestPress_m = 0.03;  // deeper is beyond any muscle of a dog's limb
 
-Deed read_touch(JsonObject& action, const anatomy::Specimen& specimen) {
+Action read_touch(JsonObject& action, const anatomy::Specimen& specimen) {
   TouchMuscle touch;
   touch.muscle = require_muscle(action.at("muscle"), specimen);
   touch.at = action.at("at").number_between(0.0, 1.0);
@@ -41,14 +41,14 @@ Deed read_touch(JsonObject& action, const anatomy::Specimen& specimen) {
   return touch;
 }
 
-Deed read_slide(JsonObject& action, const anatomy::Specimen&) {
+Action read_slide(JsonObject& action, const anatomy::Specimen&) {
   SlideOnMuscle slide;
   slide.to = action.at("to").number_between(0.0, 1.0);
   if (const auto depth = action.find("depth_m")) slide.depth_m = depth->number_between(0.0, kDeepestPress_m);
   return slide;
 }
 
-Deed read_grab(JsonObject& action, const anatomy::Specimen& specimen) {
+Action read_grab(JsonObject& action, const anatomy::Specimen& specimen) {
   GrabLine grab;
   grab.muscle = require_muscle(action.at("muscle"), specimen);
   grab.at = action.at("at").number_between(0.0, 1.0);
@@ -57,7 +57,7 @@ Deed read_grab(JsonObject& action, const anatomy::Specimen& specimen) {
   return grab;
 }
 
-Deed read_grab_bone(JsonObject& action, const anatomy::Specimen& specimen) {
+Action read_grab_bone(JsonObject& action, const anatomy::Specimen& specimen) {
   GrabBone grab;
   grab.bone = require_bone(action.at("bone"), specimen);
   grab.from = direction(action.at("from"));
@@ -65,24 +65,24 @@ Deed read_grab_bone(JsonObject& action, const anatomy::Specimen& specimen) {
   return grab;
 }
 
-Deed read_activate(JsonObject& action, const anatomy::Specimen& specimen) {
+Action read_activate(JsonObject& action, const anatomy::Specimen& specimen) {
   return Activate{require_muscle(action.at("muscle"), specimen), action.at("to").number_between(0.0, 1.0)};
 }
 
-Deed read_co_contract(JsonObject& action, const anatomy::Specimen&) {
-  CoContract deed;
-  deed.common = action.at("common").number_between(0.0, 1.0);
-  if (const auto difference = action.find("difference")) deed.difference = difference->number_between(-1.0, 1.0);
-  return deed;
+Action read_co_contract(JsonObject& action, const anatomy::Specimen&) {
+  CoContract set;
+  set.common = action.at("common").number_between(0.0, 1.0);
+  if (const auto difference = action.find("difference")) set.difference = difference->number_between(-1.0, 1.0);
+  return set;
 }
 
-Deed read_shove(JsonObject& action, const anatomy::Specimen& specimen) {
+Action read_shove(JsonObject& action, const anatomy::Specimen& specimen) {
   constexpr double kLargestShove_Nm = 50.0;  // above what a dog's elbow can hold (31 N m estimated)
   return Shove{require_joint(action.at("joint"), specimen),
                action.at("torque_Nm").number_between(-kLargestShove_Nm, kLargestShove_Nm)};
 }
 
-Deed read_deed(const std::string& what, JsonObject& action, const anatomy::Specimen& specimen) {
+Action read_what(const std::string& what, JsonObject& action, const anatomy::Specimen& specimen) {
   if (what == "move") return MoveHand{action.at("to_m").vec3()};
   if (what == "touch") return read_touch(action, specimen);
   if (what == "slide") return read_slide(action, specimen);
@@ -106,17 +106,17 @@ std::size_t read_hand(const JsonValue& value, const std::vector<std::string>& ha
 
 ScriptAction read_action(const JsonValue& value, const anatomy::Specimen& specimen,
                          const std::vector<std::string>& hands) {
-  static const std::vector<std::string> kDeeds = {"move",         "touch",   "slide",      "grab_line",
-                                                  "grab_bone",    "release", "activate",   "co_contract",
-                                                  "hold_posture", "shove",   "shove_test", "picture"};
+  static const std::vector<std::string> kActions = {"move",         "touch",   "slide",      "grab_line",
+                                                    "grab_bone",    "release", "activate",   "co_contract",
+                                                    "hold_posture", "shove",   "shove_test", "picture"};
   constexpr double kLongestRun_s = 86400.0;
   JsonObject object(value);
   ScriptAction action;
   action.start_s = object.at("t_s").number_between(0.0, kLongestRun_s);
   if (const auto duration = object.find("duration_s")) action.duration_s = duration->number_between(0.0, kLongestRun_s);
-  action.deed = read_deed(object.at("do").one_of(kDeeds), object, specimen);
-  if (std::holds_alternative<TestShove>(action.deed)) action.duration_s = kShoveTest_s;
-  if (moves_hand(action.deed)) {
+  action.what = read_what(object.at("do").one_of(kActions), object, specimen);
+  if (std::holds_alternative<TestShove>(action.what)) action.duration_s = kShoveTest_s;
+  if (moves_hand(action.what)) {
     if (const auto hand = object.find("hand")) action.tool = read_hand(*hand, hands);
   }
   object.finish();
@@ -129,7 +129,7 @@ void require_free_hand(const JsonValue& element, const std::vector<ScriptAction>
   const ScriptAction& action = script.back();
   for (std::size_t i = 0; i + 1 < script.size(); ++i) {
     const ScriptAction& before = script[i];
-    const bool overlaps = moves_hand(action.deed) && moves_hand(before.deed) && before.tool == action.tool &&
+    const bool overlaps = moves_hand(action.what) && moves_hand(before.what) && before.tool == action.tool &&
                           before.end_s() > action.start_s + kSameTime_s;
     if (!overlaps) continue;
     throw element.error(fmt::format("starts at {} s, before the {}hand's action {} ends at {} s; let it start then{}",
@@ -152,10 +152,10 @@ int require_joint(const JsonValue& name, const anatomy::Specimen& specimen) {
   return require_part(name, specimen.joints, "joint");
 }
 
-bool moves_hand(const Deed& deed) {
-  return std::holds_alternative<MoveHand>(deed) || std::holds_alternative<TouchMuscle>(deed) ||
-         std::holds_alternative<SlideOnMuscle>(deed) || std::holds_alternative<GrabLine>(deed) ||
-         std::holds_alternative<GrabBone>(deed) || std::holds_alternative<ReleaseHand>(deed);
+bool moves_hand(const Action& action) {
+  return std::holds_alternative<MoveHand>(action) || std::holds_alternative<TouchMuscle>(action) ||
+         std::holds_alternative<SlideOnMuscle>(action) || std::holds_alternative<GrabLine>(action) ||
+         std::holds_alternative<GrabBone>(action) || std::holds_alternative<ReleaseHand>(action);
 }
 
 std::vector<ScriptAction> read_script(const JsonValue& list, const anatomy::Specimen& specimen,

@@ -8,10 +8,14 @@
 #include "anatomy/specimen.h"
 #include "core/json_reader.h"
 #include "core/vector.h"
+#include "messages/command.h"
 
 namespace myotact::scene {
 
-// What a script can ask for; assets/scenes/README.md lists the same with examples. Positions in the world frame W.
+// What a script can ask for; assets/scenes/README.md lists the same with examples. Positions in the world frame W. What
+// muscles and joints are told is asked for by the same orders as in a window.
+
+using messages::Activate, messages::CoContract, messages::HoldPosture, messages::Shove, messages::TestShove;
 
 struct MoveHand {  // to a point of the world
   Vec3 to_m = Vec3::Zero();
@@ -38,38 +42,20 @@ struct GrabBone {  // approach a bone from outside, take it where the hand meets
   Vec3 drag_m = Vec3::Zero();  // zero: hold still
 };
 struct ReleaseHand {};  // let go and lift off by 40 mm
-struct Activate {
-  int muscle = -1;
-  double to = 0.0;
-};
-struct CoContract {  // ramp the common level and the difference
-  double common = 0.0;
-  double difference = 0.0;
-};
-struct HoldPosture {
-  bool on = true;
-};
-struct Shove {  // a constant torque about a joint for the action's duration
-  int joint = -1;
-  double torque_Nm = 0.0;
-};
-struct TestShove {  // a slow push, then a stroke, with the joint's answer recorded
-  int joint = -1;
-};
 struct TakePicture {
   std::string view = "lateral";
 };
 
-using Deed = std::variant<MoveHand, TouchMuscle, SlideOnMuscle, GrabLine, GrabBone, ReleaseHand, Activate, CoContract,
-                          HoldPosture, Shove, TestShove, TakePicture>;
+using Action = std::variant<MoveHand, TouchMuscle, SlideOnMuscle, GrabLine, GrabBone, ReleaseHand, Activate, CoContract,
+                            HoldPosture, Shove, TestShove, TakePicture>;
 
 /// True for what a hand does; the rest is done to the limb or the picture.
-bool moves_hand(const Deed& deed);
+bool moves_hand(const Action& action);
 
 struct ScriptAction {
   double start_s = 0.0;
   double duration_s = 0.0;  // 0: at once
-  Deed deed;
+  Action what;
   std::size_t tool = 0;  // whose hand, where it moves one
 
   double end_s() const { return start_s + duration_s; }

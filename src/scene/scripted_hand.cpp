@@ -82,54 +82,54 @@ void ScriptedHand::begin(const ScriptAction& action, const simulation::Simulatio
   const HandTarget now = target(action.start_s);
   const std::vector<Waypoint> before = path_;
   path_.assign(1, {action.start_s, now.position_world_m, now.buttons});
-  if (const auto* move = std::get_if<MoveHand>(&action.deed)) return lay_out(action, *move);
-  if (const auto* touch = std::get_if<TouchMuscle>(&action.deed)) return lay_out(action, *touch, simulation);
-  if (const auto* slide = std::get_if<SlideOnMuscle>(&action.deed)) return lay_out(action, *slide, simulation);
-  if (const auto* grab = std::get_if<GrabLine>(&action.deed)) return lay_out(action, *grab, simulation);
-  if (const auto* grab = std::get_if<GrabBone>(&action.deed)) return lay_out(action, *grab, simulation);
-  if (const auto* release = std::get_if<ReleaseHand>(&action.deed)) return lay_out(action, *release);
+  if (const auto* move = std::get_if<MoveHand>(&action.what)) return lay_out(action, *move);
+  if (const auto* touch = std::get_if<TouchMuscle>(&action.what)) return lay_out(action, *touch, simulation);
+  if (const auto* slide = std::get_if<SlideOnMuscle>(&action.what)) return lay_out(action, *slide, simulation);
+  if (const auto* grab = std::get_if<GrabLine>(&action.what)) return lay_out(action, *grab, simulation);
+  if (const auto* grab = std::get_if<GrabBone>(&action.what)) return lay_out(action, *grab, simulation);
+  if (const auto* release = std::get_if<ReleaseHand>(&action.what)) return lay_out(action, *release);
   path_ = before;
 }
 
-void ScriptedHand::lay_out(const ScriptAction& action, const MoveHand& deed) {
-  path_.push_back({action.end_s(), deed.to_m, 0});
+void ScriptedHand::lay_out(const ScriptAction& action, const MoveHand& what) {
+  path_.push_back({action.end_s(), what.to_m, 0});
 }
 
-void ScriptedHand::lay_out(const ScriptAction& action, const TouchMuscle& deed,
+void ScriptedHand::lay_out(const ScriptAction& action, const TouchMuscle& what,
                            const simulation::Simulation& simulation) {
-  touched_muscle_ = deed.muscle;
-  touched_at_ = deed.at;
-  from_ = deed.from;
-  const Vec3 skin = skin_point(simulation, deed.muscle, deed.at, deed.from);
-  path_.push_back({action.start_s + 0.5 * action.duration_s, skin + kStandOff_m * deed.from, 0});
-  path_.push_back({action.end_s(), skin - deed.depth_m * deed.from, 0});
+  touched_muscle_ = what.muscle;
+  touched_at_ = what.at;
+  from_ = what.from;
+  const Vec3 skin = skin_point(simulation, what.muscle, what.at, what.from);
+  path_.push_back({action.start_s + 0.5 * action.duration_s, skin + kStandOff_m * what.from, 0});
+  path_.push_back({action.end_s(), skin - what.depth_m * what.from, 0});
 }
 
-void ScriptedHand::lay_out(const ScriptAction& action, const SlideOnMuscle& deed,
+void ScriptedHand::lay_out(const ScriptAction& action, const SlideOnMuscle& what,
                            const simulation::Simulation& simulation) {
   if (touched_muscle_ < 0) return;  // nothing was touched before: the hand stays where it is
   for (int i = 1; i <= kSlideWaypoints; ++i) {
     const double s = static_cast<double>(i) / kSlideWaypoints;
-    const double at = touched_at_ + s * (deed.to - touched_at_);
+    const double at = touched_at_ + s * (what.to - touched_at_);
     const Vec3 skin = skin_point(simulation, touched_muscle_, at, from_);
-    path_.push_back({action.start_s + s * action.duration_s, skin - deed.depth_m * from_, 0, true});
+    path_.push_back({action.start_s + s * action.duration_s, skin - what.depth_m * from_, 0, true});
   }
-  touched_at_ = deed.to;
+  touched_at_ = what.to;
 }
 
-void ScriptedHand::lay_out(const ScriptAction& action, const GrabLine& deed, const simulation::Simulation& simulation) {
-  touched_muscle_ = deed.muscle;
-  touched_at_ = deed.at;
-  from_ = deed.from;
-  const Vec3 skin = skin_point(simulation, deed.muscle, deed.at, deed.from);
-  grab(action, skin + kGrabGap_m * deed.from, deed.drag_m, messages::kGrabButton);
+void ScriptedHand::lay_out(const ScriptAction& action, const GrabLine& what, const simulation::Simulation& simulation) {
+  touched_muscle_ = what.muscle;
+  touched_at_ = what.at;
+  from_ = what.from;
+  const Vec3 skin = skin_point(simulation, what.muscle, what.at, what.from);
+  grab(action, skin + kGrabGap_m * what.from, what.drag_m, messages::kGrabButton);
 }
 
-void ScriptedHand::lay_out(const ScriptAction& action, const GrabBone& deed, const simulation::Simulation& simulation) {
+void ScriptedHand::lay_out(const ScriptAction& action, const GrabBone& what, const simulation::Simulation& simulation) {
   touched_muscle_ = -1;
-  from_ = deed.from;
-  const Vec3 surface = bone_point(simulation, deed.bone, deed.from);
-  grab(action, surface + kGrabGap_m * deed.from, deed.drag_m, messages::kGrabBoneButton);
+  from_ = what.from;
+  const Vec3 surface = bone_point(simulation, what.bone, what.from);
+  grab(action, surface + kGrabGap_m * what.from, what.drag_m, messages::kGrabBoneButton);
 }
 
 void ScriptedHand::grab(const ScriptAction& action, const Vec3& grip, const Vec3& drag_m, std::uint32_t button) {

@@ -35,12 +35,12 @@ class ScriptedHand {
     bool arrives_moving = false;  // constant speed up to here
   };
 
-  void lay_out(const ScriptAction& action, const MoveHand& deed);
-  void lay_out(const ScriptAction& action, const TouchMuscle& deed, const simulation::Simulation& simulation);
-  void lay_out(const ScriptAction& action, const SlideOnMuscle& deed, const simulation::Simulation& simulation);
-  void lay_out(const ScriptAction& action, const GrabLine& deed, const simulation::Simulation& simulation);
-  void lay_out(const ScriptAction& action, const GrabBone& deed, const simulation::Simulation& simulation);
-  void lay_out(const ScriptAction& action, const ReleaseHand& deed);
+  void lay_out(const ScriptAction& action, const MoveHand& what);
+  void lay_out(const ScriptAction& action, const TouchMuscle& what, const simulation::Simulation& simulation);
+  void lay_out(const ScriptAction& action, const SlideOnMuscle& what, const simulation::Simulation& simulation);
+  void lay_out(const ScriptAction& action, const GrabLine& what, const simulation::Simulation& simulation);
+  void lay_out(const ScriptAction& action, const GrabBone& what, const simulation::Simulation& simulation);
+  void lay_out(const ScriptAction& action, const ReleaseHand& what);
   /// Comes to `grip` along `from_`, presses the buttons there, drags and stays.
   void grab(const ScriptAction& action, const Vec3& grip, const Vec3& drag_m, std::uint32_t button);
   /// The outermost point of the muscle's skin beyond its line, seen along `from`.

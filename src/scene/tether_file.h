@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/json_reader.h"
-#include "simulation/tether.h"
+#include "simulation/particle/tether.h"
 
 namespace myotact::scene {
 

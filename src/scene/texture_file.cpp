@@ -6,11 +6,12 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "core/data_folder.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "haptics/autoregression.h"
+#include "haptics/effects/autoregression.h"
 
 namespace myotact::scene {
 

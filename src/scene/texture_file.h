@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "core/json_reader.h"
-#include "haptics/texture_set.h"
+#include "haptics/effects/texture_set.h"
 
 namespace myotact::scene {
 

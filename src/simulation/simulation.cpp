@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/at.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "simulation/activation.h"
-#include "simulation/calibration.h"
-#include "simulation/settle.h"
+#include "simulation/limb/calibration.h"
+#include "simulation/limb/settle.h"
+#include "simulation/limb/step.h"
+#include "simulation/muscle/activation.h"
 #include "simulation/simulation_impl.h"
-#include "simulation/step.h"
-#include "simulation/tool_springs.h"
+#include "simulation/touch/tool_springs.h"
 
 namespace myotact::simulation {
 namespace {
@@ -20,9 +21,6 @@ constexpr int kMostHalvings = 3;
 /// Every so many steps the stiffness of one muscle is refreshed: seven muscles in 0.21 s, as fast as a plot is read.
 constexpr int kStepsPerRefresh = 3;
 
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 double unit_range(double value) {
   return value >= 0.0 ? std::min(value, 1.0) : 0.0;
 }  // NaN becomes 0

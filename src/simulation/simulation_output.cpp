@@ -1,17 +1,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulation/local_grip.h"
+#include "core/at.h"
 #include "simulation/simulation_impl.h"
+#include "simulation/touch/local_grip.h"
 
 // What the simulation publishes: the local model of the haptics, the frame of the view.
 
 namespace myotact::simulation {
 namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// With nothing to touch or to grab.
 void write_tether_alone(const messages::LocalTether& tether, messages::LocalModel& model) {
@@ -81,7 +78,7 @@ void Simulation::Impl::write_joint(int index, const std::vector<LineReading>& li
   for (std::size_t m = 0; m < frame.muscles.size(); ++m) {
     const MuscleAtJoint part = at_joint(static_cast<int>(m), index, lines_now[m]);
     frame.muscles[m] = {part.torque_Nm, part.stiffness_Nm_rad, part.line_muscle_Nm_rad, part.line_geometry_Nm_rad,
-                        part.lever_m};
+                        part.moment_arm_m};
   }
 }
 

@@ -1,16 +1,10 @@
-#include "simulation/fibre_field.h"
+#include "core/at.h"
+#include "simulation/muscle/fibre_field.h"
 #include "simulation/simulation_impl.h"
 
 // What can be asked of the simulation between steps.
 
 namespace myotact::simulation {
-namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
 
 LineGeometry Simulation::Impl::line_geometry_of(int muscle) const {
   LineGeometry geometry;
@@ -69,8 +63,8 @@ MuscleAtJoint Simulation::Impl::at_joint(int muscle, int joint, const LineReadin
   part.line_muscle_Nm_rad = terms.muscle_Nm_rad;
   part.line_geometry_Nm_rad = terms.geometry_Nm_rad;
   part.line_damping_Nms_rad = terms.damping_Nms_rad;
-  part.lever_m = -line.geometry.slope_m_rad[joint];
-  part.lever_slope_m_rad = -line.geometry.curvature_m_rad2(joint, joint);
+  part.moment_arm_m = -line.geometry.slope_m_rad[joint];
+  part.moment_arm_slope_m_rad = -line.geometry.curvature_m_rad2(joint, joint);
   if (m.line) part.unit = hill_equilibrium(m.line->hill, m.line->length_m, m.state.activation);
   return part;
 }

@@ -4,10 +4,11 @@ namespace myotact::simulation {
 
 /// How a rate follows from the last values: dy/dt = rate y - now y_n + before y_(n-1). All zero: a static problem.
 struct TimeRule {
-  double rate_1_s = 0.0;
-  double now_1_s = 0.0;
-  double before_1_s = 0.0;
+  double rate_1_s = 0.0;    // of the new value
+  double now_1_s = 0.0;     // of the last value y_n
+  double before_1_s = 0.0;  // of the value before it, y_(n-1)
 
+  /// now y_n - before y_(n-1): what is taken from rate y. Value: a number or vector.
   template <class Value>
   Value history(const Value& last, const Value& before_last) const {
     return now_1_s * last - before_1_s * before_last;

@@ -17,13 +17,14 @@ namespace myotact::simulation {
 /// chance, so a task may write only what its index owns; then the result does not depend on the number of threads.
 class WorkerPool {
  public:
-  /// `workers` >= 1 counts the calling thread; 1 makes no thread and runs tasks in a plain loop.
+  /// `workers` >= 1 counts the calling thread; 1 makes no thread and runs tasks in a plain loop. Throws
+  /// std::system_error when a thread cannot be made. The destructor waits for the threads; no run() may be under way.
   explicit WorkerPool(int workers);
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
-  int workers() const { return static_cast<int>(threads_.size()) + 1; }
+  int workers() const { return static_cast<int>(threads_.size()) + 1; }  // the calling thread included
 
   /// Calls task(index) once for each index in 0 .. count-1 and returns when all are done. All run even when one throws;
   /// then the exception of the lowest index is thrown here. One caller at a time; a task must not call run().
@@ -36,15 +37,17 @@ class WorkerPool {
   }
 
  private:
+  /// The tasks of one run(), type erased.
   struct Job {
     int count = 0;
     void* callable = nullptr;
     void (*call)(void* callable, int index) = nullptr;
   };
 
+  /// Hands the job to all threads, takes part in it and waits for the others.
   void run_job(const Job& job);
-  void take_tasks();
-  void serve();
+  void take_tasks();  // until none is left
+  void serve();       // what each thread runs
 
   std::mutex mutex_;  // guards all below but next_
   std::condition_variable wake_;

@@ -17,7 +17,9 @@
 #include "anatomy/specimen.h"
 #include "core/data_folder.h"
 #include "simulation/element/muscle_batch.h"
-#include "simulation/settle.h"
+#include "simulation/limb/find_touches.h"
+#include "simulation/limb/settle.h"
+#include "simulation/muscle/bone_contact_forces.h"
 #include "simulation/simulation.h"
 
 namespace myotact::simulation {

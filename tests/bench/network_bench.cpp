@@ -37,7 +37,7 @@ void stay_on_core(int core) {
   sched_setaffinity(0, sizeof cores, &cores);
 }
 
-/// Runs `serve` in another process on that core, which tells its port through a pipe.
+/// Runs `serve` in another process on that core, which reports its port through a pipe.
 class Peer {
  public:
   Peer(int core, const std::function<void(int pipe)>& serve) {

@@ -6,6 +6,7 @@
 #include <locale>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/json_reader.h"
 
@@ -52,7 +53,7 @@ TEST(Text, NearestWordForgivesTypingErrors) {
   EXPECT_EQ(nearest_word("brachalis", keys), "brachialis");
   EXPECT_EQ(nearest_word("bicep", keys), "biceps_brachii");
   EXPECT_EQ(nearest_word("x", {}), "");
-  EXPECT_EQ(nearest_word(std::string(10'000'000, 'a'), keys).empty(), false);
+  EXPECT_EQ(nearest_word(std::string(10'000'000, 'a'), keys).empty(), false);  // NOLINT(bugprone-string-constructor)
 }
 
 TEST(Text, LowerLeavesWhatIsNoCapitalOfAscii) {

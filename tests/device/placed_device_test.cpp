@@ -19,7 +19,7 @@ class Table : public HardwareDevice {
  public:
   const std::string& name() const override { return name_; }
   const DeviceProfile& profile() const override { return profile_; }
-  void open() override { profile_.peak_force_N = 7.0; }  // as one that tells its limits
+  void open() override { profile_.peak_force_N = 7.0; }  // as one that reports its limits
   void close() noexcept override {}
   bool connected() const noexcept override { return is_connected; }
   messages::DeviceState read(std::uint64_t) noexcept override { return state; }
@@ -125,7 +125,7 @@ TEST(PlacedDevice, ATurnOfTheViewTurnsTheHandsAxesAboutTheTool) {
   const Vec3 before_m = placed.read();
   const Mat3 turn = Eigen::AngleAxisd(2.0, Vec3(0.3, -1.0, 0.2).normalized()).toRotationMatrix();
   placed.device.write({{0.0, 1.0, 0.0}});  // a force is felt
-  placed.device.ask_turn(turn);
+  placed.device.ask_rotation(turn);
   EXPECT_EQ(placed.read(), before_m);
   placed.table.put({0.02, 0.02, 0.03});
   EXPECT_NEAR((placed.read() - before_m - turned(2.0).world_from_device * Vec3(0.02, 0.0, 0.0)).norm(), 0.0, 1e-12);

@@ -21,7 +21,7 @@ constexpr const char* kSound = R"({"schema": 1, "title": "t",
  "resolution_m": {"value": 2e-5, "source": "s"}, "delay_ticks": {"value": 2, "source": "s"},
  "workspace_m": {"value": [0.2, 0.1, 0.1], "source": "s"}})";
 
-class ProfileFile : public testing::Test {
+class ProfileFile : public ::testing::Test {
  protected:
   ~ProfileFile() override { std::filesystem::remove(path_); }
   NamedProfile load(std::string text, const std::string& from = "", const std::string& to = "") {

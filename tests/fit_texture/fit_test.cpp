@@ -10,7 +10,7 @@
 #include "core/file.h"
 #include "fit_texture/band_limit.h"
 #include "fit_texture/burg.h"
-#include "haptics/autoregression.h"
+#include "haptics/effects/autoregression.h"
 #include "scene/texture_file.h"
 #include "support/complaint.h"
 #include "support/temporary_folder.h"

@@ -76,7 +76,7 @@ TEST_F(Recordings, RefusesDamagedWavesWithPlaceAndRemedy) {
   EXPECT_THAT(wav_complaint(good.substr(0, 30)), HasSubstr("byte"));
   EXPECT_THAT(wav_complaint(wav(1, 16, "xxxxxxxx", 2)), HasSubstr("2 channels"));
   EXPECT_THAT(wav_complaint(wav(1, 8, "xxxxxxxx")), HasSubstr("8 bits"));
-  EXPECT_THAT(wav_complaint(wav(3, 32, little(0x7fc00000, 4))), HasSubstr("no number"));
+  EXPECT_THAT(wav_complaint(wav(3, 32, little(0x7fc00000, 4))), HasSubstr("not a number"));
   myotact::testing::complaint(ExitStatus::NoInput, [&] { read_wav(folder_ / "none.wav", 1.0); });
 }
 

@@ -1,3 +1,5 @@
+#include <nlohmann/json.hpp>
+
 #include "core/json_reader.h"
 #include "fuzz/check.h"
 

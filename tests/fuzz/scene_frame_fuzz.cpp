@@ -7,8 +7,9 @@
 // The bytes as frames of a scene whose check sums are right: {type, length of 16 bits, payload} one after the other.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace myotact;
-  constexpr std::array<net::FrameType, 4> kTypes = {net::FrameType::SceneKey, net::FrameType::SceneDelta,
-                                                    net::FrameType::BonePoses, net::FrameType::Readings};
+  constexpr std::array<net::FrameType, 5> kTypes = {net::FrameType::SceneKey, net::FrameType::SceneDelta,
+                                                    net::FrameType::BonePoses, net::FrameType::Readings,
+                                                    net::FrameType::InForce};
   std::span<const std::uint8_t> bytes(data, size);
   net::SceneDecoder decoder;
   while (bytes.size() >= 3) {

@@ -1,5 +1,6 @@
 #include "fuzz/check.h"
 #include "fuzz/small_limb.h"
+#include "view/look/start_view.h"
 #include "view/session/saved_work.h"
 
 extern "C" int LLVMFuzzerInitialize(int*, char***) {

@@ -137,7 +137,7 @@ TEST_F(Ply, AsciiDefectsNameTheLine) {
   EXPECT_THAT(problem(with("9 1 1 1", "9 nan 1 1")), AllOf(HasSubstr("f.ply: line 19"), HasSubstr("vertex 2")));
   EXPECT_THAT(problem(with("4 0 1 2 3", "4 0 1 2 4")), AllOf(HasSubstr("line 23"), HasSubstr("names vertex 4")));
   EXPECT_THAT(problem(with("4 0 1 2 3", "4 0 1 2.5 3")), HasSubstr("names vertex 2.5"));
-  EXPECT_THAT(problem(with("9 1 1 1", "9 one 1 1")), HasSubstr("\"one\" is no number"));
+  EXPECT_THAT(problem(with("9 1 1 1", "9 one 1 1")), HasSubstr("\"one\" is not a number"));
   EXPECT_THAT(problem(with(" nan\n", " nan\n7 7\n")), AllOf(HasSubstr("line 24"), HasSubstr("goes on after")));
   EXPECT_THAT(problem(with("element face 1", "element face 2")), HasSubstr("ends early"));
   EXPECT_THAT(problem(with("4 0 1 2 3", "-4 0 1 2 3")), HasSubstr("a list has -4 entries"));

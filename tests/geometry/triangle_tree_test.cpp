@@ -6,12 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include "core/at.h"
+
 namespace myotact::geometry {
 namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// A wavy sheet of 2 n^2 triangles over the unit square.
 TriangleMesh sheet(int n) {

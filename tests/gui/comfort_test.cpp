@@ -1,8 +1,10 @@
 #include <cmath>
+#include <fstream>
 #include <set>
 #include <string>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "gui/gui_program.h"
 
@@ -111,6 +113,24 @@ TEST_F(ComfortTest, BigTypeShowsTheStiffnessToAClassAndGoesAway) {
   gui.screenshot("big");
   gui.key("F9");
   EXPECT_TRUE(gui.wait_until([&](const json&) { return !gui.shows("class.K") && gui.shows("tasks.see"); }));
+}
+
+/// Where the script or the scene's own beginning drives the muscles, "+" goes on from there.
+TEST_F(ComfortTest, MoreCoContractionGoesOnFromTheLevelInForce) {
+  const std::string file = ::testing::TempDir() + "driven_elbow.json";
+  json scene =
+      json::parse(std::ifstream(std::string(MYOTACT_SOURCE_DIR) + "/assets/scenes/elbow.json"), nullptr, true, true);
+  scene["co_contraction"]["common"] = 0.4;
+  std::ofstream(file) << scene.dump();
+  GuiProgram gui("class_driven", file + " --set tissue.default=line");
+  gui.key("F9");
+  ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.shows("class.more"); }));
+  EXPECT_EQ(gui.state()["scene"]["drive"], "script");
+  gui.click("class.more");
+  ASSERT_TRUE(gui.wait_until([](const json& state) { return state["scene"]["drive"] == "balance"; }));
+  EXPECT_NEAR(gui.state()["scene"]["common"].get<double>(), 0.45, 1e-12);
+  EXPECT_TRUE(
+      gui.wait_until([&](const json&) { return gui.value_of("class.common").find("45") != std::string::npos; }));
 }
 
 }  // namespace

@@ -2,12 +2,13 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <thread>
 
 #include "anatomy/specimen.h"
 #include "view/view_frame.h"
-#include "view/window.h"
+#include "view/window/window.h"
 
 // The program's window over a limb at rest, with two devices on the table that nobody has: a Falcon that is gone, in
 // the right hand, and an Inverse3 at work in the left one. Takes what GuiProgram gives the program.
@@ -34,16 +35,12 @@ messages::SceneFrame held_limb(const anatomy::Specimen& specimen) {
 /// All forces as the person wants them.
 class Gate {
  public:
-  bool stopped(const view::ViewControls& controls) {
-    if (controls.arms != arms_) stopped_ = false;
-    if (controls.stops != stops_) stopped_ = true;
-    arms_ = controls.arms;
-    stops_ = controls.stops;
+  bool stopped(std::optional<bool> forces_on) {
+    stopped_ = !forces_on.value_or(!stopped_);
     return stopped_;
   }
 
  private:
-  std::uint32_t stops_ = 0, arms_ = 0;
   bool stopped_ = false;
 };
 
@@ -56,12 +53,13 @@ void run(const std::filesystem::path& report) {
   settings.facts.title = "Myotact";
   settings.facts.device_peaks_N = {8.0, 3.0};
   window.open(specimen, settings);
-  view::SessionNews news{false, false, 0.0};
+  view::SessionNews news{false, 0.0};
   news.devices = table();
   Gate gate;
   while (!window.should_close()) {
     window.set_news(news);
-    const bool stopped = gate.stopped(window.draw(frame));
+    window.draw(frame);
+    const bool stopped = gate.stopped(window.take_forces_on());
     for (messages::ToolFrame& tool : frame.tools) tool.forces_stopped = stopped;
     const std::filesystem::path next = report.string() + ".next";
     std::ofstream(next) << window.describe(frame);

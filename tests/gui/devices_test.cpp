@@ -5,6 +5,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "device/drivers/inverse/fake_inverse_service.h"
 #include "gui/gui_program.h"

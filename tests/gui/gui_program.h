@@ -39,7 +39,7 @@ class GuiTest : public ::testing::Test {
 };
 
 /// The program's window on a virtual display of its own, with a home of its own, driven by a real pointer and real
-/// keys. It tells what it shows by --report-state; controls are found by their keys.
+/// keys. It says what it shows by --report-state; controls are found by their keys.
 class GuiProgram {
  public:
   /// `name`: of the folder that keeps its pictures and logs. Waits until the first pictures are drawn.

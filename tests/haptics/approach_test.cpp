@@ -9,8 +9,8 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "haptics/surface_player.h"
 #include "realtime/period_histogram.h"
-#include "surface_player.h"
 
 namespace myotact::haptics {
 namespace {

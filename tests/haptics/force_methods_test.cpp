@@ -1,5 +1,3 @@
-#include "haptics/force_methods.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -7,9 +5,10 @@
 
 #include "device/replay_device.h"
 #include "device/simulated_device.h"
+#include "haptics/effects/reported_contact.h"
 #include "haptics/faults.h"
 #include "haptics/haptic_loop.h"
-#include "haptics/moving_surface.h"
+#include "haptics/proxy/moving_surface.h"
 #include "support/allocation_guard.h"
 
 namespace myotact::haptics {
@@ -35,23 +34,28 @@ TEST(PenetrationMethod, CarriesTheReportedDepthOnAlongATiltedNormal) {
   PenetrationMethod method;
   Vec3 tool_m(0.1, 0.2, 0.3);
   method.move(tool_m);
-  EXPECT_EQ(method.way_out().bearing, -1);  // nothing reported yet
+  EXPECT_EQ(method.depenetration().bearing, -1);  // nothing reported yet
   method.take(report({contact(Vec3::Zero(), n, 1e-3)}));
-  EXPECT_NEAR(method.way_out().depth_m, 1e-3, kExact_m);
+  EXPECT_NEAR(method.depenetration().depth_m, 1e-3, kExact_m);
   method.move(tool_m += Vec3(-0.5e-3, 0.0, -1e-3));
-  EXPECT_NEAR((method.way_out().way_m - 2.1e-3 * n).norm(), 0.0, kExact_m);
+  EXPECT_NEAR((method.depenetration().way_m - 2.1e-3 * n).norm(), 0.0, kExact_m);
   method.move(tool_m += Vec3(1e-3, 5e-3, 2e-3));  // 2.1 - 2.2: 0.1 mm out of it
-  EXPECT_EQ(method.way_out().way_m, Vec3::Zero());
-  EXPECT_EQ(method.way_out().bearing, -1);
+  EXPECT_EQ(method.depenetration().way_m, Vec3::Zero());
+  EXPECT_EQ(method.depenetration().bearing, -1);
   method.move(tool_m += Vec3(1e-3, 0.0, 2e-3));  // 2.3 mm out of it
-  EXPECT_EQ(method.way_out().way_m, Vec3::Zero());
+  EXPECT_EQ(method.depenetration().way_m, Vec3::Zero());
   for (int i = 0; i < 3; ++i) method.move(tool_m += Vec3(-0.5e-3, 0.0, -1e-3));  // -2.3 + 3 * 1.1: it comes back
-  EXPECT_NEAR(method.way_out().depth_m, 1.0e-3, kExact_m);
+  EXPECT_NEAR(method.depenetration().depth_m, 1.0e-3, kExact_m);
   method.take(report({contact(Vec3::Zero(), n, 0.4e-3)}));  // the report counts, whatever was carried on
-  EXPECT_NEAR(method.way_out().depth_m, 0.4e-3, kExact_m);
+  EXPECT_NEAR(method.depenetration().depth_m, 0.4e-3, kExact_m);
   method.take(report({}));
   method.move(tool_m += Vec3(-0.5e-3, 0.0, -1e-3));
-  EXPECT_EQ(method.way_out().bearing, -1);  // what the engine does not report is not felt
+  EXPECT_EQ(method.depenetration().bearing, -1);  // what the engine does not report is not felt
+}
+
+Depenetration depenetration_at(PlaneMethod& method, const Vec3& tool_m) {
+  method.move(tool_m);
+  return method.depenetration();
 }
 
 /// The tilted plane n . x = 0.6 * 10 mm through (10, 0, 0) mm; a sphere of 3 mm round (10, 7, 3) mm stands 2.4 mm off
@@ -59,15 +63,15 @@ TEST(PenetrationMethod, CarriesTheReportedDepthOnAlongATiltedNormal) {
 TEST(PlaneMethod, IsTheDepthOfTheSpheresLowestPoint) {
   const Vec3 n(0.6, 0.0, 0.8);
   PlaneMethod method(kRadius_m);
-  EXPECT_EQ(method.way_out(Vec3::Zero()).bearing, -1);
+  EXPECT_EQ(depenetration_at(method, Vec3::Zero()).bearing, -1);
   method.take(report({contact(Vec3(10e-3, 0, 0), n, 55.0)}));  // the reported depth is not asked for
-  const WayOut out = method.way_out(Vec3(10e-3, 7e-3, 3e-3));
+  const Depenetration out = depenetration_at(method, Vec3(10e-3, 7e-3, 3e-3));
   EXPECT_EQ(out.bearing, 0);
   EXPECT_NEAR(out.depth_m, 0.6e-3, kExact_m);
   EXPECT_NEAR((out.way_m - 0.6e-3 * n).norm(), 0.0, kExact_m);
-  EXPECT_EQ(method.way_out(Vec3(10e-3, 0, 4e-3)).way_m, Vec3::Zero());              // 0.2 mm above it
-  EXPECT_NEAR(method.way_out(Vec3(10e-3, 0, -1e-3)).depth_m, 3.8e-3, kExact_m);     // middle under the plane
-  EXPECT_NEAR(method.way_out(Vec3(10e-3, -9e-3, 2e-3)).depth_m, 1.4e-3, kExact_m);  // and back
+  EXPECT_EQ(depenetration_at(method, Vec3(10e-3, 0, 4e-3)).way_m, Vec3::Zero());              // 0.2 mm above it
+  EXPECT_NEAR(depenetration_at(method, Vec3(10e-3, 0, -1e-3)).depth_m, 3.8e-3, kExact_m);     // middle under the plane
+  EXPECT_NEAR(depenetration_at(method, Vec3(10e-3, -9e-3, 2e-3)).depth_m, 1.4e-3, kExact_m);  // and back
 }
 
 /// On a flat surface that rests, with reports of where the tool is now, the two methods are one. This engine reports
@@ -88,9 +92,9 @@ TEST(ForceMethods, PenetrationAndPlaneAgreeOnAFlatSurface) {
       a.take(report({contact(foot_m, n, depth_m)}));
       b.take(report({contact(foot_m, n, depth_m)}));
     }
-    EXPECT_NEAR((a.way_out().way_m - std::max(0.0, depth_m) * n).norm(), 0.0, 1e-12) << tick;
-    EXPECT_NEAR((b.way_out(tool_m).way_m - a.way_out().way_m).norm(), 0.0, 1e-12) << tick;
-    pressed += a.way_out().bearing >= 0;
+    EXPECT_NEAR((a.depenetration().way_m - std::max(0.0, depth_m) * n).norm(), 0.0, 1e-12) << tick;
+    EXPECT_NEAR((depenetration_at(b, tool_m).way_m - a.depenetration().way_m).norm(), 0.0, 1e-12) << tick;
+    pressed += a.depenetration().bearing >= 0;
   }
   EXPECT_GT(pressed, 100);
   EXPECT_LT(pressed, 500);
@@ -102,9 +106,9 @@ TEST(PenetrationMethod, JumpsWithAnOldReportAsPublished) {
   method.move(Vec3(0, 0, 0));
   method.take(report({contact(Vec3::Zero(), Vec3::UnitZ(), 1e-3)}));
   for (int tick = 1; tick <= 16; ++tick) method.move(Vec3(0, 0, -5e-5 * tick));
-  EXPECT_NEAR(method.way_out().depth_m, 1.8e-3, kExact_m);
+  EXPECT_NEAR(method.depenetration().depth_m, 1.8e-3, kExact_m);
   method.take(report({contact(Vec3::Zero(), Vec3::UnitZ(), 1e-3)}));
-  EXPECT_NEAR(method.way_out().depth_m, 1e-3, kExact_m);
+  EXPECT_NEAR(method.depenetration().depth_m, 1e-3, kExact_m);
 }
 
 /// Bullet, of a sphere on a flat mesh: the face, and the edge of the next triangle with a tilted normal.
@@ -113,37 +117,37 @@ TEST(PressedContacts, OneContactABodyTheDeepest) {
   pressed.take(report({contact(Vec3::Zero(), Vec3(0, 0.6, 0.8), 1e-3, 0), contact(Vec3::Zero(), Vec3::UnitZ(), 2e-3, 0),
                        contact(Vec3::Zero(), -Vec3::UnitX(), 1e-3, 7), contact(Vec3::Zero(), Vec3::UnitY(), 1e-3, 7)}));
   ASSERT_EQ(pressed.count(), 2);
-  EXPECT_NEAR((pressed.way_out().way_m - Vec3(-1e-3, 0, 2e-3)).norm(), 0.0, kExact_m);
-  EXPECT_EQ(pressed.way_out().bearing, 1);  // by its place in the report
+  EXPECT_NEAR((pressed.depenetration().way_m - Vec3(-1e-3, 0, 2e-3)).norm(), 0.0, kExact_m);
+  EXPECT_EQ(pressed.depenetration().bearing, 1);  // by its place in the report
   PlaneMethod plane(kRadius_m);
   plane.take(
       report({contact(Vec3::Zero(), Vec3(0, 0.6, 0.8), 1e-3, 0), contact(Vec3::Zero(), Vec3::UnitZ(), 2e-3, 0)}));
-  EXPECT_NEAR((plane.way_out(Vec3(0, 0, 1e-3)).way_m - Vec3(0, 0, 2e-3)).norm(), 0.0, kExact_m);
-  EXPECT_EQ(plane.way_out(Vec3(0, 0, 1e-3)).bearing, 1);
+  EXPECT_NEAR((depenetration_at(plane, Vec3(0, 0, 1e-3)).way_m - Vec3(0, 0, 2e-3)).norm(), 0.0, kExact_m);
+  EXPECT_EQ(depenetration_at(plane, Vec3(0, 0, 1e-3)).bearing, 1);
 }
 
 TEST(PressedContacts, AFacePressesOnceACornerTwiceASlotAgainstItself) {
   PressedContacts face;
   for (const double depth_m : {1e-3, 2e-3, 0.5e-3, 2e-3}) face.add({Vec3::UnitZ(), depth_m, face.count()});
-  EXPECT_NEAR((face.way_out().way_m - Vec3(0, 0, 2e-3)).norm(), 0.0, kExact_m);
+  EXPECT_NEAR((face.depenetration().way_m - Vec3(0, 0, 2e-3)).norm(), 0.0, kExact_m);
 
   PressedContacts corner;
   corner.add({Vec3::UnitZ(), 1e-3, 0});
   corner.add({Vec3::UnitX(), 2e-3, 1});
   corner.add({Vec3::UnitY(), -1e-3, 2});
-  EXPECT_NEAR((corner.way_out().way_m - Vec3(2e-3, 0, 1e-3)).norm(), 0.0, kExact_m);
-  EXPECT_EQ(corner.way_out().bearing, 1);
+  EXPECT_NEAR((corner.depenetration().way_m - Vec3(2e-3, 0, 1e-3)).norm(), 0.0, kExact_m);
+  EXPECT_EQ(corner.depenetration().bearing, 1);
 
   PressedContacts slot;
   slot.add({Vec3::UnitX(), 1e-3, 0});
   slot.add({-Vec3::UnitX(), 3e-3, 1});
-  EXPECT_NEAR((slot.way_out().way_m - Vec3(-2e-3, 0, 0)).norm(), 0.0, kExact_m);
+  EXPECT_NEAR((slot.depenetration().way_m - Vec3(-2e-3, 0, 0)).norm(), 0.0, kExact_m);
 
   // 60 degrees: w1 + w2/2 = 1 and w1/2 + w2 = 1 mm, so both 2/3: by hand.
   PressedContacts edge;
   edge.add({Vec3::UnitZ(), 1e-3, 0});
   edge.add({Vec3(std::sqrt(0.75), 0.0, 0.5), 1e-3, 1});
-  EXPECT_NEAR((edge.way_out().way_m - Vec3(2e-3 / 3.0 * std::sqrt(0.75), 0.0, 1e-3)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((edge.depenetration().way_m - Vec3(2e-3 / 3.0 * std::sqrt(0.75), 0.0, 1e-3)).norm(), 0.0, 1e-12);
 }
 
 /// Nothing jumps while the normals of a curved body come together, apart, or change places as the deepest.
@@ -157,7 +161,7 @@ TEST(PressedContacts, ChangesAsLittleAsTheContactsDo) {
     const bool turning_first = turning.depth_m > fixed.depth_m;  // the deepest first, as engines report
     pressed.add(turning_first ? turning : fixed);
     pressed.add(turning_first ? fixed : turning);
-    const Vec3 way_m = pressed.way_out().way_m;
+    const Vec3 way_m = pressed.depenetration().way_m;
     if (i > 0) {
       EXPECT_LT((way_m - last_m).norm(), 5e-6) << i;
     }
@@ -184,7 +188,7 @@ TEST(PullingMethod, IsASpringToTheNewestPublishedPlace) {
   EXPECT_NEAR((method.tick(&model, closed_m + moved_m, true, 3.0) + k_N_m * moved_m).norm(), 0.0, 1e-9);
   EXPECT_NEAR((method.target_m() - (Vec3(0.01, 0, 0) + moved_m)).norm(), 0.0, 1e-12);
   model.grip.position_world_m = {0.011, 0.002, 0.0};  // the body follows
-  model.grip.velocity_world_m_s = {1, 1, 1};          // which foretells nothing
+  model.grip.velocity_world_m_s = {1, 1, 1};          // which predicts nothing
   EXPECT_NEAR((method.tick(&model, closed_m + moved_m, true, 3.0) - k_N_m * Vec3(1e-3, -1e-3, 0)).norm(), 0.0, 1e-9);
   model.grip.point_rest_m = {9, 9, 9};  // of another point: held
   model.grip.position_world_m = {0.5, 0.5, 0.5};
@@ -285,7 +289,7 @@ TEST(PullingMethod, ATickOfItsLoopNeverAllocates) {
   EXPECT_EQ(loop.tool_state().grabbed_body, 2);
 }
 
-class FeltByReports : public testing::TestWithParam<ForceMethod> {};
+class FeltByReports : public ::testing::TestWithParam<ForceMethod> {};
 
 TEST_P(FeltByReports, AFloorIsASpringAndTheEngineIsToldOfIt) {
   FloorLoop floor(GetParam());
@@ -333,7 +337,7 @@ TEST_P(FeltByReports, NoForceBeyondTheDevicesShareAndNoneWithoutReports) {
   EXPECT_EQ(floor.loop().tool_state().contact.surface, -1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, FeltByReports, testing::Values(ForceMethod::Penetration, ForceMethod::Plane),
+INSTANTIATE_TEST_SUITE_P(Methods, FeltByReports, ::testing::Values(ForceMethod::Penetration, ForceMethod::Plane),
                          [](const auto& which) { return which.param == ForceMethod::Plane ? "Plane" : "Penetration"; });
 
 }  // namespace

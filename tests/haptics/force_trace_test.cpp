@@ -15,7 +15,7 @@
 #include "core/text.h"
 #include "device/replay_device.h"
 #include "haptics/haptic_loop.h"
-#include "surfaces.h"
+#include "haptics/surfaces.h"
 
 namespace myotact::haptics {
 namespace {

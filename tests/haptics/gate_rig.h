@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "haptics/force_gate.h"
+#include "haptics/gate/force_gate.h"
 
 namespace myotact::haptics {
 

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "haptics/faults.h"
+#include "haptics/gate/motor_heat.h"
 #include "haptics/gate_rig.h"
-#include "haptics/motor_heat.h"
 
 namespace myotact::haptics {
 namespace {

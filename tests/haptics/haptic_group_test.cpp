@@ -9,8 +9,8 @@
 
 #include "device/simulated_device.h"
 #include "haptics/faults.h"
+#include "haptics/surfaces.h"
 #include "support/allocation_guard.h"
-#include "surfaces.h"
 
 namespace myotact::haptics {
 namespace {

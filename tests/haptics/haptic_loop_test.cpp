@@ -9,12 +9,12 @@
 
 #include "device/replay_device.h"
 #include "device/simulated_device.h"
-#include "effort.h"
+#include "haptics/effort.h"
 #include "haptics/faults.h"
 #include "haptics/haptic_thread.h"
+#include "haptics/surfaces.h"
 #include "realtime/periodic_loop.h"
 #include "support/allocation_guard.h"
-#include "surfaces.h"
 
 namespace myotact::haptics {
 namespace {
@@ -107,7 +107,7 @@ TEST(HapticLoop, TextureReachesTheHand) {
     if (tick < 1000) continue;
     squares += (to_vec3(with.loop.tool_state().force_world_N) - to_vec3(without.loop.tool_state().force_world_N))
                    .squaredNorm();
-    damping_Ns_m += with.loop.ports().texture().damping_Ns_m();
+    damping_Ns_m += with.loop.ports().port(place_of<TextureEffect>()).damping_Ns_m();
     faults |= with.loop.tool_state().faults;
     ++count;
   }

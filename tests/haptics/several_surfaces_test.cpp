@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "geometry/closest_point.h"
-#include "haptics/proxy.h"
-#include "surfaces.h"
+#include "haptics/proxy/proxy.h"
+#include "haptics/surfaces.h"
 
 namespace myotact::haptics {
 namespace {
@@ -19,7 +19,7 @@ namespace {
 constexpr std::uint64_t kTick_ns = 1'000'000;
 constexpr int kTicksAStep = 10;
 
-/// Three meshes in one list of vertices and triangles; `surface` tells which one a triangle is of.
+/// Three meshes in one list of vertices and triangles; `surface` says which one a triangle is of.
 struct Room {
   geometry::TriangleMesh mesh;
   std::size_t table = 0, box = 0;  // vertices of each

@@ -3,9 +3,9 @@
 #include <functional>
 #include <vector>
 
-#include "haptics/proxy.h"
+#include "haptics/proxy/proxy.h"
+#include "haptics/surfaces.h"
 #include "realtime/periodic_loop.h"
-#include "surfaces.h"
 
 namespace myotact::haptics {
 

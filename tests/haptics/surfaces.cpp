@@ -1,4 +1,4 @@
-#include "surfaces.h"
+#include "haptics/surfaces.h"
 
 #include <algorithm>
 #include <cmath>

@@ -14,7 +14,8 @@ namespace myotact::layer {
 inline constexpr double kRadius_m = 3e-3;  // of the tools
 inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// A horizontal floor, at z = 0 unless it moves: all that it does is known in closed form. It may spoil what it tells.
+/// A horizontal floor, at z = 0 unless it moves: all that it does is known in closed form. It may spoil what it
+/// reports.
 class FloorEngine : public Engine {
  public:
   std::string_view name() const override { return "floor"; }

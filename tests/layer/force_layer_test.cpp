@@ -74,7 +74,7 @@ class Expected {
   double reported_m_ = -1.0, taken_at_m_ = 0.0;
 };
 
-class ByMethod : public testing::TestWithParam<ForceMethod> {};
+class ByMethod : public ::testing::TestWithParam<ForceMethod> {};
 
 TEST_P(ByMethod, AFloorAt60HzIsItsClosedFormAt1kHz) {
   const std::vector<Vec3> path_m = press_and_slide();
@@ -102,13 +102,13 @@ TEST_P(ByMethod, AFloorAt60HzIsItsClosedFormAt1kHz) {
   EXPECT_NEAR(on_floor_N, -told.force_world_N[2], 1e-9);
 }
 
-std::string name_of(const testing::TestParamInfo<ForceMethod>& which) {
+std::string name_of(const ::testing::TestParamInfo<ForceMethod>& which) {
   constexpr std::array kNames = {"Proxy", "Penetration", "Plane"};
   return kNames[static_cast<std::size_t>(which.param)];
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, ByMethod,
-                         testing::Values(ForceMethod::Proxy, ForceMethod::Penetration, ForceMethod::Plane), name_of);
+                         ::testing::Values(ForceMethod::Proxy, ForceMethod::Penetration, ForceMethod::Plane), name_of);
 
 /// The proxy's floor is played one step late and evenly, although steps are 16 or 17 ticks apart.
 TEST(ForceLayer, AFloorThatRisesIsPlayedEvenlyOneStepLate) {
@@ -208,7 +208,7 @@ TEST(ForceLayer, TheProxysForceIsContinuousInASlide) {
 }
 
 /// Two tools that press, for what concerns both.
-class TwoTools : public testing::Test {
+class TwoTools : public ::testing::Test {
  protected:
   TwoTools() { run(700, -2e-3); }
 

@@ -8,13 +8,13 @@
 namespace myotact::layer {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 messages::ReportedContact good(double depth_m = 1e-3) {
   return {0, {0.01, 0.02, 0.0}, {0, 0, 1}, depth_m};
 }
 
-/// A good contact, a bad one and a good one: the bad one goes, and is told once however often it comes.
+/// A good contact, a bad one and a good one: the bad one goes, and is reported once however often it comes.
 void expect_taken_out(const messages::ReportedContact& bad, ReportDefect defect, const std::string& told) {
   FloorEngine engine;
   ReportCheck check(engine);
@@ -41,7 +41,7 @@ void expect_taken_out(const messages::ReportedContact& bad, ReportDefect defect,
 TEST(ReportCheck, TakesOutWhatIsNoNumber) {
   auto bad = good();
   bad.penetration_m = kNaN;
-  expect_taken_out(bad, ReportDefect::NotFinite, "no number");
+  expect_taken_out(bad, ReportDefect::NotFinite, "not a number");
   bad = good();
   bad.point_world_m[1] = kNaN;
   expect_taken_out(bad, ReportDefect::NotFinite, "surface 0");
@@ -50,7 +50,7 @@ TEST(ReportCheck, TakesOutWhatIsNoNumber) {
   expect_taken_out(bad, ReportDefect::NotFinite, "time step");
   bad = good();
   bad.point_world_m[0] = 1e9;
-  expect_taken_out(bad, ReportDefect::NotFinite, "no number");
+  expect_taken_out(bad, ReportDefect::NotFinite, "not a number");
 }
 
 TEST(ReportCheck, TakesOutContactsWithoutANormal) {

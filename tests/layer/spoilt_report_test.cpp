@@ -116,7 +116,7 @@ class Pressing {
   int tick_ = 0;
 };
 
-class SpoiltReport : public testing::TestWithParam<Spoilt> {};
+class SpoiltReport : public ::testing::TestWithParam<Spoilt> {};
 
 TEST_P(SpoiltReport, GivesNoForceAndComesBackByTheGatesRules) {
   const Spoilt& spoilt = GetParam();
@@ -147,7 +147,7 @@ TEST_P(SpoiltReport, GivesNoForceAndComesBackByTheGatesRules) {
   EXPECT_EQ(hand.count(spoilt.defect), count);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, SpoiltReport, testing::ValuesIn(spoilt_reports()),
+INSTANTIATE_TEST_SUITE_P(Kinds, SpoiltReport, ::testing::ValuesIn(spoilt_reports()),
                          [](const auto& which) { return which.param.name; });
 
 /// More contacts than there is room for: the first ones are felt as they are.
@@ -163,7 +163,7 @@ TEST(SpoiltReports, TooManyContactsAreStillFelt) {
   EXPECT_GE(hand.count(ReportDefect::TooMany), 17u);
 }
 
-/// FORMATS: fade after max(30 ms, 2 steps), zero at 100 ms, back through RAMP; and the layer names who hangs.
+/// The force gate: fade after max(30 ms, 2 steps), zero at 100 ms, back through RAMP; and the layer names who hangs.
 TEST(SpoiltReports, AnEngineThatHangsFadesTheForceAndIsNamed) {
   for (const ForceMethod method : {ForceMethod::Proxy, ForceMethod::Penetration, ForceMethod::Plane}) {
     Pressing hand(method);

@@ -146,7 +146,7 @@ class WatchedDevice : public device::Device {
   std::uint64_t large_steps() const noexcept { return large_steps_.load(std::memory_order_relaxed); }  // over 30 mN
 
  private:
-  static constexpr double kLargeStep_N = 0.030;  // reference 3.2, goal 13
+  static constexpr double kLargeStep_N = 0.030;  // the goal of a step of the force in one tick
   device::Device& inner_;
   haptics::HapticLoop* loop_ = nullptr;
   TearingWatch* watch_ = nullptr;

@@ -147,7 +147,7 @@ const char* const kPredict =
 TEST(LessonRun, APredictionIsJudgedByThePullThatFollows) {
   for (const Motion guess : {Motion::Flexion, Motion::Extension}) {
     Class c(kPredict);
-    c.joint().muscles[kBiceps].lever_m = 0.0113;
+    c.joint().muscles[kBiceps].moment_arm_m = 0.0113;
     c.joint().angle_rad = 0.2;
     c.frame.tools[0].grabbed_line = kBiceps;  // pulling before predicting shows nothing
     c.pass(0.1);
@@ -169,7 +169,7 @@ TEST(LessonRun, APredictionIsJudgedByThePullThatFollows) {
     EXPECT_TRUE(c.run.state().done);
     EXPECT_EQ(c.run.state().right, guess == Motion::Flexion);
     EXPECT_DOUBLE_EQ(c.run.score(), guess == Motion::Flexion ? 1.0 : 0.5);
-    EXPECT_DOUBLE_EQ(c.run.state().lever_m, 0.0113);
+    EXPECT_DOUBLE_EQ(c.run.state().moment_arm_m, 0.0113);
   }
 }
 

@@ -17,7 +17,7 @@ struct Shipped {
   Lesson lesson;
 };
 
-/// All muscles as lines: levers depend on the lines alone.
+/// All muscles as lines: moment arms depend on the lines alone.
 const std::vector<Shipped>& shipped() {
   static const std::vector<Shipped> kLessons = [] {
     std::vector<Shipped> lessons;
@@ -52,9 +52,9 @@ TEST(ShippedLessons, EveryPredictedMotionIsTheSignOfTheSimulatedLever) {
       const auto* predict = std::get_if<PredictTask>(&step.task);
       if (predict == nullptr) continue;
       ++predictions;
-      const double lever_m = simulation.muscle_at_joint(predict->muscle, predict->joint).lever_m;
-      EXPECT_GT(std::abs(lever_m), 0.005) << step.title << ": too short to be asked for";
-      EXPECT_EQ(lever_m > 0.0, predict->motion == Motion::Flexion) << one.lesson.key << ", " << step.title;
+      const double moment_arm_m = simulation.muscle_at_joint(predict->muscle, predict->joint).moment_arm_m;
+      EXPECT_GT(std::abs(moment_arm_m), 0.005) << step.title << ": too short to be asked for";
+      EXPECT_EQ(moment_arm_m > 0.0, predict->motion == Motion::Flexion) << one.lesson.key << ", " << step.title;
     }
   }
   EXPECT_GE(predictions, 8);
@@ -87,7 +87,7 @@ TEST(ShippedLessons, QuotedLeversAreTheSimulatedOnes) {
     simulation.settle(std::vector<double>(one.scene.joints.size(), 0.0), one.scene.activations);
     for (const auto& [key, lever_mm] : quoted->second) {
       const int muscle = anatomy::find_muscle(one.scene.specimen, key);
-      const double simulated_m = simulation.muscle_at_joint(muscle, one.scene.co_contraction->joint).lever_m;
+      const double simulated_m = simulation.muscle_at_joint(muscle, one.scene.co_contraction->joint).moment_arm_m;
       EXPECT_NEAR(1e3 * simulated_m, lever_mm, 1.0) << key;
     }
   }

@@ -28,7 +28,7 @@ std::set<std::string> misses_of(const MeasuredGoal& measured) {
   return misses;
 }
 
-class EveryGoal : public testing::TestWithParam<Goal> {};
+class EveryGoal : public ::testing::TestWithParam<Goal> {};
 
 TEST_P(EveryGoal, IsMetButForTime) {
   const MeasuredGoal measured = measure_goal(GetParam(), Effort::Short);
@@ -38,7 +38,7 @@ TEST_P(EveryGoal, IsMetButForTime) {
   EXPECT_EQ(misses_of(measured), known == kKnownMisses.end() ? std::set<std::string>() : known->second);
 }
 
-INSTANTIATE_TEST_SUITE_P(Fidelity, EveryGoal, testing::ValuesIn(fidelity_goals().begin(), fidelity_goals().end()),
+INSTANTIATE_TEST_SUITE_P(Fidelity, EveryGoal, ::testing::ValuesIn(fidelity_goals().begin(), fidelity_goals().end()),
                          [](const auto& goal) { return "Goal" + std::to_string(goal.param.number); });
 
 GoalFigures one_missed(Effort) {

@@ -65,17 +65,17 @@ TEST(ForceComparison, AGainIsFoundWhateverTheSize) {
     const ForceComparison found = compare_forces({commanded_N, presses(4200), {}, {}});
     EXPECT_NEAR(found.gain, gain, 1e-9);
     EXPECT_NEAR(found.error_rms_share, std::abs(gain - 1.0), 1e-9);
-    EXPECT_NEAR(found.turn_angle_rad(), 0.0, 1e-9);
+    EXPECT_NEAR(found.rotation_angle_rad(), 0.0, 1e-9);
   }
 }
 
 TEST(ForceComparison, ATurnIsFoundWithItsAxisAndSign) {
-  const Vec3 turn_rad(0.02, -0.3, 0.15);
-  const Mat3 turn = Eigen::AngleAxisd(turn_rad.norm(), turn_rad.normalized()).toRotationMatrix();
+  const Vec3 rotation_rad(0.02, -0.3, 0.15);
+  const Mat3 turn = Eigen::AngleAxisd(rotation_rad.norm(), rotation_rad.normalized()).toRotationMatrix();
   std::vector<Vec3> commanded_N;
   for (const Vec3& force_N : presses(4200)) commanded_N.emplace_back(turn * force_N);
   const ForceComparison found = compare_forces({commanded_N, presses(4200), {}, {}});
-  EXPECT_LT((found.turn_rad - turn_rad).norm(), 1e-6);
+  EXPECT_LT((found.rotation_rad - rotation_rad).norm(), 1e-6);
 }
 
 TEST(ForceComparison, ForcesAlongOneLineTellNothingOfATurnAboutIt) {
@@ -83,7 +83,7 @@ TEST(ForceComparison, ForcesAlongOneLineTellNothingOfATurnAboutIt) {
   const Mat3 turn = Eigen::AngleAxisd(0.2, Vec3::UnitZ()).toRotationMatrix();
   for (const Vec3& force_N : true_N) commanded_N.emplace_back(turn * force_N);
   const ForceComparison found = compare_forces({commanded_N, true_N, {}, {}});
-  EXPECT_LT((found.turn_rad - 0.2 * Vec3::UnitZ()).norm(), 1e-9);
+  EXPECT_LT((found.rotation_rad - 0.2 * Vec3::UnitZ()).norm(), 1e-9);
   EXPECT_NEAR(found.mean_angle_rad, 0.2, 1e-6);
 }
 
@@ -147,7 +147,7 @@ TEST(ForceComparison, WithoutAForceNothingIsSaid) {
   EXPECT_EQ(compare_forces({}).ticks, 0u);
 }
 
-class Planted : public testing::TestWithParam<const char*> {};
+class Planted : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(Planted, IsFoundWithin10Percent) {
   const PlantedFaults faults = parse_planted_faults(GetParam());
@@ -162,8 +162,8 @@ TEST_P(Planted, IsFoundWithin10Percent) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Faults, Planted,
-                         testing::Values("delay_ms=5", "scale=0.9", "rotate_deg=5", "noise_mN=20",
-                                         "delay_ms=5,scale=0.9,rotate_deg=5,noise_mN=20"));
+                         ::testing::Values("delay_ms=5", "scale=0.9", "rotate_deg=5", "noise_mN=20",
+                                           "delay_ms=5,scale=0.9,rotate_deg=5,noise_mN=20"));
 
 TEST(PlantedFaults, NoneChangesNoBit) {
   const std::vector<Vec3> force_N = presses(300);

@@ -60,7 +60,8 @@ TEST(WrappedPath, WrappedPathHasTheCylindersLever) {
   EXPECT_EQ(wrapped.arm_slope_m_rad, 0.0);
   const double off_rad = 2.4 - std::acos(0.018 / 0.04) - std::acos(0.018 / 0.03);
   EXPECT_NEAR(measure_path(path, off_rad + 1e-9).length_m, measure_path(path, off_rad - 1e-9).length_m, 1e-10);
-  EXPECT_NEAR(measure_path(path, off_rad + 1e-9).arm_m, 0.018, 1e-9);  // the lever does not jump where it lifts off
+  EXPECT_NEAR(measure_path(path, off_rad + 1e-9).arm_m, 0.018,
+              1e-9);  // the moment arm does not jump where it lifts off
 }
 
 // ---- balance, stiffness, oscillation

@@ -69,7 +69,7 @@ TEST(SceneFidelity, TheForceFollowsTheScenesOwnSteps) {
 // either truth, and what the hand feels.
 TEST(SceneFidelity, APressThatStaysIsTheSameByBothTruths) {
   scene::Scene scene = block_scene();
-  std::get<scene::SlideOnMuscle>(scene.script[1].deed).to = 0.45;
+  std::get<scene::SlideOnMuscle>(scene.script[1].what).to = 0.45;
   scene.script.pop_back();
   FidelityRequest request;
   request.truth = Truth::Ticks;
@@ -83,7 +83,7 @@ TEST(SceneFidelity, APressThatStaysIsTheSameByBothTruths) {
   }
   std::printf("mean of a press: felt %.4f N, true %.4f N\n", felt_N.z(), true_N.z());
   EXPECT_GT(true_N.z(), 0.3);
-  EXPECT_NEAR(felt_N.z() / true_N.z(), 1.0, 0.05);  // goal 8
+  EXPECT_NEAR(felt_N.z() / true_N.z(), 1.0, 0.05);  // the goal of felt stiffness
 }
 
 // Beside the force without them, and beside the simulated force, from which the felt one differs by itself.
@@ -120,11 +120,11 @@ TEST(SceneFidelity, ReportsHoldTheSeriesAndEveryFigure) {
   const std::string csv = scene_fidelity_csv(fidelity);
   EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), fidelity.force.true_N.size() + 1);
   const nlohmann::json json = nlohmann::json::parse(scene_fidelity_json(fidelity));
-  EXPECT_EQ(json["figures"].size(), judge(fidelity).size());
+  EXPECT_EQ(json["figures"].size(), grade(fidelity).size());
   EXPECT_EQ(json["truth"], "steps");
   EXPECT_GT(json["stiffness_ranges"].size(), 4u);
   fidelity.compared.front().found.error_rms_share = 0.5;
-  EXPECT_EQ(worst_grade(judge(fidelity)), Grade::Poor);
+  EXPECT_EQ(worst_grade(grade(fidelity)), Grade::Poor);
 }
 
 TEST(SceneFidelity, AScriptThatTouchesNothingSaysSo) {
@@ -133,7 +133,7 @@ TEST(SceneFidelity, AScriptThatTouchesNothingSaysSo) {
   scene.script[0] = {0.0, 0.2, scene::MoveHand{Vec3(0.0, 0.0, 0.5)}};
   const SceneFidelity fidelity = measure_scene_fidelity(scene, {}, {});
   EXPECT_TRUE(std::isnan(fidelity.compared.front().found.gain));
-  EXPECT_EQ(worst_grade(judge(fidelity)), Grade::Unknown);
+  EXPECT_EQ(worst_grade(grade(fidelity)), Grade::Unknown);
   EXPECT_FALSE(fidelity.notes.empty());
   EXPECT_EQ(nlohmann::json::parse(scene_fidelity_json(fidelity))["compared"]["force"]["gain"], nullptr);
 }

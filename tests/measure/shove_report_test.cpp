@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "measure/hinge_scene.h"
-#include "scene/turned_torques.h"
+#include "scene/rotated_torques.h"
 
 namespace myotact::measure {
 namespace {
@@ -54,12 +54,12 @@ TEST(ShoveReport, SaysWhetherItRings) {
   EXPECT_NE(limp.why.find("It rings at"), std::string::npos) << limp.why;
 }
 
-TEST(TurnedTorques, AreThoseMeasuredInTheOtherPosture) {
+TEST(RotatedTorques, AreThoseMeasuredInTheOtherPosture) {
   const scene::Scene scene = line_scene();
   simulation::Simulation simulation(scene.specimen, scene.settings);
   const std::array at{0.0}, there{0.3};
   const scene::TorqueTable table = scene::measure_torques(scene, simulation, at);
-  const scene::TorqueTable turned = scene::turned_torques(table, scene, at, there);
+  const scene::TorqueTable turned = scene::rotated_torques(table, scene, at, there);
   const scene::TorqueTable measured = scene::measure_torques(scene, simulation, there);
   for (std::size_t m = 0; m < 2; ++m) {
     for (std::size_t i = 0; i < table.levels.size(); ++i) {

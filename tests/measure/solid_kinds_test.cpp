@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "measure/validation/nested_muscle.h"
 #include "measure/validation/solid_inputs.h"

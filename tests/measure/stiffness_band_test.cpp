@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "measure/hinge_scene.h"
-#include "simulation/line_model.h"
+#include "simulation/line/line_model.h"
 
 namespace myotact::measure {
 namespace {
@@ -162,10 +162,11 @@ TEST(StiffnessBand, LeavesOutWhatTheSpecimenIsSureOfAndSaysSo) {
 TEST(StiffnessBand, WeightOfAHangingRodIsAPendulums) {
   LineLimb limb = uncertain_limb();
   const anatomy::Body& rod = limb.specimen.bodies[1];
-  const double lever_m = (rod.com_m - limb.specimen.joints[0].centre_m).norm();
-  const Vec3 down = (rod.com_m - limb.specimen.joints[0].centre_m) / lever_m;
+  const double moment_arm_m = (rod.com_m - limb.specimen.joints[0].centre_m).norm();
+  const Vec3 down = (rod.com_m - limb.specimen.joints[0].centre_m) / moment_arm_m;
   const std::vector<double> angles = {0.3};
-  EXPECT_NEAR(weight_stiffness_Nm_rad(limb, angles, 9.81 * down), rod.mass_kg * 9.81 * lever_m * std::cos(0.3), 1e-12);
+  EXPECT_NEAR(weight_stiffness_Nm_rad(limb, angles, 9.81 * down), rod.mass_kg * 9.81 * moment_arm_m * std::cos(0.3),
+              1e-12);
 }
 
 }  // namespace

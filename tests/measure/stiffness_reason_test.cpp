@@ -29,16 +29,17 @@ StiffnessRow row_of(double muscle_Nm_rad, double geometry_Nm_rad) {
 
 TEST(StiffnessReason, NamesTheLargestPartItsMuscleAndWhatWorksAgainstIt) {
   const std::string why = explain_stiffness(row_of(4.0, -1.0));
-  EXPECT_THAT(why, HasSubstr("K = 3.10 N m/rad; its largest part is the fibres' own stiffness at their levers (r^2 k), "
-                             "+4.00 (the biceps brachii most: +3.00)"));
-  EXPECT_THAT(why, HasSubstr("against it works the levers that change as the joint turns (-(dr/dq) F), -1.00 (the "
+  EXPECT_THAT(why,
+              HasSubstr("K = 3.10 N m/rad; its largest part is the fibres' own stiffness at their moment arms (r^2 k), "
+                        "+4.00 (the biceps brachii most: +3.00)"));
+  EXPECT_THAT(why, HasSubstr("against it: the moment arms that change as the joint rotates (-(dr/dq) F), -1.00 (the "
                              "anconeus most: -0.75)"));
   EXPECT_THAT(why, Not(HasSubstr("unstable")));
 }
 
 TEST(StiffnessReason, AnUnstableJointIsToldWhatWouldChangeIt) {
-  EXPECT_THAT(explain_stiffness(row_of(1.0, -3.0)),
-              AllOf(HasSubstr("its largest part is the levers"), HasSubstr("unstable"), HasSubstr("lines that wrap")));
+  EXPECT_THAT(explain_stiffness(row_of(1.0, -3.0)), AllOf(HasSubstr("its largest part is the moment arms"),
+                                                          HasSubstr("unstable"), HasSubstr("lines that wrap")));
   EXPECT_THAT(explain_stiffness(row_of(-3.0, 1.0)), AllOf(HasSubstr("its largest part is the fibres"),
                                                           HasSubstr("a shorter rest stretch, which brings the")));
   StiffnessRow bulk = row_of(1.0, 0.5);

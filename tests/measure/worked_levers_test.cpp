@@ -7,18 +7,18 @@
 
 #include "core/data_folder.h"
 #include "measure/line/line_model_file.h"
-#include "simulation/line_model.h"
+#include "simulation/line/line_model.h"
 
-// Levers of the embedded limbs' muscle lines beside those of the worked one-dimensional joints (assets/cases), whose
-// paths were taken from the same dog's full sections, before there was a program that traces lines.
+// Moment arms of the embedded limbs' muscle lines beside those of the worked one-dimensional joints (assets/cases),
+// whose paths were taken from the same dog's full sections, before there was a program that traces lines.
 
 namespace myotact::measure {
 namespace {
 
 /// Half of what the joints' axes are known to. Measured points are rounded to 0.1 mm; lines end on the bone where the
 /// dog's authors put a marker, the worked paths in the middle of a contact or of markers.
-constexpr double kLever_m = 1.5e-3;
-/// Such a difference of levers, made within 30 degrees.
+constexpr double kMomentArm_m = 1.5e-3;
+/// Such a difference of moment arms, made within 30 degrees.
 constexpr double kLeverSlope_m_rad = 3e-3;
 
 struct Worked {
@@ -61,10 +61,10 @@ TEST_P(WorkedLevers, AreThoseOfTheEmbeddedLines) {
     simulation::LineGeometry ours;
     simulation::measure_line(*line, skeleton, ours);
     const PathGeometry worked = measure_path(muscle.path, q_rad);
-    const double lever_m = -ours.slope_m_rad[joint], slope_m_rad = -ours.curvature_m_rad2(joint, joint);
-    fmt::print("{:32} {:6.2f} / {:6.2f}  {:6.2f} / {:6.2f}\n", muscle.key, 1e3 * lever_m, 1e3 * worked.arm_m,
+    const double moment_arm_m = -ours.slope_m_rad[joint], slope_m_rad = -ours.curvature_m_rad2(joint, joint);
+    fmt::print("{:32} {:6.2f} / {:6.2f}  {:6.2f} / {:6.2f}\n", muscle.key, 1e3 * moment_arm_m, 1e3 * worked.arm_m,
                1e3 * slope_m_rad, 1e3 * worked.arm_slope_m_rad);
-    EXPECT_NEAR(lever_m, worked.arm_m, kLever_m) << muscle.key;
+    EXPECT_NEAR(moment_arm_m, worked.arm_m, kMomentArm_m) << muscle.key;
     EXPECT_NEAR(slope_m_rad, worked.arm_slope_m_rad, kLeverSlope_m_rad) << muscle.key;
   }
 }

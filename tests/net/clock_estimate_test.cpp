@@ -45,5 +45,46 @@ TEST(ClockEstimate, IgnoresAnswersFromBeforeTheQuestion) {
   EXPECT_EQ(clock.here_ns(5), 5u);
 }
 
+TEST(ClockEstimate, TwoUnequalWaysShiftItByHalfOfTheirDifference) {
+  ClockEstimate clock;
+  constexpr std::uint64_t kOffset = 5000 * kMs;
+  clock.add(ping(1000 * kMs, kOffset, 1 * kMs, 9 * kMs));
+  // What left there at 1003 ms of our clock is taken to have left at 1007 ms: 5 ms for each way, 2 ms of work.
+  EXPECT_EQ(clock.here_ns(1003 * kMs + kOffset), 1007 * kMs);
+  clock.add(ping(2000 * kMs, kOffset, 9 * kMs, 2 * kMs));  // longer: the first one counts on
+  EXPECT_EQ(clock.here_ns(1003 * kMs + kOffset), 1007 * kMs);
+  EXPECT_DOUBLE_EQ(clock.least_round_trip_s(), 10e-3);
+}
+
+TEST(ClockEstimate, AnotherMachinesClockMayHaveBegunAtAnyTime) {
+  constexpr std::uint64_t kHalf = std::uint64_t{1} << 63;
+  for (const std::uint64_t here : {5 * kMs, std::uint64_t{1} << 62}) {
+    for (const std::uint64_t offset : {0 - here, kHalf, kHalf - here, kHalf + here, 0 - 3 * kMs}) {
+      ClockEstimate clock;
+      clock.add(ping(here, offset, 1 * kMs, 1 * kMs));
+      EXPECT_EQ(clock.here_ns(here + offset + 700 * kMs), here + 700 * kMs) << here << " " << offset;
+    }
+  }
+}
+
+TEST(ClockEstimate, WhatCannotBeTrueIsLeftOut) {
+  ClockEstimate clock;
+  clock.add(ping(1000 * kMs, 40 * kMs, 2 * kMs, 2 * kMs));
+  for (const std::uint64_t worked : {std::uint64_t{1} << 63, std::uint64_t{3} << 61, std::uint64_t{10} * kMs}) {
+    clock.add({2000 * kMs, 2000 * kMs, 2000 * kMs + worked, 2006 * kMs});
+  }
+  EXPECT_DOUBLE_EQ(clock.round_trip_s(), 4e-3);
+  EXPECT_EQ(clock.here_ns(1040 * kMs), 1000 * kMs);
+}
+
+TEST(ClockEstimate, TheShortestRoundTripCountsForSixtyFourPings) {
+  ClockEstimate clock;
+  clock.add(ping(1000 * kMs, 7 * kMs, 1 * kMs, 1 * kMs));
+  for (std::uint64_t i = 1; i < 64; ++i) clock.add(ping(1000 * kMs + i * 100 * kMs, 7 * kMs, 2 * kMs, 20 * kMs));
+  EXPECT_EQ(clock.here_ns(5007 * kMs), 5000 * kMs);
+  EXPECT_DOUBLE_EQ(clock.least_round_trip_s(), 2e-3);
+  EXPECT_DOUBLE_EQ(clock.round_trip_s(), 22e-3) << "of the newest";
+}
+
 }  // namespace
 }  // namespace myotact::net

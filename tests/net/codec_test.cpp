@@ -221,7 +221,7 @@ TEST(Codec, ScenesComeThroughWithinTheGrid) {
     EXPECT_EQ(read.body_poses, frame.body_poses);
     EXPECT_EQ(read.lines_world_m, frame.lines_world_m);
     EXPECT_EQ(read.springs_world_m, frame.springs_world_m);
-    EXPECT_EQ(read.joints[1].muscles[0].lever_m, 0.5);
+    EXPECT_EQ(read.joints[1].muscles[0].moment_arm_m, 0.5);
     EXPECT_EQ(read.tools[0].parts.friction, frame.tools[0].parts.friction);
     EXPECT_EQ(read.notice, frame.notice);
   }

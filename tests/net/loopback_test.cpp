@@ -119,17 +119,17 @@ TEST(Loopback, ScenesAreShown) {
 
 TEST(Loopback, ATokenAdmitsAndAnotherDoesNot) {
   ServerSettings settings;
-  settings.door.token = new_token();
-  settings.door.instructor_token = new_token();
+  settings.access_policy.token = new_token();
+  settings.access_policy.instructor_token = new_token();
   LoopbackServer host(settings);
   ClientSettings given = host.client();
   EXPECT_THROW(Client(given).start(), Error);
-  given.hello.token = *settings.door.token;
+  given.hello.token = *settings.access_policy.token;
   Client student(given);
   EXPECT_NO_THROW(student.start());
   given.hello.role = Role::Instructor;
   EXPECT_THROW(Client(given).start(), Error) << "the students' token makes no instructor";
-  given.hello.token = *settings.door.instructor_token;
+  given.hello.token = *settings.access_policy.instructor_token;
   Client instructor(given);
   EXPECT_NO_THROW(instructor.start());
 }

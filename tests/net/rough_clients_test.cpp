@@ -138,10 +138,10 @@ TEST(RoughClients, WhoSaysNothingIsClosed) {
 
 TEST(RoughClients, AWrongTokenAThousandTimesChangesNothing) {
   ServerSettings settings;
-  settings.door.token = new_token();
+  settings.access_policy.token = new_token();
   LoopbackServer host(settings);
   ClientSettings given = host.client(false, Role::Viewer);
-  given.hello.token = *settings.door.token;
+  given.hello.token = *settings.access_policy.token;
   Client witness(given);
   witness.start();
   for (int i = 0; i < 1000; ++i) {

@@ -5,6 +5,7 @@
 
 #include "core/file.h"
 #include "core/json_reader.h"
+#include "net/control_state_codec.h"
 #include "net/frame_reader.h"
 #include "net/local_model_codec.h"
 #include "net/scene_decoder.h"
@@ -136,9 +137,41 @@ TEST(Vectors, ASceneIsPutTogether) {
   }
 }
 
+TEST(Vectors, WhatIsInForceBothWays) {
+  const Bytes bytes = vector_of("in_force");
+  const Frame frame = frame_of(bytes);
+  messages::ControlState state;
+  ASSERT_TRUE(decode_control_state(frame.payload, state));
+  EXPECT_EQ(state.drive, messages::Drive::Balance);
+  EXPECT_EQ(state.driver, messages::Commander::Network);
+  EXPECT_EQ(state.extensors, 0.25);
+  EXPECT_EQ(state.difference, -0.125);
+  EXPECT_EQ(state.common_now, 0.625);
+  EXPECT_TRUE(state.hold_posture && state.paused);
+  EXPECT_FALSE(state.gravity || state.recording);
+  Bytes again;
+  encode_control_state(state, again);
+  expect_bytes("in_force", frame.header, again);
+}
+
+TEST(Vectors, WhatIsInForceIsRefusedOutOfItsRange) {
+  const Bytes bytes = vector_of("in_force");
+  const messages::ControlState before;
+  for (const auto& [place, byte] :
+       {std::pair<std::size_t, std::uint8_t>{0, 3}, {1, 4}, {2, 16}, {10, 0x7F}, {10, 0xBF}}) {
+    Bytes payload(bytes.begin() + kHeaderBytes, bytes.end());
+    payload[place] = byte;
+    messages::ControlState state = before;
+    EXPECT_FALSE(decode_control_state(payload, state)) << place;
+    EXPECT_EQ(state, before);
+  }
+  messages::ControlState state;
+  EXPECT_FALSE(decode_control_state(std::span(bytes).subspan(kHeaderBytes + 1), state));
+}
+
 TEST(Vectors, TheManifestTellsTheirBytes) {
   const nlohmann::json manifest = read_json(kFolder / "manifest.json");
-  EXPECT_EQ(manifest.size(), 15u);
+  EXPECT_EQ(manifest.size(), 16u);
   for (const auto& entry : manifest) {
     std::string hex;
     const std::string name = entry.at("file").get<std::string>();

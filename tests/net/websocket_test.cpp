@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "net/small_frames.h"
-#include "net/websocket_door.h"
+#include "net/websocket_listener.h"
 #include "support/loopback_server.h"
 
 // The door for browsers, knocked at with bytes as RFC 6455 has them.
@@ -19,8 +19,8 @@ using testing::LoopbackServer;
 
 class Browser {
  public:
-  explicit Browser(const WebSocketDoor& door)
-      : socket_(connect_to({"127.0.0.1", door.port()}, std::chrono::milliseconds(2000))) {
+  explicit Browser(const WebSocketListener& listener)
+      : socket_(connect_to({"127.0.0.1", listener.port()}, std::chrono::milliseconds(2000))) {
     set_patience(socket_, std::chrono::milliseconds(5000));
   }
 
@@ -43,9 +43,9 @@ class Browser {
     send(socket_, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, {}, false,
          std::chrono::milliseconds(1000));
   }
-  /// One binary message of less than 126 bytes, masked as a client's must be (section 5.3).
-  void send_message(const Bytes& payload) {
-    Bytes bytes = {0x82, static_cast<std::uint8_t>(0x80 | payload.size()), 0x37, 0xFA, 0x21, 0x3D};
+  /// One message of less than 126 bytes, masked as a client's must be (section 5.3). `first`: 0x82 for a binary one.
+  void send_message(const Bytes& payload, std::uint8_t first = 0x82) {
+    Bytes bytes = {first, static_cast<std::uint8_t>(0x80 | payload.size()), 0x37, 0xFA, 0x21, 0x3D};
     for (std::size_t i = 0; i < payload.size(); ++i) bytes.push_back(payload[i] ^ bytes[2 + i % 4]);
     send(socket_, bytes, {}, false, std::chrono::milliseconds(1000));
   }
@@ -92,16 +92,16 @@ Bytes frame_bytes(const SmallFrame& frame, std::uint32_t sequence) {
 
 TEST(WebSocket, AnswersTheHandshakeOfTheStandard) {
   LoopbackServer host;
-  const WebSocketDoor door({"127.0.0.1", 0}, *host.server);
-  const std::string answer = Browser(door).ask("127.0.0.1", "");
+  const WebSocketListener listener({"127.0.0.1", 0}, *host.server);
+  const std::string answer = Browser(listener).ask("127.0.0.1", "");
   EXPECT_TRUE(answer.starts_with("HTTP/1.1 101")) << answer;
   EXPECT_NE(answer.find("Sec-WebSocket-Accept: s3pPLMBiTxaQ9kYGzzhZRbK+xOo="), std::string::npos) << answer;
 }
 
 TEST(WebSocket, EveryFrameIsAMessage) {
   LoopbackServer host;
-  const WebSocketDoor door({"127.0.0.1", 0}, *host.server);
-  Browser browser(door);
+  const WebSocketListener listener({"127.0.0.1", 0}, *host.server);
+  Browser browser(listener);
   browser.ask("localhost:7481", "http://localhost:8000");
   browser.send_message(frame_bytes(encode(Hello{}), 0));
   const Bytes welcome = browser.message();
@@ -118,8 +118,8 @@ TEST(WebSocket, EveryFrameIsAMessage) {
 
 TEST(WebSocket, ABadFrameIsAnsweredAndClosed) {
   LoopbackServer host;
-  const WebSocketDoor door({"127.0.0.1", 0}, *host.server);
-  Browser browser(door);
+  const WebSocketListener listener({"127.0.0.1", 0}, *host.server);
+  Browser browser(listener);
   browser.ask("localhost", "");
   browser.send_message(Bytes(40, 0xEE));
   const Bytes bye = browser.message();
@@ -128,13 +128,71 @@ TEST(WebSocket, ABadFrameIsAnsweredAndClosed) {
   EXPECT_TRUE(browser.is_closed());
 }
 
+TEST(WebSocket, FramesMayComeInPiecesAndSeveralAtOnce) {
+  LoopbackServer host;
+  const WebSocketListener listener({"127.0.0.1", 0}, *host.server);
+  Browser browser(listener);
+  browser.ask("localhost", "");
+  const Bytes hello = frame_bytes(encode(Hello{}), 0);
+  browser.send_message({hello.begin(), hello.begin() + 5});
+  browser.send_message({hello.begin() + 5, hello.end() - 1});
+  browser.send_message({hello.end() - 1, hello.end()});
+  EXPECT_GT(browser.message().size(), kHeaderBytes);  // Welcome
+  browser.message();                                  // the scene
+  Bytes pings;
+  for (std::uint32_t i = 1; i <= 3; ++i) {
+    const Bytes ping = frame_bytes(encode(Ping{100 + i}), i);
+    pings.insert(pings.end(), ping.begin(), ping.end());
+  }
+  browser.send_message(pings);
+  for (std::uint8_t i = 1; i <= 3; ++i) {
+    const Bytes pong = browser.message();
+    ASSERT_EQ(pong.size(), kHeaderBytes + 24);
+    EXPECT_EQ(pong[kHeaderBytes], 100 + i);
+  }
+}
+
+TEST(WebSocket, AMessageOfTextEndsIt) {
+  LoopbackServer host;
+  const WebSocketListener listener({"127.0.0.1", 0}, *host.server);
+  Browser browser(listener);
+  browser.ask("localhost", "");
+  browser.send_message({'h', 'i'}, 0x81);
+  EXPECT_TRUE(browser.is_closed());
+  EXPECT_TRUE(comes_true([&] { return host.server->client_count() == 0; }));
+}
+
+TEST(WebSocket, ABrowserThatIsClosedGivesItsHandBack) {
+  LoopbackServer host({}, 1);
+  const WebSocketListener listener({"127.0.0.1", 0}, *host.server);
+  Hello hello;
+  hello.role = Role::Student;
+  hello.wants.hand = true;
+  constexpr std::size_t kHandAt = kHeaderBytes + 12;  // in a Welcome
+  {
+    Browser browser(listener);
+    browser.ask("localhost", "");
+    browser.send_message(frame_bytes(encode(hello), 0));
+    const Bytes welcome = browser.message();
+    ASSERT_GT(welcome.size(), kHandAt);
+    ASSERT_EQ(welcome[kHandAt], 0);
+  }
+  ASSERT_TRUE(comes_true([&] { return host.server->client_count() == 0; }));
+  Browser next(listener);
+  next.ask("localhost", "");
+  next.send_message(frame_bytes(encode(hello), 0));
+  const Bytes welcome = next.message();
+  ASSERT_GT(welcome.size(), kHandAt);
+  EXPECT_EQ(welcome[kHandAt], 0);
+}
+
 TEST(WebSocket, PagesOfOtherSitesStayOutside) {
   LoopbackServer host;
-  const WebSocketDoor door({"127.0.0.1", 0}, *host.server, {"https://lab.example"});
-  EXPECT_TRUE(Browser(door).ask("localhost", "https://evil.example").starts_with("HTTP/1.1 403"));
-  EXPECT_TRUE(Browser(door).ask("evil.example", "http://evil.example").starts_with("HTTP/1.1 403"));
-  EXPECT_TRUE(Browser(door).ask("localhost", "null").starts_with("HTTP/1.1 403"));
-  EXPECT_TRUE(Browser(door).ask("localhost", "https://lab.example").starts_with("HTTP/1.1 101"));
+  const WebSocketListener listener({"127.0.0.1", 0}, *host.server, {"https://lab.example"});
+  EXPECT_TRUE(Browser(listener).ask("localhost", "https://evil.example").starts_with("HTTP/1.1 403"));
+  EXPECT_TRUE(Browser(listener).ask("evil.example", "http://evil.example").starts_with("HTTP/1.1 403"));
+  EXPECT_TRUE(Browser(listener).ask("localhost", "null").starts_with("HTTP/1.1 403"));
+  EXPECT_TRUE(Browser(listener).ask("localhost", "https://lab.example").starts_with("HTTP/1.1 101"));
 }
 
 TEST(WebSocket, KnowsItsOwnNames) {
@@ -148,10 +206,10 @@ TEST(WebSocket, KnowsItsOwnNames) {
 
 TEST(WebSocket, WhatIsNoRequestIsClosed) {
   LoopbackServer host;
-  const WebSocketDoor door({"127.0.0.1", 0}, *host.server);
+  const WebSocketListener listener({"127.0.0.1", 0}, *host.server);
   for (const std::string& request : {std::string("GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"),
                                      std::string("\x16\x03\x01\r\n\r\n"), "GET /" + std::string(20'000, 'a')}) {
-    Browser browser(door);
+    Browser browser(listener);
     browser.send_text(request);
     EXPECT_TRUE(browser.is_closed());
   }

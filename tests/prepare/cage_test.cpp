@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "prepare/remesh/crossing_triangles.h"
-#include "prepare/repair/surface_pieces.h"
 #include "prepare/shapes.h"
+#include "prepare/surface/surface_pieces.h"
 
 namespace myotact::prepare {
 namespace {

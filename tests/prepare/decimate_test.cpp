@@ -5,8 +5,8 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "prepare/remesh/surface_distance.h"
 #include "prepare/remesh/crossing_triangles.h"
+#include "prepare/remesh/surface_distance.h"
 #include "prepare/remesh/triangle_crossing.h"
 #include "prepare/shapes.h"
 

@@ -4,15 +4,12 @@
 #include <random>
 #include <vector>
 
+#include "core/at.h"
 #include "prepare/dirty_surfaces.h"
 
 // The single changes that dirty surfaces are made of. Lengths and gaps named so are parts of the diagonal.
 
 namespace myotact::testing {
-
-inline std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 using Make = std::function<geometry::TriangleMesh(const TubeBody&, std::mt19937&)>;
 

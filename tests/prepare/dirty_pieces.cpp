@@ -5,8 +5,8 @@
 
 #include "prepare/dirty_edits.h"
 #include "prepare/dirty_surfaces.h"
-#include "prepare/repair/surface_pieces.h"
 #include "prepare/shapes.h"
+#include "prepare/surface/surface_pieces.h"
 
 namespace myotact::testing {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "prepare/dirty_edits.h"
-#include "prepare/repair/surface_pieces.h"
+#include "prepare/surface/surface_pieces.h"
 
 namespace myotact::testing {
 

@@ -13,7 +13,7 @@
 #include "core/error.h"
 #include "prepare/repair/repair_surface.h"
 #include "prepare/repair/surface_check.h"
-#include "prepare/repair/surface_pieces.h"
+#include "prepare/surface/surface_pieces.h"
 
 namespace myotact::prepare {
 namespace {

@@ -109,8 +109,8 @@ TEST(PartSurfaces, CoversANestedMuscleThatStandsOutOfBothFacesOfASheet) {
   const auto reports = part_surfaces(muscles, {});
   EXPECT_THAT(reports[1].hosts, ElementsAre("sheet"));
   EXPECT_TRUE(reports[0].filmed);
-  EXPECT_EQ(reports[0].tunnels, 0);
-  EXPECT_EQ(tunnels(muscles[0].surface), 0);
+  EXPECT_EQ(reports[0].added_genus, 0);
+  EXPECT_EQ(genus(muscles[0].surface), 0);
   expect_whole(muscles[0].surface);
   EXPECT_LT(measure_overlap(SignedDistance(muscles[0].surface), SignedDistance(muscles[1].surface)).depth_m, 1e-4);
 }
@@ -120,7 +120,7 @@ TEST(PartSurfaces, CoversBoneThatStandsOutOfASheet) {
   const std::vector<NamedSurface> bones{{"bone", testing::sphere_surface({0.0, 0.0, -0.006}, 0.008, 3)}};
   const auto reports = part_surfaces(muscles, bones);
   EXPECT_TRUE(reports[0].filmed);
-  EXPECT_EQ(tunnels(muscles[0].surface), 0);
+  EXPECT_EQ(genus(muscles[0].surface), 0);
   expect_whole(muscles[0].surface);
   EXPECT_EQ(measure_overlap(SignedDistance(muscles[0].surface), SignedDistance(bones[0].surface)).depth_m, 0.0);
 }

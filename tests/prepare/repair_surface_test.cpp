@@ -7,8 +7,8 @@
 
 #include "core/error.h"
 #include "prepare/repair/surface_check.h"
-#include "prepare/repair/surface_pieces.h"
 #include "prepare/shapes.h"
+#include "prepare/surface/surface_pieces.h"
 
 namespace myotact::prepare {
 namespace {

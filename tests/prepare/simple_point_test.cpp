@@ -6,7 +6,7 @@
 
 #include "prepare/field/level_set.h"
 #include "prepare/part/film.h"
-#include "prepare/repair/surface_pieces.h"
+#include "prepare/surface/surface_pieces.h"
 
 namespace myotact::prepare {
 namespace {
@@ -14,8 +14,8 @@ namespace {
 constexpr Neighbourhood kMiddleBit = Neighbourhood{1} << 13;
 constexpr double kStep_m = 1e-3;
 
-/// Pieces and tunnels of the surface that is extracted around the nodes of a block, the rest of space being outside.
-std::pair<std::size_t, int> pieces_and_tunnels(Neighbourhood body) {
+/// Pieces and handles of the surface that is extracted around the nodes of a block, the rest of space being outside.
+std::pair<std::size_t, int> pieces_and_genus(Neighbourhood body) {
   const auto field = [&](const Vec3& p) {
     double nearest_m = 3.0 * kStep_m;
     for (int bit = 0; bit < 27; ++bit) {
@@ -27,7 +27,7 @@ std::pair<std::size_t, int> pieces_and_tunnels(Neighbourhood body) {
   };
   const Eigen::AlignedBox3d box(Vec3::Constant(-kStep_m), Vec3::Constant(3.0 * kStep_m));
   const geometry::TriangleMesh surface = extract_level_set(field, box, kStep_m);
-  return {pieces_of(surface).size(), tunnels(surface)};
+  return {pieces_of(surface).size(), genus(surface)};
 }
 
 TEST(SimplePoint, GoesWithoutChangingPiecesOrTunnels) {
@@ -37,7 +37,7 @@ TEST(SimplePoint, GoesWithoutChangingPiecesOrTunnels) {
     const Neighbourhood body = (random() & ((1U << 27) - 1U)) | kMiddleBit;
     if (!is_simple(body)) continue;
     ++simple;
-    EXPECT_EQ(pieces_and_tunnels(body), pieces_and_tunnels(body & ~kMiddleBit)) << body;
+    EXPECT_EQ(pieces_and_genus(body), pieces_and_genus(body & ~kMiddleBit)) << body;
   }
   EXPECT_GT(simple, 300);
 }
@@ -48,7 +48,7 @@ TEST(SimplePoint, StaysWhereItHoldsTogetherOrCloses) {
   EXPECT_FALSE(is_simple(kMiddleBit));                        // alone: a piece would be lost
   EXPECT_FALSE(is_simple(kMiddleBit | 1U << 12 | 1U << 14));  // in a row: it would come apart
   const Neighbourhood layer = 0777U << 9;                     // the nine nodes of one z
-  EXPECT_FALSE(is_simple(layer));                             // in a sheet: a tunnel would open
+  EXPECT_FALSE(is_simple(layer));                             // in a sheet: a handle would open
   EXPECT_TRUE(is_simple(layer | 0777U));                      // under the surface of a thick one
   EXPECT_TRUE(is_simple(kMiddleBit | 1U << 12));              // at the end of a row
 }

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "prepare/repair/surface_pieces.h"
 #include "prepare/shapes.h"
+#include "prepare/surface/surface_pieces.h"
 #include "prepare/tets/tet_quality.h"
 
 namespace myotact::prepare {

@@ -17,7 +17,7 @@
 namespace myotact::prepare {
 namespace {
 
-/// Levers about the elbow in the file pose [m], from the section centrelines of the data set's table. That of the
+/// Moment arms about the elbow in the file pose [m], from the section centrelines of the data set's table. That of the
 /// biceps is the radius of the fitted humeral condyle, round which the recipe leads its line: the centreline (7.5 mm)
 /// runs through the bone; the table gives 9.4 mm for the published model's sites and 11.0 mm about the model's own
 /// joint.

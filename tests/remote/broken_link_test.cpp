@@ -92,7 +92,7 @@ void break_and_mend(PulledHand& hand, const Break& break_link, const Mend& mend)
   ASSERT_TRUE(hand.reaches([](double force_N) { return force_N == 0.0; }));
   const double zero_ms = 1e-6 * static_cast<double>(hand.newest_ns() - broken_ns);
   std::cout << "force zero after " << zero_ms << " ms: " << (zero_ms <= 101.0 ? "met" : "missed")
-            << " (goal 100; the clock of a busy machine)\n";
+            << " (at most 100 wanted; the clock of a busy machine)\n";
   EXPECT_LT(zero_ms, 400.0);
   hand.take_largest_rise_N();
   mend();

@@ -9,7 +9,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "remote/controls.h"
 #include "remote/frame_fit.h"
 #include "remote/scene_message.h"
 #include "remote/served_scene.h"
@@ -21,52 +20,6 @@ namespace {
 
 using myotact::testing::comes_true;
 using ::testing::HasSubstr;
-
-// ---- what is asked for
-
-/// What the server makes of the frames is what the person asked for.
-TEST(MirrorControls, ComeOutAsTheyWereMeant) {
-  scene::Requests before, now;
-  before.stops = now.stops = 3;
-  now.levels_asked = true;
-  now.flexors = 0.25;
-  now.extensors = 0.5;
-  now.hold_posture = !before.hold_posture;
-  now.gravity = now.paused = true;
-  now.steps = 2;
-  now.resets = 1;
-  now.shoves = 1;
-  scene::Requests heard = before;
-  for (const std::string& control : controls_between(before, now)) add_control(control, heard);
-  EXPECT_TRUE(heard.levels_asked);
-  EXPECT_EQ(heard.flexors, 0.25);
-  EXPECT_EQ(heard.extensors, 0.5);
-  EXPECT_EQ(heard.hold_posture, now.hold_posture);
-  EXPECT_TRUE(heard.gravity && heard.paused);
-  EXPECT_EQ(heard.steps, 2u);
-  EXPECT_EQ(heard.resets, 1u);
-  EXPECT_EQ(heard.shoves, 1u);
-  EXPECT_EQ(heard.stops, 3u);
-  EXPECT_TRUE(controls_between(now, now).empty());
-}
-
-TEST(MirrorControls, ABalanceIsAskedForOnceUntilItChanges) {
-  scene::Requests before, now;
-  now.balance_asked = true;
-  now.common = 0.5;
-  now.difference = -0.25;
-  ASSERT_EQ(controls_between(before, now).size(), 1u);
-  scene::Requests heard;
-  add_control(controls_between(before, now).front(), heard);
-  EXPECT_EQ(heard.common, 0.5);
-  EXPECT_EQ(heard.difference, -0.25);
-  before = now;
-  EXPECT_TRUE(controls_between(before, now).empty());
-  now.common = 0.75;
-  EXPECT_EQ(controls_between(before, now).size(), 1u);
-}
-
-// ---- what is shown
 
 TEST(FrameFit, AFrameOfTheSpecimenFitsAndABrokenOneIsNamed) {
   const anatomy::Specimen specimen = testing::antagonist_hinge();
@@ -141,7 +94,7 @@ struct Host {
     net::ClientSettings settings;
     settings.server = {"127.0.0.1", served->server().port()};
     settings.hello.role = role;
-    settings.hello.wants.frames = settings.hello.wants.readings = true;
+    settings.hello.wants.frames = settings.hello.wants.readings = settings.hello.wants.in_force = true;
     settings.hello.name = "mirror";
     return settings;
   }
@@ -181,14 +134,13 @@ TEST(Mirror, AnInstructorLeadsAndAViewerLooksOn) {
     EXPECT_EQ(misfit(watcher->frame, watcher->scene.specimen), "");
     EXPECT_EQ(watcher->frame.springs_world_m.size(), 1u);  // no hand is there
   }
-  scene::Requests paused;
-  paused.paused = true;
-  EXPECT_TRUE(viewer.mirror.request({}));
-  EXPECT_FALSE(viewer.mirror.request(paused));
+  const messages::Command pause{messages::Pause{true}};
+  EXPECT_FALSE(viewer.mirror.push(pause));
   const double before_s = viewer.frame.time_s;
   EXPECT_TRUE(viewer.sees([&](const auto& f) { return is_later(f, before_s + 0.3); }));
-  EXPECT_TRUE(instructor.mirror.request({}));
-  EXPECT_TRUE(instructor.mirror.request(paused));
+  EXPECT_FALSE(instructor.mirror.push({messages::EndRecording{}}));  // not from elsewhere
+  EXPECT_TRUE(instructor.mirror.push(pause));
+  EXPECT_TRUE(viewer.sees([](const auto& f) { return f.control.paused; }));
   double last_s = 0.0;
   EXPECT_TRUE(comes_true([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(200));

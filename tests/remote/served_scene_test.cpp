@@ -5,7 +5,6 @@
 #include "device/simulated_device.h"
 #include "net/byte_cursor.h"
 #include "net/frame_stream.h"
-#include "remote/controls.h"
 #include "remote/free_hand.h"
 #include "scene/scene_file.h"
 #include "support/loopback_server.h"
@@ -168,18 +167,6 @@ TEST(ServedScene, AHandOfNonsenseMovesNothing) {
   }
   const double before_s = frame.time_s;
   EXPECT_TRUE(comes_true([&] { return watcher.fetch_frame(frame) && frame.time_s > before_s + 0.2; }));
-}
-
-/// Newest wins between two threads: a wish that another one follows at once is not lost with it.
-TEST(ServedScene, WhatLeadsGoesOnLeading) {
-  scene::Requests requests;
-  add_control(R"({"do": "levels", "flexors": 0.5, "extensors": 0.25})", requests);
-  add_control(R"({"do": "pause", "on": true})", requests);
-  EXPECT_TRUE(requests.levels_asked);
-  EXPECT_EQ(requests.flexors, 0.5);
-  add_control(R"({"do": "co_contract", "common": 0.5, "difference": 0})", requests);
-  EXPECT_FALSE(requests.levels_asked);
-  EXPECT_TRUE(requests.balance_asked);
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ enum class Elbow { Free, Held, Locked };
 Press press(Elbow elbow) {
   Scene scene = load_scene("bimanual");
   if (elbow != Elbow::Held) {
-    std::erase_if(scene.script, [](const ScriptAction& action) { return moves_hand(action.deed) && action.tool == 1; });
+    std::erase_if(scene.script, [](const ScriptAction& action) { return moves_hand(action.what) && action.tool == 1; });
   }
   for (JointSetting& joint : scene.joints) joint.locked = joint.locked || elbow == Elbow::Locked;
   int joint = 0;

@@ -143,7 +143,7 @@ void swing(HeldDevice& device, Limb& limb, const Vec3& amplitude_m, double frequ
   }
 }
 
-//   axis o-------------o paw      F lever = torque, F across the lever
+//   axis o-------------o paw      F moment arm = torque, F across the moment arm
 //                      hand
 TEST(BoneGrab, AHandThatHoldsThePawFeelsTheJointsTorqueOverTheLever) {
   anatomy::Specimen specimen = testing::antagonist_hinge();
@@ -200,7 +200,8 @@ TEST(BoneGrab, AClosedCycleGivesTheHandNothing) {
     swing(device, limb, Vec3(0.0, 0.0, 0.01), 1.0, 4.0, [&](double t_s) {
       if (t_s > 1.0) {  // from the second cycle on
         const double rate = limb.simulation.joint(0).velocity_rad_s;
-        // The mean of both forces: what a held one gives away, k T / 2 v^2, is the device's to take up (Colgate 1995).
+        // The mean of both forces: what a held one gives away, k T / 2 v^2, is the device's to take up (Colgate and
+        // Schenkel 1997).
         work_J -= 0.5 * (last_N + limb.force_N()).dot(device.position_m - last_m);
         lost_J += kTick_s * kRodDamping_Nms_rad * rate * rate;
         most_J = std::max(most_J, work_J);

@@ -1,6 +1,7 @@
 #include "scene/free_session.h"
 
 #include <chrono>
+#include <functional>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -29,9 +30,7 @@ TEST(FreeSession, WhileItIsPausedTheDrawnToolFollowsTheHand) {
   const std::array<ToolDevice, 1> devices = {ToolDevice{&hand, nullptr}};
   FreeSession session(scene, simulation, devices, nullptr);
   session.start();
-  Requests requests;
-  requests.paused = true;
-  session.request(requests);
+  ASSERT_EQ(session.push({messages::Pause{true}}), "");
   std::this_thread::sleep_for(200ms);
   messages::SceneFrame before, after;
   ASSERT_TRUE(session.fetch_frame(before));
@@ -39,6 +38,7 @@ TEST(FreeSession, WhileItIsPausedTheDrawnToolFollowsTheHand) {
   std::this_thread::sleep_for(500ms);
   ASSERT_TRUE(session.fetch_frame(after));
   session.stop();
+  EXPECT_TRUE(after.control.paused);
   EXPECT_EQ(after.time_s, before.time_s);
   const messages::ToolFrame& tool = after.tools[0];
   EXPECT_GT((to_vec3(tool.tool_world_m) - to_vec3(before.tools[0].tool_world_m)).norm(), 0.01);
@@ -61,34 +61,49 @@ TEST(FreeSession, WithoutItsServoClockNothingRuns) {
   FreeSession session(scene, simulation, devices, nullptr, {nullptr, &clock});
   EXPECT_THROW(session.start(), Error);
   EXPECT_FALSE(session.running());
-  EXPECT_EQ(session.stop().steps, 0U);
+  session.stop();
+  EXPECT_EQ(session.timing().steps, 0U);
 }
 
-/// What was counted in the scene before, when another is opened, is not asked for again.
-TEST(FreeSession, WhatTheSceneBeforeDidIsNotDoneAgain) {
+bool comes_true(FreeSession& session, messages::SceneFrame& frame,
+                const std::function<bool(const messages::SceneFrame&)>& condition) {
+  for (int i = 0; i < 500; ++i) {
+    if (session.fetch_frame(frame) && condition(frame)) return true;
+    std::this_thread::sleep_for(10ms);
+  }
+  return false;
+}
+
+TEST(FreeSession, EachSingleStepIsMadeAndARecordingEndsWhenAsked) {
   const testing::TemporaryFolder folder;
   const Scene scene = load_scene("plane");
   simulation::Simulation simulation(scene.specimen, scene.settings);
-  RecordingWriter recorder(folder.path() / "second.myorec", recording_header(scene, 1, {}));
+  RecordingWriter recorder(folder.path() / "steps.myorec", recording_header(scene, 1, {}));
   FreeSession session(scene, simulation, {}, &recorder);
-  Requests requests;
-  requests.recording_ends = 1;
-  requests.resets = 2;
-  requests.shoves = 3;
-  requests.steps = 4;
-  session.follow_on(requests, false);
+  ASSERT_EQ(session.push({messages::Pause{true}}), "");  // before it runs
   session.start();
-  session.request(requests);
-  std::this_thread::sleep_for(300ms);
-  EXPECT_TRUE(session.recording());
   messages::SceneFrame frame;
-  EXPECT_TRUE(session.fetch_frame(frame));
-  EXPECT_GT(frame.time_s, 0.0);
-  ++requests.recording_ends;
-  session.request(requests);
-  std::this_thread::sleep_for(300ms);
-  EXPECT_FALSE(session.recording());
+  ASSERT_TRUE(comes_true(session, frame, [](const auto& f) { return f.control.paused; }));
+  EXPECT_EQ(frame.time_s, 0.0);
+  EXPECT_TRUE(frame.control.recording);
+  for (int i = 0; i < 3; ++i) ASSERT_EQ(session.push({messages::SingleStep{}}), "");
+  EXPECT_TRUE(comes_true(session, frame, [&](const auto& f) { return f.time_s > 2.5 * scene.settings.dt_s; }));
+  std::this_thread::sleep_for(100ms);
+  session.fetch_frame(frame);
+  EXPECT_NEAR(frame.time_s, 3.0 * scene.settings.dt_s, 1e-9);
+  ASSERT_EQ(session.push({messages::EndRecording{}}), "");
+  EXPECT_TRUE(comes_true(session, frame, [](const auto& f) { return !f.control.recording; }));
   session.stop();
+}
+
+TEST(FreeSession, AFullQueueIsTold) {
+  const Scene scene = load_scene("plane");
+  simulation::Simulation simulation(scene.specimen, scene.settings);
+  FreeSession session(scene, simulation, {}, nullptr);  // nobody empties it before the start
+  int taken = 0;
+  while (taken < 100'000 && session.push({messages::SingleStep{}}).empty()) ++taken;
+  EXPECT_GT(taken, 100);
+  EXPECT_LT(taken, 100'000);
 }
 
 /// At the pose of the meshes the fibres are as long as their muscle's file says.

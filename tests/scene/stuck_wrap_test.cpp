@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/conductor.h"
-#include "simulation/skeleton.h"
+#include "simulation/skeleton/skeleton.h"
 #include "support/synthetic_specimen.h"
 
 namespace myotact::scene {

@@ -147,7 +147,7 @@ TEST(ParticleScene, ExplicitStepsThrowTheParticleAwayAndSaySo) {
   EXPECT_TRUE(run.simulation.particle_lost());
   EXPECT_THAT(run.session.conductor().notice(), HasSubstr("explicit integration gains energy"));
   EXPECT_EQ(ticks.back().force_N.norm(), 0.0);
-  run.session.conductor().restart();
+  run.session.conductor().apply({messages::Reset{}});
   EXPECT_EQ(run.session.conductor().notice(), "");
 }
 

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "haptics/autoregression.h"
+#include "haptics/effects/autoregression.h"
 #include "support/complaint.h"
 #include "support/temporary_folder.h"
 

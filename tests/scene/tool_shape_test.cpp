@@ -9,7 +9,7 @@
 #include "device/simulated_device.h"
 #include "geometry/plain_surfaces.h"
 #include "scene/lockstep_haptics.h"
-#include "simulation/local_patch.h"
+#include "simulation/touch/local_patch.h"
 
 namespace myotact::scene {
 namespace {

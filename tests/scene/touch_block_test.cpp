@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "anatomy/specimen.h"
+#include "core/at.h"
 #include "haptics/haptic_loop.h"
 #include "simulation/simulation.h"
 #include "support/synthetic_specimen.h"
@@ -128,7 +129,6 @@ class Block {
   messages::LocalContact told;  // by the simulation, of its last step
 
  private:
-  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   static double cross2(const Vec3& a, const Vec3& b) { return a.x() * b.y() - a.y() * b.x(); }
 
   void publish() {
@@ -156,7 +156,7 @@ haptics::HapticSettings block_settings(double friction) {
 }
 
 // The coupling is as stiff as it was told to the simulation, and what the simulation itself presses with is what the
-// hand feels: the stiffness felt is the tissue's own, dent by force, though the device bears no more than 800 N/m.
+// hand feels: the stiffness felt is the tissue's own, dent by force, though the device supports no more than 800 N/m.
 TEST(TouchTissue, PressingABlockGivesStiffnessTimesDepthBelowItsDentedTop) {
   Block block(block_settings(0.3));
   const double r = 3e-3;

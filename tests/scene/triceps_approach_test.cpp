@@ -13,7 +13,7 @@
 #include "anatomy/specimen.h"
 #include "core/data_folder.h"
 #include "geometry/depth_inside.h"
-#include "haptics/proxy.h"
+#include "haptics/proxy/proxy.h"
 #include "simulation/simulation.h"
 
 namespace myotact::scene {

@@ -153,16 +153,15 @@ TEST(TwoHands, OnTheWallClockAStopTakesBothForcesAndTheRecordingRunsAgain) {
     FreeSession session(scene, simulation, devices, &writer);
     session.start();
     std::this_thread::sleep_for(std::chrono::milliseconds(1100));
-    Requests requests;
-    requests.stops = 1;
-    session.request(requests);
+    session.stop_forces(true);
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     messages::SceneFrame frame;
     session.fetch_frame(frame);
     ASSERT_EQ(frame.tools.size(), 2u);
     for (const messages::ToolFrame& tool : frame.tools) EXPECT_TRUE(tool.forces_stopped);
     EXPECT_EQ(right.motor_force_N().norm() + left.motor_force_N().norm(), 0.0);
-    const FreeTiming timing = session.stop();
+    session.stop();
+    const FreeTiming timing = session.timing();
     EXPECT_EQ(timing.tool_ticks.size(), 2u);
     writer.close();
   }
@@ -247,7 +246,8 @@ TEST(TwoHands, AFullDiskEndsTheRecordingAndNothingElse) {
   messages::SceneFrame frame;
   session.fetch_frame(frame);
   EXPECT_NE(frame.notice.find("free space"), std::string::npos) << frame.notice;
-  EXPECT_GT(session.stop().ticks, 300u);
+  session.stop();
+  EXPECT_GT(session.timing().ticks, 300u);
   EXPECT_NE(session.recording_fault().find("/dev/full"), std::string::npos);
 }
 

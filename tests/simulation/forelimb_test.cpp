@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "simulation/line_model.h"
+#include "simulation/line/line_model.h"
 #include "simulation/simulation.h"
 
 // The canine forelimb of this repository, whole: what the muscles do there is what their lines say.
@@ -51,7 +51,7 @@ LineGeometry geometry_of(const anatomy::Specimen& specimen, int muscle) {
 class ForelimbOf : public ::testing::TestWithParam<TissueModel> {};
 INSTANTIATE_TEST_SUITE_P(Models, ForelimbOf, ::testing::Values(TissueModel::Fem, TissueModel::MassSpring));
 
-// Without contact, which no line has: bones and neighbours change levers, that of the brachialis by a tenth.
+// Without contact, which no line has: bones and neighbours change moment arms, that of the brachialis by a tenth.
 TEST_P(ForelimbOf, IsometricForceAndItsSlopeAreTheLinesAtHalfActivation) {
   Forelimb limb(GetParam(), false);
   const double turn = 0.5 * kDegree_rad;

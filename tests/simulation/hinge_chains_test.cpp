@@ -6,8 +6,8 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include "simulation/skeleton.h"
-#include "simulation/skeleton_loads.h"
+#include "simulation/skeleton/skeleton.h"
+#include "simulation/skeleton/skeleton_loads.h"
 
 namespace myotact::anatomy {
 namespace {

@@ -6,8 +6,8 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "simulation/line_model.h"
-#include "simulation/line_segment.h"
+#include "simulation/line/line_model.h"
+#include "simulation/line/line_segment.h"
 #include "support/allocation_guard.h"
 
 // Muscle lines round surfaces that ride on bodies: closed forms, central differences, what is drawn.
@@ -194,7 +194,7 @@ TEST_P(WrapOf, ArmsAndTheirSlopesMatchDifferencesOverThreeJoints) {
         up[j] += h;
         down[j] -= h;
         const LineGeometry ahead = measured(c.line, skeleton, up), behind = measured(c.line, skeleton, down);
-        const double size_m = 0.02;  // of a lever
+        const double size_m = 0.02;  // of a moment arm
         EXPECT_NEAR(here.slope_m_rad[static_cast<int>(j)], (ahead.length_m - behind.length_m) / (2 * h), 1e-6 * size_m);
         const Eigen::VectorXd slope = (ahead.slope_m_rad - behind.slope_m_rad) / (2 * h);
         const double most = 1e-6 * (size_m + slope.norm());

@@ -3,7 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-#include "simulation/element/batch.h"
+#include "simulation/simd/batch.h"
 #include "simulation/solid/law.h"
 #include "simulation/solid/law_batch.h"
 
@@ -21,6 +21,8 @@ struct NamedLaw {
   double energy_tolerance = 1e-6;
 };
 
+// GoogleTest looks for this name.
+// NOLINTNEXTLINE(readability-identifier-naming)
 void PrintTo(const NamedLaw& law, std::ostream* out) {
   *out << law.name;
 }
@@ -82,7 +84,7 @@ double size_of(const std::array<double, kPacked>& C) {
   return largest;
 }
 
-class EveryLaw : public testing::TestWithParam<NamedLaw> {};
+class EveryLaw : public ::testing::TestWithParam<NamedLaw> {};
 
 TEST_P(EveryLaw, IsZeroAtRest) {
   const Everything rest = evaluate(GetParam().law, kUnit, 0.0);
@@ -177,7 +179,7 @@ TEST_P(EveryLaw, GivesTheSameBitsOnEveryVectorUnit) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Material, EveryLaw, testing::ValuesIn(all_laws()),
+INSTANTIATE_TEST_SUITE_P(Material, EveryLaw, ::testing::ValuesIn(all_laws()),
                          [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace

@@ -14,16 +14,16 @@
 
 #include "anatomy/specimen.h"
 #include "core/file.h"
-#include "simulation/line_model.h"
+#include "simulation/line/line_model.h"
 
-// Levers of the embedded limbs' muscle lines over the range of motion beside those of the attachment points that the
-// authors of the published model chose (source_sites.json), about the same axes.
+// Moment arms of the embedded limbs' muscle lines over the range of motion beside those of the attachment points that
+// the authors of the published model chose (source_sites.json), about the same axes.
 
 namespace myotact::simulation {
 namespace {
 
 constexpr std::array kAngles_deg = {-10.0, 0.0, 20.0, 40.0, 60.0};
-/// A lever below the uncertainty of the fitted axes (3 mm) has no sign to speak of.
+/// A moment arm below the uncertainty of the fitted axes (3 mm) has no sign to speak of.
 constexpr double kNoLever_m = 3e-3;
 
 struct Limb {
@@ -64,7 +64,7 @@ anatomy::MuscleLine published_line(const nlohmann::json& sites, const anatomy::S
   return line;
 }
 
-double lever_m(const anatomy::MuscleLine& line, Skeleton& skeleton, int joint, double angle_rad) {
+double moment_arm_m(const anatomy::MuscleLine& line, Skeleton& skeleton, int joint, double angle_rad) {
   std::vector<double> angles(static_cast<std::size_t>(skeleton.joint_count()), 0.0);
   angles[static_cast<std::size_t>(joint)] = angle_rad;
   skeleton.set_pose(angles);
@@ -96,8 +96,8 @@ TEST_P(MomentArms, HaveTheSignOfThePublishedModels) {
       std::string row;
       for (const double angle_deg : kAngles_deg) {
         const double angle_rad = angle_deg * std::numbers::pi / 180.0;
-        const double ours = lever_m(line, skeleton, j, angle_rad);
-        const double theirs = lever_m(published, skeleton, j, angle_rad);
+        const double ours = moment_arm_m(line, skeleton, j, angle_rad);
+        const double theirs = moment_arm_m(published, skeleton, j, angle_rad);
         row += fmt::format(" {:6.1f}/{:6.1f}", 1e3 * ours, 1e3 * theirs);
         if (std::min(std::abs(ours), std::abs(theirs)) < kNoLever_m) continue;
         EXPECT_GT(ours * theirs, 0.0) << key << " at " << angle_deg << " degrees";

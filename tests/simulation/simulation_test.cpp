@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "simulation/fibre_curves.h"
+#include "simulation/curves/fibre_curves.h"
 #include "support/synthetic_specimen.h"
 
 namespace myotact::simulation {
@@ -91,7 +91,7 @@ TEST_P(SimulationOf, IsometricForceOfAStraightBarIsTheLineModels) {
     ASSERT_TRUE(simulation.settle({&q, 1}, {&a, 1}));
     const double line_N = peak_N * (a * active_force_length(0.8) + passive_force_length(0.8));
     EXPECT_NEAR(simulation.muscle_force_N(0), line_N, 1e-6 * peak_N);
-    // Virtual work: the torque of a straight pull is the force times its lever.
+    // Virtual work: the torque of a straight pull is the force times its moment arm.
     EXPECT_NEAR(simulation.muscle_torque_Nm(0, 0), 0.03 * line_N, 1e-7 * peak_N);
   }
 }

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include "simulation/limb.h"
-#include "simulation/settle.h"
+#include "simulation/limb/limb.h"
+#include "simulation/limb/settle.h"
+#include "simulation/muscle/spring_net.h"
 #include "simulation/simulation.h"
-#include "simulation/spring_net.h"
 
 // The canine forelimb of this repository made of springs, against the same made of finite elements.
 

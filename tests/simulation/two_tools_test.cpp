@@ -152,7 +152,7 @@ TEST(TwoTools, OnOneBoneAGripFeelsTheOtherHandsSpring) {
   EXPECT_NEAR(model.grip.stiffness_1_s2[8], (kHinge_Nm_rad + 100.0 * 0.1 * 0.1) / kRodInertia_kg_m2, 1e-6);
 }
 
-// Both pull upwards; at rest the hinge bears the sum of their torques, and each is told its own force.
+// Both pull upwards; at rest the hinge supports the sum of their torques, and each is told its own force.
 TEST(TwoTools, OnOneBoneTheirTorquesAddUp) {
   const anatomy::Specimen specimen = testing::hinged_bones();
   Simulation simulation(specimen, {});

@@ -3,12 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include "simulation/line_model.h"
+#include "simulation/line/line_model.h"
 #include "simulation/simulation.h"
 
 // One muscle, one mechanics: in both embedded whole limbs, every muscle of finite elements pulls as its line does.
-// Without contact, which no line has: the humerus, on which the brachialis bears, changes that muscle's lever by a
-// twelfth.
+// Without contact, which no line has: the humerus, on which the brachialis lies, changes that muscle's moment arm
+// by a twelfth.
 
 namespace myotact::simulation {
 namespace {
@@ -32,7 +32,7 @@ class WholeLimb : public ::testing::TestWithParam<const char*> {
     return forces;
   }
 
-  /// The hinge that changes a muscle's length most, with its lever; none when the muscle crosses no hinge.
+  /// The hinge that changes a muscle's length most, with its moment arm; none when the muscle crosses no hinge.
   std::pair<int, double> best_lever_m(std::size_t muscle) const {
     LineGeometry geometry;
     for (const anatomy::MuscleLine& line : specimen_.lines) {

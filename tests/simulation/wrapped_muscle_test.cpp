@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "simulation/line_model.h"
+#include "simulation/line/line_model.h"
+#include "simulation/muscle/tissue_material.h"
 #include "simulation/simulation.h"
-#include "simulation/tissue_material.h"
 #include "support/wrapped_specimen.h"
 
-// Muscles of finite elements that lie on a cylinder of bone about the hinge: nobody tells them their lever, contact
-// makes it. Closed forms: torque r F, stiffness sum r^2 k, with r the cylinder's radius and half the muscle's
+// Muscles of finite elements that lie on a cylinder of bone about the hinge: nobody gives them their moment arm,
+// contact makes it. Closed forms: torque r F, stiffness sum r^2 k, with r the cylinder's radius and half the muscle's
 // thickness.
 
 namespace myotact::simulation {
@@ -32,12 +32,12 @@ TEST(WrappedMuscle, LeverEmergesAndStaysThroughTheRange) {
   // Flexed farther, the thickened bar is clamped too short of the cylinder and bows off it.
   for (const double degrees : {-30.0, -20.0, -10.0, 0.0, 10.0, 20.0}) {
     const double torque_Nm = torque(simulation, degrees * kDegree_rad, 0.3);
-    const double lever_m = torque_Nm / simulation.muscle_force_N(0);
-    const LineForce line = line_force(specimen.muscles[0], -bar.lever_m() * degrees * kDegree_rad, 0.0, 0.3);
+    const double moment_arm_m = torque_Nm / simulation.muscle_force_N(0);
+    const LineForce line = line_force(specimen.muscles[0], -bar.moment_arm_m() * degrees * kDegree_rad, 0.0, 0.3);
     fmt::print("q {:5.1f} deg: force {:.3f} N of {:.3f}, lever {:.3f} mm of {:.3f}, deepest {:.3f} mm\n", degrees,
-               simulation.muscle_force_N(0), line.force_N, 1e3 * lever_m, 1e3 * bar.lever_m(),
+               simulation.muscle_force_N(0), line.force_N, 1e3 * moment_arm_m, 1e3 * bar.moment_arm_m(),
                1e3 * simulation.contact_depth_m(0));
-    EXPECT_NEAR(lever_m, bar.lever_m(), 0.03 * bar.lever_m());
+    EXPECT_NEAR(moment_arm_m, bar.moment_arm_m(), 0.03 * bar.moment_arm_m());
     EXPECT_NEAR(simulation.muscle_force_N(0), line.force_N, 0.03 * line.force_N);
     EXPECT_LT(simulation.contact_depth_m(0), 0.2e-3);
   }
@@ -45,7 +45,7 @@ TEST(WrappedMuscle, LeverEmergesAndStaysThroughTheRange) {
 
 // Fibres alone would give sum r^2 k of the lines. Beside them lies the matrix, a bar of E = 3 mu that the lines do not
 // have; half activation is where calibration makes up for it, so the fibres' share is what it leaves there. What
-// remains of the 10 % is the lever: the pressure of the wrapped belly thins it.
+// remains of the 10 % is the moment arm: the pressure of the wrapped belly thins it.
 TEST(WrappedMuscle, StiffnessOfAnEqualPairIsTheClosedForm) {
   const testing::WrappedBar bar;
   const anatomy::Specimen specimen = testing::wrapped_hinge(bar, true);
@@ -59,7 +59,7 @@ TEST(WrappedMuscle, StiffnessOfAnEqualPairIsTheClosedForm) {
     const double net = torque(simulation, 0.0, activation);
     const double perturbed = (extended - flexed) / (2.0 * turn);
     const JointReadout readout = simulation.joint(0);
-    const double r2 = bar.lever_m() * bar.lever_m(), lines = 2.0 * r2 * line(activation).stiffness_N_m;
+    const double r2 = bar.moment_arm_m() * bar.moment_arm_m(), lines = 2.0 * r2 * line(activation).stiffness_N_m;
     const double closed = fibres * lines + 2.0 * r2 * matrix_N_m;
     fmt::print(
         "a {:4.2f}: K closed {:.4f} (lines alone {:.4f}), Schur {:.4f}, perturbed {:.4f}, contact's {:.4f} N m/rad;"

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kRoot = MYOTACT_SOURCE_DIR;
-const std::vector<std::string> kTopFolders = {"assets", "cmake", "meshes", "shaders", "src", "tests", "tools"};
+const std::vector<std::string> kTopFolders = {"assets", "cmake", "docs", "meshes", "shaders", "src", "tests", "tools"};
 
 /// The texts between each `opening` and the `closing` after it.
 std::vector<std::string> texts_between(const std::string& text, const std::string& opening, char closing) {

@@ -16,8 +16,8 @@ struct Place {
 };
 
 Place place_on(const WrappedBar& bar, double along_m, double across_m, double height_m) {
-  const double arc_m = bar.half_arc_rad * bar.lever_m();
-  const double angle = std::clamp(along_m, -arc_m, arc_m) / bar.lever_m();
+  const double arc_m = bar.half_arc_rad * bar.moment_arm_m();
+  const double angle = std::clamp(along_m, -arc_m, arc_m) / bar.moment_arm_m();
   const double beyond_m = along_m - std::clamp(along_m, -arc_m, arc_m);
   const Vec3 outward(std::sin(angle), 0.0, bar.side * std::cos(angle));
   const Vec3 forward(std::cos(angle), 0.0, -bar.side * std::sin(angle));
@@ -55,8 +55,8 @@ anatomy::Muscle wrapped_muscle(const std::string& key, const WrappedBar& bar) {
   return muscle;
 }
 
-/// On the middle of the section up to where it leaves the arc; from there straight to the insertion, with the lever of
-/// the arc.
+/// On the middle of the section up to where it leaves the arc; from there straight to the insertion, with the moment
+/// arm of the arc.
 anatomy::MuscleLine wrapped_line(int muscle, const WrappedBar& bar) {
   using anatomy::LinePointKind;
   anatomy::MuscleLine line;

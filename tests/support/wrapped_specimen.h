@@ -3,7 +3,7 @@
 #include "support/synthetic_specimen.h"
 
 // Muscles that lie around a bone: what a wrapped muscle does at a joint has a closed form, K = sum r^2 k, because its
-// lever stays.
+// moment arm stays.
 
 namespace myotact::testing {
 
@@ -21,9 +21,9 @@ struct WrappedBar {
   std::array<int, 3> cells{14, 2, 1};  // along, across, through
   double side = 1.0;
 
-  /// Lever of the middle of its section.
-  double lever_m() const { return radius_m + 0.5 * thickness_m; }
-  double length_m() const { return 2.0 * (half_arc_rad * lever_m() + straight_m); }
+  /// Moment arm of the middle of its section.
+  double moment_arm_m() const { return radius_m + 0.5 * thickness_m; }
+  double length_m() const { return 2.0 * (half_arc_rad * moment_arm_m() + straight_m); }
 };
 
 /// hinged_bones() with one bone, the cylinder on the upper body, and one wrapped bar, or two mirror images of each

@@ -11,9 +11,9 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "view/key_bindings.h"
-#include "view/layout.h"
+#include "view/input/key_bindings.h"
 #include "view/ui/font.h"
+#include "view/ui/layout.h"
 #include "view/ui/text.h"
 
 // What holds for the interface as a whole: texts, keys, areas.

@@ -5,12 +5,13 @@
 #include <gtest/gtest.h>
 
 #include "support/synthetic_specimen.h"
-#include "view/attachment_areas.h"
-#include "view/colour_map.h"
-#include "view/fibre_strokes.h"
-#include "view/muscle_colour.h"
-#include "view/posing.h"
-#include "view/scene_overlay.h"
+#include "view/charts/colour_map.h"
+#include "view/look/posing.h"
+#include "view/look/start_view.h"
+#include "view/overlay/scene_overlay.h"
+#include "view/render/attachment_areas.h"
+#include "view/render/fibre_strokes.h"
+#include "view/render/muscle_colour.h"
 #include "view/ui/text.h"
 #include "view/view_frame.h"
 

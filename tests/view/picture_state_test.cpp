@@ -9,10 +9,11 @@
 
 #include "core/data_folder.h"
 #include "core/error.h"
-#include "view/limb_bounds.h"
-#include "view/offscreen.h"
-#include "view/picking.h"
-#include "view/show_options.h"
+#include "view/look/limb_bounds.h"
+#include "view/look/picking.h"
+#include "view/look/show_options.h"
+#include "view/look/start_view.h"
+#include "view/pictures/offscreen.h"
 #include "view/view_frame.h"
 
 namespace myotact::view {

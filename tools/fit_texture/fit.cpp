@@ -11,7 +11,7 @@
 #include "core/text.h"
 #include "fit_texture/band_limit.h"
 #include "fit_texture/burg.h"
-#include "haptics/autoregression.h"
+#include "haptics/effects/autoregression.h"
 
 namespace myotact::fit_texture {
 

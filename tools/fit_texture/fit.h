@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "fit_texture/recorded_signal.h"
-#include "haptics/texture_set.h"
+#include "haptics/effects/texture_set.h"
 
 namespace myotact::fit_texture {
 

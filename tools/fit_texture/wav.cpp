@@ -51,7 +51,7 @@ class WavFile {
     const std::size_t width = format_.bits / 8u;
     for (std::size_t place = data_at; place + width <= data_at + size; place += width) {
       const double value = sample(place, width);
-      if (!std::isfinite(value)) throw error(place, "holds a sample that is no number; cut it out of the recording");
+      if (!std::isfinite(value)) throw error(place, "holds a sample that is not a number; cut it out of the recording");
       recording.signal_N.push_back(full_scale_N * value);
     }
     return recording;

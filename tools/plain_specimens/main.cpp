@@ -55,7 +55,7 @@ anatomy::Specimen plane() {
 }
 
 anatomy::Specimen plate() {
-  // 0.85 N: the default device bears 0.88 N for ever, so a plate that hangs in the hand may hang there. 145 kg/m^3.
+  // 0.85 N: the default device supports 0.88 N for ever, so a plate that hangs in the hand may hang there. 145 kg/m^3.
   constexpr double kMass_kg = 0.087;
   constexpr double kArm_m = 1.0;
   // A stop of 500 N m/rad with a toe of 9 mrad (simulation/skeleton_loads.h) yields sqrt(m g 1 m 2 9 mrad / 500) =

@@ -16,7 +16,7 @@ std::vector<std::unique_ptr<Driver>> make_drivers(const DeviceSettings& settings
 const std::vector<std::string>& driver_names();
 
 /// Exchanges a second with a device of that family, as its maker or its bus has them: what is reached is measured by
-/// "myotact devices --test". (reference: makers' figures; HDAPI's default; the bus's 8 ms of a SpaceMouse)
+/// "myotact devices --test". (Source: makers' figures; HDAPI's default; the bus's 8 ms of a SpaceMouse)
 double nominal_rate_Hz(const std::string& family);
 
 /// Whether this names a device on the table, plugged in or not.

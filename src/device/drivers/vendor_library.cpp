@@ -12,8 +12,8 @@ namespace myotact::device {
 VendorLibrary::VendorLibrary(const std::string& what, const std::vector<std::string>& names) : what_(what) {
   std::string tried;
   for (const std::string& name : names) {
-    // All its symbols now, so that a missing one shows here and not in a tick; none of them for anybody else. Never out of
-    // memory again: threads that it leaves behind would go on in what is no more.
+    // All its symbols now, so that a missing one shows here and not in a tick; none of them for anybody else. Never out
+    // of memory again: threads that it leaves behind would go on in what is no more.
     if (void* handle = ::dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE)) {
       handle_ = {handle, [](void* loaded) { ::dlclose(loaded); }};
       path_ = name;

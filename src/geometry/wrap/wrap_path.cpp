@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "geometry/wrap/surface_way.h"
+#include "geometry/wrap/geodesic.h"
 
 namespace myotact::geometry {
 namespace {
@@ -50,19 +50,19 @@ OutsideEnd outside_end(const WrapSurface& surface, const Vec3& p_m) {
   return end;
 }
 
-std::optional<SurfaceWay> way_round(const WrapSurface& surface, const Vec3& p_m, const Vec3& q_m) {
+std::optional<Geodesic> geodesic_on(const WrapSurface& surface, const Vec3& p_m, const Vec3& q_m) {
   switch (surface.shape) {
     case WrapShape::Cylinder:
-      return way_round_cylinder(surface, p_m, q_m);
+      return geodesic_on_cylinder(surface, p_m, q_m);
     case WrapShape::Sphere:
-      return way_round_sphere(surface, p_m, q_m);
+      return geodesic_on_sphere(surface, p_m, q_m);
     case WrapShape::Ellipsoid:
-      return way_round_ellipsoid(surface, p_m, q_m);
+      return geodesic_on_ellipsoid(surface, p_m, q_m);
   }
   return std::nullopt;
 }
 
-Vec3 place_on_way(const WrapSurface& surface, const SurfaceWay& way, double arc_m) {
+Vec3 place_on_way(const WrapSurface& surface, const Geodesic& way, double arc_m) {
   if (surface.shape == WrapShape::Cylinder) return place_on_cylinder(way, arc_m);
   if (surface.shape == WrapShape::Sphere) return place_on_sphere(way, arc_m);
   return place_on_ellipsoid(surface, way, arc_m);
@@ -82,10 +82,10 @@ WrapPath straight_path(const Vec3& p_m, const Vec3& q_m) {
 
 // A small move of an end across the string turns its straight part: in the direction of the normal about the point
 // where it touches; sideways, so that the neighbouring string (start shifted by a, turned by (a - move)/l_P) still
-// meets the other end. With the fields C, C' (spread) and D, D' (reach) of SurfaceWay and the straight lengths l_P and
+// meets the other end. With the fields C, C' (spread) and D, D' (reach) of Geodesic and the straight lengths l_P and
 // l_Q, that other end would be missed by G = D + l_Q D' + l_P C + l_P l_Q C' for a turn by 1 at p, hence the terms
 // below; they are symmetric since C D' - C' D = 1.
-WrapPath bent_path(const SurfaceWay& way, const Vec3& p_m, const Vec3& q_m) {
+WrapPath bent_path(const Geodesic& way, const Vec3& p_m, const Vec3& q_m) {
   WrapPath path;
   const double p_straight_m = (way.start_m - p_m).norm(), q_straight_m = (q_m - way.end_m).norm();
   path.length_m = p_straight_m + way.length_m + q_straight_m;
@@ -110,7 +110,7 @@ WrapPath bent_path(const SurfaceWay& way, const Vec3& p_m, const Vec3& q_m) {
 
 WrapPath wrap_path(const WrapSurface& surface, const Vec3& p_m, const Vec3& q_m) {
   const OutsideEnd p = outside_end(surface, p_m), q = outside_end(surface, q_m);
-  const auto way = way_round(surface, p.p_m, q.p_m);
+  const auto way = geodesic_on(surface, p.p_m, q.p_m);
   WrapPath path = way ? bent_path(*way, p.p_m, q.p_m) : straight_path(p.p_m, q.p_m);
   if (!p.moved && !q.moved) return path;
   path.clears = !is_inside(surface, p_m) && !is_inside(surface, q_m) && path.clears;
@@ -124,7 +124,7 @@ WrapPath wrap_path(const WrapSurface& surface, const Vec3& p_m, const Vec3& q_m)
 
 void wrap_points(const WrapSurface& surface, const Vec3& p_m, const Vec3& q_m, std::span<Vec3> points_m) {
   const Vec3 p = outside_end(surface, p_m).p_m, q = outside_end(surface, q_m).p_m;
-  const auto way = way_round(surface, p, q);
+  const auto way = geodesic_on(surface, p, q);
   const double before_m = way ? (way->start_m - p).norm() : (q - p).norm();
   const double on_m = way ? way->length_m : 0.0;
   const double after_m = way ? (q - way->end_m).norm() : 0.0;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "haptics/faults.h"
-#include "haptics/stiffness_bound.h"
+#include "haptics/gate/stiffness_bound.h"
 #include "measure/fidelity/virtual_touch.h"
 
 namespace myotact::measure {

@@ -18,7 +18,8 @@ namespace {
 constexpr double kTick_s = 1e-3;
 constexpr std::array kRates_hz = {62.5, 100.0, 200.0};
 
-/// Device and hand of the check of reference 2.5: no friction of its own that would hide a limit cycle.
+/// Device and hand of the comparison of schemes in tests/bench/results/2026-11-22-coupling.md: no friction of its own
+/// that would hide a limit cycle.
 device::DeviceProfile smooth_device() {
   device::DeviceProfile profile;
   profile.peak_force_N = 20.0;
@@ -35,7 +36,7 @@ constexpr device::HandProfile kLooseHand = {0.1, 3.0, 150.0};
 haptics::HapticSettings coupled_by(double stiffness_N_m) {
   haptics::HapticSettings settings;
   settings.contact.stiffness_N_m = stiffness_N_m;
-  settings.limit_stiffness = false;  // what it bears is the question
+  settings.limit_stiffness = false;  // what it supports is the question
   settings.gate.ramp_s = 0.1;
   return settings;
 }
@@ -146,7 +147,7 @@ GoalFigures measure_multirate_stability(Effort effort) {
 GoalFigures measure_press_jitter(Effort effort) {
   const double seconds = effort == Effort::Full ? 20.0 : 6.0;
   device::DeviceProfile least_friction = smooth_device();
-  least_friction.coulomb_N = 0.05;  // the least of the range for desktop devices (reference 3)
+  least_friction.coulomb_N = 0.05;  // the least of the range for desktop devices (assets/devices/)
   GoalFigures result;
   double without_friction_N = 0.0;
   for (const double tissue_N_m : {300.0, 1500.0}) {

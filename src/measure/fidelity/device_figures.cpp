@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "haptics/gate/stiffness_bound.h"
 #include "haptics/haptic_loop.h"
-#include "haptics/stiffness_bound.h"
 #include "measure/fidelity/calm_stiffness.h"
 
 namespace myotact::measure {

@@ -11,7 +11,7 @@ namespace myotact::measure {
 struct StiffnessRange {
   std::string device;
   double in_hand_N_m = 0.0, no_hand_N_m = 0.0;              // stiffest calm wall
-  double in_hand_bound_N_m = 0.0, no_hand_bound_N_m = 0.0;  // what theory allows (reference 2.6)
+  double in_hand_bound_N_m = 0.0, no_hand_bound_N_m = 0.0;  // what theory allows (stiffness_bound.h)
   double allowed_N_m = 0.0;                                 // what the program renders at most on it
 };
 StiffnessRange stiffness_range(const std::string& name, const device::DeviceProfile& profile);

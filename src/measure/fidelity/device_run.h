@@ -29,11 +29,11 @@ struct DeviceRun {
   std::vector<scene::StepRecord> steps;          // their hashes are left out
   std::vector<Vec3> step_force_N;                // of the simulation on the hand at the end of each step, scaled
   std::vector<simulation::JointReadout> joints;  // the scene's co-contracted one after each step; empty without one
-  std::string notice;                            // what the device does not bear of the scene's settings
+  std::string notice;                            // what the device does not support of the scene's settings
 };
 
-/// The scene without what is only for the hand and no force of the simulation: texture (goal 16 measures it) and the
-/// snap of lines.
+/// The scene without what is only for the hand and no force of the simulation: texture (texture_goals.h measures it)
+/// and the snap of lines.
 scene::Scene without_effects(scene::Scene scene);
 
 /// The scene's script in lockstep, for at most `seconds`, by a simulated hand on a device of this profile. The force

@@ -13,7 +13,7 @@
 #include "haptics/haptic_loop.h"
 #include "haptics/haptic_thread.h"
 #include "measure/fidelity/guided_device.h"
-#include "simulation/hill_muscle.h"
+#include "simulation/line/hill_muscle.h"
 
 namespace myotact::measure {
 

@@ -8,10 +8,10 @@ constexpr std::size_t kHandMoves_ticks = 120;  // 100 ms (muscle_line_drag, bone
 
 }  // namespace
 
-JudgedTicks judged_ticks(const scene::Scene& scene, const DeviceRun& run, const device::DeviceProfile& profile,
-                         const std::vector<Vec3>& true_N) {
+ComparedTicks compared_ticks(const scene::Scene& scene, const DeviceRun& run, const device::DeviceProfile& profile,
+                             const std::vector<Vec3>& true_N) {
   const double limit_N = profile.peak_force_N * scene.tools.front().force_limit;
-  JudgedTicks result;
+  ComparedTicks result;
   std::size_t since_hand = kHandMoves_ticks;
   for (std::size_t i = 0; i < true_N.size(); ++i) {
     const haptics::HapticTick& tick = run.ticks[i];

@@ -16,7 +16,6 @@ struct PressStiffness {
 };
 /// Of every touch of a surface that loads by at least 0.1 N and 0.3 mm while the hand goes into it more than along it.
 /// `series` is that of the run.
-/// `series` is that of the run.
 std::vector<PressStiffness> press_stiffness(const DeviceRun& run, const ForceSeries& series);
 
 /// Force along the surface over force across it while the tool slips faster than 5 mm/s for 50 ms and more.

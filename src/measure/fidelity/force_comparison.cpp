@@ -22,7 +22,7 @@ constexpr std::size_t kFewest_ticks = 50;  // below, gain, turn and lag together
 /// A turn about an axis is seen by what the forces have across it: less than this share of the best seen axis (that
 /// is, forces within 3 degrees of the axis) says nothing about it.
 constexpr double kSeen_share = 3e-3;
-constexpr double kNoiseAbove_Hz = 20.0;  // as goal 12 has it: below lies what hands and tissue do
+constexpr double kNoiseAbove_Hz = 20.0;  // as the goal of a press at rest has it: below lies what hands and tissue do
 
 /// Ticks that count: judged, and near a true force that is felt.
 std::vector<bool> near_touch(const ForceSeries& series) {
@@ -59,7 +59,7 @@ Vec3 rotation_vector(const Mat3& turn) {
 }
 
 /// The step of the turn that the moments ask for, seen axes only.
-Vec3 turn_step(const Moments& sums, const Mat3& turn, double gain) {
+Vec3 rotation_step(const Moments& sums, const Mat3& turn, double gain) {
   const Mat3 turned = sums.product * turn.transpose();
   const Vec3 wanted(turned(2, 1) - turned(1, 2), turned(0, 2) - turned(2, 0), turned(1, 0) - turned(0, 1));
   const Mat3 across = sums.truth.trace() * Mat3::Identity() - turn * sums.truth * turn.transpose();
@@ -74,14 +74,14 @@ Vec3 turn_step(const Moments& sums, const Mat3& turn, double gain) {
 }
 
 /// Least squares of commanded - gain turn true (Gauss and Newton's steps for the turn; they end within four).
-Fit fit_gain_and_turn(const Moments& sums) {
+Fit fit_gain_and_rotation(const Moments& sums) {
   Fit fit;
   const double truth_N2 = sums.truth.trace();
   if (!(truth_N2 > 0.0)) return fit;
   for (int iteration = 0; iteration < 8; ++iteration) {
     fit.gain = (fit.turn.transpose() * sums.product).trace() / truth_N2;
     if (!(fit.gain > 0.0)) break;  // the two have nothing to do with each other at this lag
-    const Vec3 step = turn_step(sums, fit.turn, fit.gain);
+    const Vec3 step = rotation_step(sums, fit.turn, fit.gain);
     if (step.norm() < 1e-12) break;
     fit.turn = Eigen::AngleAxisd(std::min(step.norm(), 1.0), step.normalized()).toRotationMatrix() * fit.turn;
   }
@@ -102,7 +102,7 @@ Fit fit_at(const ForceSeries& series, const std::vector<bool>& used, double lag_
     sums.product += series.commanded_N[i] * true_N.transpose();
     sums.truth += true_N * true_N.transpose();
   }
-  return fit_gain_and_turn(sums);
+  return fit_gain_and_rotation(sums);
 }
 
 /// The lag that explains most, between whole ticks by the parabola through the three best: what is left over a smooth
@@ -246,14 +246,14 @@ ForceComparison compare_forces(const ForceSeries& series) {
   measure_work(series, result);
   if (result.ticks < kFewest_ticks) {
     result.gain = result.lag_s = result.mean_angle_rad = result.noise_rms_N = kNotKnown;
-    result.turn_rad.setConstant(kNotKnown);
+    result.rotation_rad.setConstant(kNotKnown);
     return result;
   }
   const double lag_ticks = best_lag_ticks(series, used);
   const Fit fit = fit_at(series, used, lag_ticks);
   result.gain = fit.gain;
   result.lag_s = lag_ticks / kRate_Hz;
-  result.turn_rad = rotation_vector(fit.turn);
+  result.rotation_rad = rotation_vector(fit.turn);
   measure_what_is_left(series, used, fit.turn, result);
   return result;
 }

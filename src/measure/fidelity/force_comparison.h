@@ -33,18 +33,18 @@ struct ForceComparison {
   double error_rms_share = 0.0, error_worst_share = 0.0;  // of true_rms_N, of true_peak_N
   // What it is made of.
   double gain = 0.0;
-  double lag_s = 0.0;            // > 0: the commanded force is late
-  Vec3 turn_rad = Vec3::Zero();  // rotation vector in the world: the constant turn from true to commanded
-  double mean_angle_rad = 0.0;   // between the two, the lag taken out, where the true one is over a tenth of its peak
-  double noise_rms_N = 0.0;      // of the vector, over 20 Hz, of what gain, turn and lag do not explain
+  double lag_s = 0.0;                // > 0: the commanded force is late
+  Vec3 rotation_rad = Vec3::Zero();  // rotation vector in the world: the constant turn from true to commanded
+  double mean_angle_rad = 0.0;  // between the two, the lag taken out, where the true one is over a tenth of its peak
+  double noise_rms_N = 0.0;     // of the vector, over 20 Hz, of what gain, turn and lag do not explain
   std::vector<double> noise_N2_Hz;  // its power density, entry i at i * 1000 / 256 Hz; empty: no stretch long enough
   // Over the judged ticks.
   double commanded_work_J = 0.0, true_work_J = 0.0;  // on the hand
 
-  double turn_angle_rad() const { return turn_rad.norm(); }
+  double rotation_angle_rad() const { return rotation_rad.norm(); }
 };
 
-/// A turn about an axis that no force of the series tells of (that along which all of them lie) counts as none. Lags
+/// A turn about an axis that no force of the series shows (that along which all of them lie) counts as none. Lags
 /// are looked for up to 100 ms either way.
 ForceComparison compare_forces(const ForceSeries& series);
 

@@ -1,4 +1,4 @@
-// Goal 2 of proxy_goals.h.
+// Sheets, grooves, edges: measure_hard_shapes() of proxy_goals.h.
 
 #include <algorithm>
 #include <array>

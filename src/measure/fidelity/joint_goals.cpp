@@ -139,7 +139,7 @@ class HeldPaw {
 };
 
 struct PawStiffness {
-  double felt_Nm_rad = 0.0;    // force over the paw's way, times the lever squared
+  double felt_Nm_rad = 0.0;    // force over the paw's way, times the moment arm squared
   double device_Nm_rad = 0.0;  // over the device's way, the grip in between
   double model_Nm_rad = 0.0;
   double heard_ms = 0.0;  // from a torque step to half of the force that it ends in
@@ -150,7 +150,7 @@ PawStiffness at_paw(const scene::Scene& scene, double level) {
   PawStiffness result;
   if (!paw.holds()) return result;
   const Vec3 along = paw.tangent();
-  const double lever_m = paw.arm_m(paw.grip_m()).norm(), way_m = 2e-3;
+  const double moment_arm_m = paw.arm_m(paw.grip_m()).norm(), way_m = 2e-3;
   result.model_Nm_rad = paw.limb().joint().stiffness_Nm_rad;
   std::array<double, 2> force_N{}, place_m{};
   for (std::size_t side = 0; side < 2; ++side) {
@@ -159,8 +159,8 @@ PawStiffness at_paw(const scene::Scene& scene, double level) {
     force_N[side] = paw.force_N().dot(along);
     place_m[side] = paw.grip_m().dot(along);
   }
-  result.felt_Nm_rad = -(force_N[1] - force_N[0]) / (place_m[1] - place_m[0]) * lever_m * lever_m;
-  result.device_Nm_rad = -(force_N[1] - force_N[0]) / (2.0 * way_m) * lever_m * lever_m;
+  result.felt_Nm_rad = -(force_N[1] - force_N[0]) / (place_m[1] - place_m[0]) * moment_arm_m * moment_arm_m;
+  result.device_Nm_rad = -(force_N[1] - force_N[0]) / (2.0 * way_m) * moment_arm_m * moment_arm_m;
 
   paw.limb().push(0.3);
   std::vector<double> after_N;

@@ -18,7 +18,7 @@ constexpr double kPress_N = 1.0;
 constexpr double kSpeed_m_s = 0.05;  // of a finger that feels a surface
 /// The force gate opens; the hand hovers and comes down; then it slides, rests, and slides the other way.
 constexpr double kHover_s = 2.0, kDown_s = 0.5, kRest_s = 0.5, kSpeedUp_s = 0.3;
-/// Reference 3: tremor of a hand, 8-10 Hz, 0.2 mm.
+/// Tremor of a hand: 8-10 Hz, 0.2 mm (general knowledge).
 constexpr double kTremor_m = 0.2e-3, kTremor_hz = 9.0;
 
 struct SlideTest {

@@ -22,7 +22,7 @@ constexpr double kTremor_Hz = 10.0;
 
 scene::TouchMuscle first_touch(const scene::Scene& scene) {
   for (const scene::ScriptAction& action : scene.script) {
-    if (const auto* touch = std::get_if<scene::TouchMuscle>(&action.deed)) return *touch;
+    if (const auto* touch = std::get_if<scene::TouchMuscle>(&action.what)) return *touch;
   }
   if (scene.specimen.muscles.empty())
     throw Error(ExitStatus::BadData, scene.name + ": the scene has no muscle to touch; take one that has");
@@ -54,7 +54,7 @@ class RestlessHand {
     scene::ScriptAction action;
     action.start_s = time_s;
     action.duration_s = between(0.4, 1.0);
-    action.deed = deed();
+    action.what = next();
     conductor.begin(action);
     next_s_ = action.end_s() + between(0.0, 0.4);
     part_ = (part_ + 1) % 4;
@@ -65,7 +65,7 @@ class RestlessHand {
     return least + (most - least) * static_cast<double>(random_() >> 11) * 0x1p-53;
   }
 
-  scene::Deed deed() {
+  scene::Action next() {
     constexpr double kRange = 0.08;  // of the line's length, to both sides
     if (part_ == 3) return scene::ReleaseHand{};
     const double depth_m = between(1e-3, 4e-3);

@@ -96,13 +96,13 @@ std::vector<Vec3> plant(const PlantedFaults& faults, const std::vector<Vec3>& fo
 }
 
 PlantedFaults found_faults(const ForceComparison& before, const ForceComparison& after) {
-  const auto turn_of = [](const ForceComparison& found) {
-    return Eigen::AngleAxisd(found.turn_angle_rad(), found.turn_rad.normalized()).toRotationMatrix();
+  const auto rotation_of = [](const ForceComparison& found) {
+    return Eigen::AngleAxisd(found.rotation_angle_rad(), found.rotation_rad.normalized()).toRotationMatrix();
   };
   PlantedFaults found;
   found.delay_s = after.lag_s - before.lag_s;
   found.scale = after.gain / before.gain;
-  found.rotate_rad = Eigen::AngleAxisd(Mat3(turn_of(after) * turn_of(before).transpose())).angle();
+  found.rotate_rad = Eigen::AngleAxisd(Mat3(rotation_of(after) * rotation_of(before).transpose())).angle();
   const double scaled_N = found.scale * before.noise_rms_N;  // the noise there was is scaled with the force
   found.noise_N = std::sqrt(std::max(0.0, after.noise_rms_N * after.noise_rms_N - scaled_N * scaled_N));
   return found;

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "core/at.h"
 #include "haptics/haptic_thread.h"
 
 namespace myotact::measure {
@@ -13,10 +14,6 @@ namespace myotact::measure {
 namespace {
 
 constexpr double kPlate_m = 0.2;  // side: nobody slides over its rim
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Where the tool rests in the air before it goes down.
 constexpr double kStart_m = 2e-3;

@@ -11,14 +11,14 @@
 namespace myotact::measure {
 
 /// A plate on a mass on springs, as soft one way as the other: tissue whose answer to a press is a closed form. It
-/// steps implicitly (Euler's rule), the tool's coupling spring inside the step, as finite elements do (reference 2.5).
+/// steps implicitly (Euler's rule), the tool's coupling spring inside the step, as finite elements do.
 struct PointTissue {
   double mass_kg = 0.02;
   double stiffness_N_m = 300.0;
   double dt_s = 0.01;          // whole milliseconds
   int late_steps = 1;          // the result of a step is played that many steps after the step's end
   Vec3 normal{0.0, 0.0, 1.0};  // unit, of the plate
-  double told_share = 1.0;     // of the true compliance that the model tells
+  double told_share = 1.0;     // of the true compliance that the model reports
 };
 
 /// Tissue, loop, device and hand on one virtual clock.

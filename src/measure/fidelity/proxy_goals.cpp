@@ -24,7 +24,7 @@ using Random = std::mt19937_64;
 
 constexpr std::uint64_t kTick_ns = 1'000'000;
 constexpr double kBall_m = 0.025;  // radius: a canine thigh muscle's belly
-/// What the device must be in for a contact to count (reference: per-frame test).
+/// What the device must be in for a contact to count (the test frame by frame).
 constexpr double kDeep_m = 2e-3;
 
 double between(Random& random, double low, double high) {

@@ -4,8 +4,9 @@
 
 namespace myotact::measure {
 
-/// Goal 1: random approaches to a swelling, rippling ball, and the test frame by frame of the references: contact 2 mm
-/// deep, then the surface moves outwards once, within one tick. Counts proxies inside (winding number) and rescues.
+/// Goal 1: random approaches to a swelling, rippling ball, and a test frame by frame, in which CHAI3D always fell
+/// through: contact 2 mm deep, then the surface moves outwards once, within one tick. Counts proxies inside (winding
+/// number) and rescues.
 GoalFigures measure_deforming_contact(Effort effort);
 
 /// Goal 2: thin sheets, grooves, slides over edges and corners. Counts proxies inside, told in closed form.

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "geometry/triangle_mesh.h"
-#include "haptics/moving_surface.h"
-#include "haptics/proxy.h"
-#include "simulation/local_patch.h"
+#include "haptics/proxy/moving_surface.h"
+#include "haptics/proxy/proxy.h"
+#include "simulation/touch/local_patch.h"
 
 namespace myotact::measure {
 

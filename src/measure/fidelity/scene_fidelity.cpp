@@ -90,26 +90,28 @@ std::vector<std::string> notes_of(const SceneFidelity& fidelity, const DeviceRun
   for (const std::string& fault : haptics::describe_faults(faults))
     notes.push_back(fmt::format("raised while felt: {}", fault));
   if (!std::isfinite(fidelity.compared.front().found.gain))
-    notes.push_back("the hand felt nothing that could be judged: no force over 20 mN for 50 ms");
+    notes.push_back("the hand felt nothing that could be graded: no force over 20 mN for 50 ms");
   return notes;
 }
 
-/// Of the numbered goals (goals.cpp), and where they have none, of the change of stiffness that a hand begins to
-/// notice, 15 to 20 % (from memory).
-constexpr const char* kShareSource = "3 %: goal 17; 15 %: the least change of stiffness that is noticed (from memory)";
+/// Of the numbered goals (goals.cpp), and where they have none, less than the change of stiffness that a hand
+/// begins to notice.
+constexpr const char* kShareSource =
+    "3 %: the goal of a line in hand; 15 %: below what a hand notices (Jones and Hunter 1990: 23 %)";
 
-void judge_force(const ComparedForce& force, std::vector<JudgedFigure>& figures) {
+void grade_force(const ComparedForce& force, std::vector<GradedFigure>& figures) {
   const ForceComparison& c = force.found;
   const auto add = [&](const char* what, const char* unit, double value, double good, double fair, const char* source) {
     if (std::isfinite(value)) figures.push_back({force.name + ": " + what, unit, value, good, fair, source});
   };
   add("difference", "% RMS", 100.0 * c.error_rms_share, 3.0, 15.0, kShareSource);
   add("strength off by", "%", 100.0 * std::abs(c.gain - 1.0), 3.0, 15.0, kShareSource);
-  add("late or early by", "ms", 1e3 * std::abs(c.lag_s), 2.0, 30.0, "2 ms: goal 17; 30 ms: goal 9");
+  add("late or early by", "ms", 1e3 * std::abs(c.lag_s), 2.0, 30.0,
+      "2 ms: the goal of a line in hand; 30 ms: of a joint in hand");
   // A force turned by an angle differs by 2 sin(angle / 2) of itself: the same shares.
-  add("turned by", "degrees", kDegrees * c.turn_angle_rad(), 1.7, 8.6, "3 and 15 % of the force, as above");
+  add("turned by", "degrees", kDegrees * c.rotation_angle_rad(), 1.7, 8.6, "3 and 15 % of the force, as above");
   add("jitter over 20 Hz", "mN RMS", 1e3 * c.noise_rms_N, 10.0, 50.0,
-      "10 mN: goal 12; 50 mN: where a coupling counts as unstable (reference 2.5)");
+      "10 mN: the goal of a press at rest; 50 mN: where a coupling counts as unstable");
 }
 
 }  // namespace
@@ -126,7 +128,7 @@ SceneFidelity measure_scene_fidelity(const scene::Scene& whole, const FidelityRe
   result.truth = request.truth;
   const std::vector<Vec3> true_N =
       request.truth == Truth::Ticks ? true_force_by_ticks(scene, run, request.profile, watch) : by_steps_N;
-  const JudgedTicks ticks = judged_ticks(scene, run, request.profile, true_N);
+  const ComparedTicks ticks = compared_ticks(scene, run, request.profile, true_N);
   result.force = felt_series(run, true_N, ticks.judged);
   result.gate_ticks = ticks.gate;
   result.hand_ticks = ticks.hand;
@@ -151,43 +153,45 @@ SceneFidelity measure_scene_fidelity(const scene::Scene& whole, const FidelityRe
   return result;
 }
 
-std::vector<JudgedFigure> judge(const SceneFidelity& fidelity) {
-  std::vector<JudgedFigure> figures;
+std::vector<GradedFigure> grade(const SceneFidelity& fidelity) {
+  std::vector<GradedFigure> figures;
   const ForceComparison& whole = fidelity.compared.front().found;
   if (!std::isfinite(whole.gain)) return figures;
-  judge_force(fidelity.compared.front(), figures);
+  grade_force(fidelity.compared.front(), figures);
   figures.push_back({"energy given to the hand beyond the true force's", "mJ",
                      1e3 * std::max(0.0, whole.commanded_work_J - whole.true_work_J), 1.0, 5.0,
-                     "1 mJ: goal 15; 5 mJ: the least store of an observer of energy (reference 2.6)"});
+                     "1 mJ: the goal of random poking; 5 mJ: what an observer of energy may store"});
   for (const PressStiffness& press : fidelity.presses) {
-    figures.push_back({fmt::format("stiffness of the press at {:.2f} s off by", press.start_s), "%",
-                       100.0 * std::abs(press.felt_N_m / press.true_N_m - 1.0), 5.0, 15.0,
-                       "5 %: goal 8; 15 %: the least change that is noticed (from memory)"});
+    figures.push_back(
+        {fmt::format("stiffness of the press at {:.2f} s off by", press.start_s), "%",
+         100.0 * std::abs(press.felt_N_m / press.true_N_m - 1.0), 5.0, 15.0,
+         "5 %: the goal of felt stiffness; 15 %: below what a hand notices (Jones and Hunter 1990: 23 %)"});
   }
-  figures.push_back(
-      {"answer to a step of the hand", "ms", 1e3 * fidelity.answer.total_s, 2.0, 30.0, "2 ms: goal 17; 30 ms: goal 9"});
+  figures.push_back({"answer to a step of the hand", "ms", 1e3 * fidelity.answer.total_s, 2.0, 30.0,
+                     "2 ms: the goal of a line in hand; 30 ms: of a joint in hand"});
   if (fidelity.friction) {
     figures.push_back({"friction while sliding off by", "%",
                        100.0 * std::abs(fidelity.friction->felt / fidelity.friction->asked - 1.0), 4.0, 15.0,
                        "4 %: what sliding over simulated tissue is tested for; 15 %: as for stiffness"});
   }
   if (fidelity.joint) {
-    figures.push_back({"stiffness of the joint in hand off by", "%",
-                       100.0 * std::abs(fidelity.joint->felt_Nm_rad / fidelity.joint->read_Nm_rad - 1.0), 5.0, 15.0,
-                       "5 %: goal 9; 15 %: the least change that is noticed (from memory)"});
+    figures.push_back(
+        {"stiffness of the joint in hand off by", "%",
+         100.0 * std::abs(fidelity.joint->felt_Nm_rad / fidelity.joint->read_Nm_rad - 1.0), 5.0, 15.0,
+         "5 %: the goal of a joint in hand; 15 %: below what a hand notices (Jones and Hunter 1990: 23 %)"});
   }
   return figures;
 }
 
-Grade worst_grade(const std::vector<JudgedFigure>& figures) {
+Grade worst_grade(const std::vector<GradedFigure>& figures) {
   if (figures.empty()) return Grade::Unknown;
   Grade worst = Grade::Good;
-  for (const JudgedFigure& figure : figures) worst = std::max(worst, figure.grade());
+  for (const GradedFigure& figure : figures) worst = std::max(worst, figure.grade());
   return worst;
 }
 
 const char* grade_text(Grade verdict) {
-  constexpr std::array kTexts = {"good", "fair", "poor", "nothing to judge"};
+  constexpr std::array kTexts = {"good", "fair", "poor", "nothing to grade"};
   return kTexts[static_cast<std::size_t>(verdict)];
 }
 

@@ -32,7 +32,7 @@ struct ComparedForce {
 enum class Grade { Good, Fair, Poor, Unknown };
 
 /// One figure beside the two bounds that make it good or fair.
-struct JudgedFigure {
+struct GradedFigure {
   std::string name, unit;
   double value = 0.0;
   double good = 0.0, fair = 0.0;  // at most
@@ -64,10 +64,10 @@ SceneFidelity measure_scene_fidelity(const scene::Scene& scene, const FidelityRe
 
 /// The figures that make the verdict; those that the run says nothing about are left out, and all
 /// where nothing was felt.
-std::vector<JudgedFigure> judge(const SceneFidelity& fidelity);
+std::vector<GradedFigure> grade(const SceneFidelity& fidelity);
 
 /// The worst of them; Unknown for none: nothing was felt.
-Grade worst_grade(const std::vector<JudgedFigure>& figures);
+Grade worst_grade(const std::vector<GradedFigure>& figures);
 const char* grade_text(Grade verdict);
 
 }  // namespace myotact::measure

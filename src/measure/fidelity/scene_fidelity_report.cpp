@@ -23,7 +23,7 @@ nlohmann::json comparison_json(const ForceComparison& c) {
           {"error_worst_share", c.error_worst_share},
           {"gain", c.gain},
           {"lag_s", c.lag_s},
-          {"turn_world_rad", {c.turn_rad.x(), c.turn_rad.y(), c.turn_rad.z()}},
+          {"turn_world_rad", {c.rotation_rad.x(), c.rotation_rad.y(), c.rotation_rad.z()}},
           {"mean_angle_rad", c.mean_angle_rad},
           {"noise_rms_N", c.noise_rms_N},
           {"noise_N2_Hz", c.noise_N2_Hz},
@@ -41,7 +41,7 @@ nlohmann::json faults_json(const PlantedFaults& faults) {
 std::string comparison_text(const std::string& name, const ForceComparison& c) {
   return fmt::format("  {:<30} {:>7.3f} {:>8.1f} {:>8.1f} {:>7.3f} {:>8.2f} {:>7.2f} {:>8.1f}\n", name, c.true_rms_N,
                      100.0 * c.error_rms_share, 100.0 * c.error_worst_share, c.gain, 1e3 * c.lag_s,
-                     kDegrees * c.turn_angle_rad(), 1e3 * c.noise_rms_N);
+                     kDegrees * c.rotation_angle_rad(), 1e3 * c.noise_rms_N);
 }
 
 std::string faults_text(const char* name, const PlantedFaults& faults) {
@@ -115,16 +115,16 @@ const char* truth_text(Truth truth) {
 }
 
 std::string scene_fidelity_text(const SceneFidelity& fidelity) {
-  const std::vector<JudgedFigure> figures = judge(fidelity);
+  const std::vector<GradedFigure> figures = grade(fidelity);
   const ForceComparison& whole = fidelity.compared.front().found;
   std::string text = fmt::format("{}: {}\n", fidelity.scene, grade_text(worst_grade(figures)));
   text += fmt::format("truth: {}\n", truth_text(fidelity.truth));
   text += fmt::format(
-      "judged: {:.2f} s near touch; left out {:.2f} s of gate, {:.2f} s of a closing or opening hand, "
+      "compared: {:.2f} s near touch; left out {:.2f} s of gate, {:.2f} s of a closing or opening hand, "
       "{:.2f} s of more force than the device may give\n\n",
       1e-3 * static_cast<double>(whole.ticks), 1e-3 * static_cast<double>(fidelity.gate_ticks),
       1e-3 * static_cast<double>(fidelity.hand_ticks), 1e-3 * static_cast<double>(fidelity.limit_ticks));
-  for (const JudgedFigure& figure : figures)
+  for (const GradedFigure& figure : figures)
     text += fmt::format("  {:<52} {:>9.3g} {:<8} {}  (good to {:g}, fair to {:g})\n", figure.name, figure.value,
                         figure.unit, grade_text(figure.grade()), figure.good, figure.fair);
   text += fmt::format("\n  {:<30} {:>7} {:>8} {:>8} {:>7} {:>8} {:>7} {:>8}\n", "", "N RMS", "% RMS", "% worst", "gain",
@@ -148,7 +148,7 @@ std::string scene_fidelity_text(const SceneFidelity& fidelity) {
 }
 
 std::string scene_fidelity_json(const SceneFidelity& fidelity) {
-  const std::vector<JudgedFigure> figures = judge(fidelity);
+  const std::vector<GradedFigure> figures = grade(fidelity);
   nlohmann::json json = {
       {"scene", fidelity.scene},
       {"truth", fidelity.truth == Truth::Ticks ? "ticks" : "steps"},
@@ -157,7 +157,7 @@ std::string scene_fidelity_json(const SceneFidelity& fidelity) {
        {{"gate", fidelity.gate_ticks}, {"hand", fidelity.hand_ticks}, {"limit", fidelity.limit_ticks}}},
       {"notes", fidelity.notes}};
   json["figures"] = nlohmann::json::array();
-  for (const JudgedFigure& figure : figures)
+  for (const GradedFigure& figure : figures)
     json["figures"].push_back({{"name", figure.name},
                                {"value", figure.value},
                                {"unit", figure.unit},

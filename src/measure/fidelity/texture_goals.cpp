@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "geometry/triangle_mesh.h"
-#include "haptics/autoregression.h"
-#include "haptics/texture.h"
+#include "haptics/effects/autoregression.h"
+#include "haptics/effects/texture.h"
 #include "measure/fidelity/rubbed_tissue.h"
 #include "measure/fidelity/spectrum.h"
 #include "scene/texture_file.h"

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "device/replay_device.h"
-#include "haptics/stiffness_bound.h"
+#include "haptics/gate/stiffness_bound.h"
 #include "scene/conductor.h"
 #include "scene/lockstep_haptics.h"
 

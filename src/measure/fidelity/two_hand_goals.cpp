@@ -16,7 +16,7 @@
 #include "measure/fidelity/shapes.h"
 #include "realtime/period_histogram.h"
 #include "realtime/periodic_loop.h"
-#include "simulation/local_patch.h"
+#include "simulation/touch/local_patch.h"
 
 namespace myotact::measure {
 

@@ -33,7 +33,7 @@ class Antagonists {
 /// than any activation matters, the one where it is smaller.
 template <class Function>
 double zero_between(double low, double high, const Function& f) {
-  constexpr double kClosest = 1e-18;  // of 10 kN on a lever of 0.1 m: 1e-15 N m
+  constexpr double kClosest = 1e-18;  // of 10 kN on a moment arm of 0.1 m: 1e-15 N m
   double f_low = f(low), f_high = f(high);
   while (high - low > kClosest) {
     const double middle = 0.5 * (low + high);

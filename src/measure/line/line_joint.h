@@ -6,8 +6,8 @@
 
 #include "measure/joint_response.h"
 #include "measure/line/wrapped_path.h"
-#include "simulation/hill_muscle.h"
-#include "simulation/line_model.h"
+#include "simulation/line/hill_muscle.h"
+#include "simulation/line/line_model.h"
 
 namespace myotact::measure {
 

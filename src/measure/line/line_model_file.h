@@ -7,7 +7,7 @@
 
 namespace myotact::measure {
 
-/// A line model (assets/cases/README.md, FORMATS: Line model): one hinge, its muscles, and what to tell of it.
+/// A line model (assets/cases/README.md): one hinge, its muscles, and what to tell of it.
 struct LineModel {
   LineJoint joint;
   bool short_range_stiffness = false;  // told beside the static one

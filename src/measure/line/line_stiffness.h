@@ -30,7 +30,7 @@ std::vector<LineRow> line_stiffness(const LineModel& model);
 /// Whether K and its central difference agree to 1e-6 of K (of 1 N m/rad below).
 bool agrees(const LineRow& row);
 
-/// A figure of a row: its name, which FORMATS fixes, its unit and its value.
+/// A figure of a row: its name, its unit and its value.
 struct LineColumn {
   std::string name, unit;
   double value = 0.0;

@@ -75,7 +75,7 @@ std::size_t tick_count(const ProbeInput& input) {
                           to_text(input.path.duration_s()), ticks, to_text(input.rate_hz), kMostTicks));
 }
 
-/// Cut to the largest force, keeping its direction. Zero for what is no number, which never came up.
+/// Cut to the largest force, keeping its direction. Zero for what is not a number, which never came up.
 Vec3 limited(const Vec3& force_N, ProbeSummary& summary) {
   if (!force_N.allFinite()) return Vec3::Zero();
   const double size_N = force_N.norm();

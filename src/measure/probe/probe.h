@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "haptics/contact_settings.h"
+#include "haptics/proxy/contact_settings.h"
 #include "measure/probe/probe_frames.h"
 #include "measure/probe/probe_path.h"
 #include "realtime/period_histogram.h"
@@ -34,7 +34,7 @@ struct ProbeSummary {
 
 struct ProbeAnswer {
   ProbeSummary summary;
-  std::string csv;  // FORMATS: Tables, one row a tick; `rescues` counts those of the row's tick
+  std::string csv;  // a table, one row a tick; `rescues` counts those of the row's tick
 };
 
 /// Drives the proxy along the path, a tick at a time on a virtual clock: the same answer every time but for `tick_us`.

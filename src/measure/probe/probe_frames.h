@@ -8,7 +8,7 @@
 
 namespace myotact::measure {
 
-/// A deforming surface as a folder of frames: `times.csv` (file, t_s) and the surfaces it names (FORMATS: Tables).
+/// A deforming surface as a folder of frames: `times.csv` (file, t_s) and the surfaces it names.
 /// Only frames that are asked for are read, so that long films need no memory.
 class ProbeFrames {
  public:

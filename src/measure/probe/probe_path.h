@@ -24,7 +24,7 @@ struct ProbePath {
   double duration_s() const { return t_s.back() - t_s.front(); }
 };
 
-/// A table `t_s, x_m, y_m, z_m` (FORMATS: Tables). Throws Error: NoInput, or BadData with the line for what is no
+/// A table `t_s, x_m, y_m, z_m`. Throws Error: NoInput, or BadData with the line for what is no
 /// number, too far, goes back in time or jumps.
 ProbePath load_path(const std::filesystem::path& file);
 

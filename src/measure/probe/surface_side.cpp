@@ -6,15 +6,12 @@
 
 #include <Eigen/Geometry>
 
+#include "core/at.h"
 #include "geometry/depth_inside.h"
 
 namespace myotact::measure {
 
 namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 double angle_rad(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));

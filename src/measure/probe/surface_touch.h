@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "geometry/triangle_mesh.h"
-#include "haptics/contact_settings.h"
-#include "haptics/moving_surface.h"
-#include "haptics/proxy.h"
+#include "haptics/proxy/contact_settings.h"
+#include "haptics/proxy/moving_surface.h"
+#include "haptics/proxy/proxy.h"
 #include "messages/local_model.h"
-#include "simulation/local_patch.h"
+#include "simulation/touch/local_patch.h"
 
 namespace myotact::measure {
 

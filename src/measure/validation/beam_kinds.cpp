@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "measure/validation/solid_inputs.h"
-#include "simulation/block_factor.h"
+#include "simulation/linear/block_factor.h"
 
 namespace myotact::measure {
 namespace {

@@ -1,8 +1,8 @@
 #include "measure/validation/fibre_kinds.h"
 
 #include "measure/validation/step_count.h"
-#include "simulation/activation.h"
 #include "simulation/curves/curve_set.h"
+#include "simulation/muscle/activation.h"
 
 namespace myotact::measure {
 namespace {

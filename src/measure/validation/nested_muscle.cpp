@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "core/at.h"
 #include "core/data_folder.h"
 #include "geometry/mesh_files.h"
 #include "geometry/refine.h"
@@ -18,10 +19,6 @@ constexpr int kTendon = 1;
 constexpr double kMiddleFrom = 0.4, kMiddleTo = 0.6;
 /// A face whose normal has this share along `across` or more is pressed.
 constexpr double kFacing = 0.5;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 Vec3 mean_of_end(const NestedMuscle& muscle, int end) {
   Vec3 sum = Vec3::Zero();

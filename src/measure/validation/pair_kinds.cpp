@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "measure/line/line_motion.h"
-#include "simulation/fibre_curves.h"
+#include "simulation/curves/fibre_curves.h"
 
 namespace myotact::measure {
 namespace {

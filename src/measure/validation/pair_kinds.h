@@ -6,7 +6,7 @@ namespace myotact::measure {
 
 // Kinds of two like one-dimensional muscles on the two sides of a hinge. *Pair* stands for: peak_force_N,
 // optimal_fibre_m, tendon (rigid or elastic), tendon_slack_m, inertia_kg_m2 (0.005), and their path: either arm_m, a
-// lever that stays the same, or origin_m and insertion_m ([x, z] from the hinge, x across and z along the limb),
+// moment arm that stays the same, or origin_m and insertion_m ([x, z] from the hinge, x across and z along the limb),
 // between which the muscle runs straight.
 
 /// Inputs: pair, length_m (of the whole unit at the start), activations. Quantities by activation: stretch (fibre

@@ -104,7 +104,7 @@ std::string validation_html(const std::vector<CaseResult>& results) {
   if (!failed.empty()) html += fmt::format(R"( <span class="fail">FAIL: {}</span>)", escape_markup(join(failed)));
   html +=
       "</p>\n<p>Bars show errors; the dashed line is the tolerance. Bounds have no tolerance: \"kept\", or the longest "
-      "bar. What is only reported has a line in the table and is not judged.</p>\n";
+      "bar. What is only reported has a line in the table and is not checked.</p>\n";
   for (const CaseResult& result : results) {
     html += fmt::format("<h2{}>{}: {}</h2>\n<p>{}</p>\n", result.passed() ? "" : R"( class="fail")",
                         escape_markup(result.name), result.passed() ? "pass" : "FAIL", escape_markup(result.title));

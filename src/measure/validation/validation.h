@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "measure/validation/kinds.h"
 
 namespace myotact::measure {

@@ -5,9 +5,9 @@
 
 #include "simulation/curves/blemker.h"
 #include "simulation/curves/degroote_fregly.h"
+#include "simulation/curves/fibre_curves.h"
 #include "simulation/curves/millard.h"
 #include "simulation/curves/thelen.h"
-#include "simulation/fibre_curves.h"
 
 namespace myotact::simulation {
 namespace {

@@ -19,6 +19,7 @@ struct Curve {
 
 /// Force against velocity at an activation 0 .. 1, which only Thelen's curve depends on.
 struct VelocityCurve {
+  /// Force, and its derivative against v.
   double (*value)(double v, double activation) noexcept;
   double (*slope)(double v, double activation) noexcept;
   /// The v at which the force is `force`, within -1 .. 1: the isotonic velocity under that load.
@@ -29,17 +30,19 @@ struct VelocityCurve {
 /// `v` over the largest shortening speed, v < 0 shortens; the tendon's argument is its length over its slack length.
 /// Finite for every finite argument; real-time safe.
 struct ForceCurves {
-  Curve active;
-  Curve passive;
-  Curve tendon;
-  VelocityCurve velocity;
+  Curve active;            // fL(n) at full activation
+  Curve passive;           // fP(n)
+  Curve tendon;            // fT(stretch)
+  VelocityCurve velocity;  // fV(v), 1 at v = 0
 };
 
-/// Blemker's muscle is quasi-static and ends where its tendon begins: its velocity and tendon curves are De Groote's.
+/// The curves of one set; they last for ever. Blemker's muscle is quasi-static and ends where its tendon begins: its
+/// velocity and tendon curves are De Groote's.
 const ForceCurves& force_curves(CurveSet set) noexcept;
 
 /// "degroote_fregly_2016" and so on, as files name the sets, in the order of the enumerators.
 const std::vector<std::string>& curve_set_names();
+/// The set of that name, or none.
 std::optional<CurveSet> find_curve_set(std::string_view name);
 
 }  // namespace myotact::simulation

@@ -6,6 +6,7 @@ namespace myotact::simulation::degroote_fregly {
 // family is that of the muscles themselves (fibre_curves.h), which leave this curve along its tangent.
 
 /// Strain 0.6 at peak force, shape 4, 0 at n = 0.2. Past n = 2 a straight line, so that nothing overflows.
+/// Slightly negative below n = 0.2.
 double passive_force_length(double n) noexcept;
 double passive_force_length_slope(double n) noexcept;
 

@@ -11,14 +11,17 @@ namespace myotact::simulation::millard {
 double active_force_length(double n) noexcept;
 double active_force_length_slope(double n) noexcept;
 
+/// 0 up to n = 1, strain 0.7 at peak force; straight beyond.
 double passive_force_length(double n) noexcept;
 double passive_force_length_slope(double n) noexcept;
 
+/// 0 for v <= -1, 1.4 for v >= 1.
 double force_velocity(double v) noexcept;
 double force_velocity_slope(double v) noexcept;
-/// By bisection.
+/// The v at which the force is `force`, within -1 .. 1. By bisection.
 double velocity_at_force(double force) noexcept;
 
+/// 0 for a slack tendon, 1 at 4.9 % strain, straight from 2/3 of peak force on.
 double tendon_force(double stretch) noexcept;
 double tendon_force_slope(double stretch) noexcept;
 

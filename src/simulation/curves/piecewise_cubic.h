@@ -10,7 +10,7 @@ struct Knot {
   double x, y, slope;
 };
 
-/// The cubic between two knots. Whole curves have a continuous slope, no continuous curvature.
+/// The cubic between two knots of different x. Whole curves have a continuous slope, no continuous curvature.
 constexpr double cubic_value(const Knot& a, const Knot& b, double x) noexcept {
   const double h = b.x - a.x;
   const double t = (x - a.x) / h;
@@ -18,6 +18,7 @@ constexpr double cubic_value(const Knot& a, const Knot& b, double x) noexcept {
   return a.y + (b.y - a.y) * from_b + h * t * (1.0 - t) * ((1.0 - t) * a.slope - t * b.slope);
 }
 
+/// Its derivative.
 constexpr double cubic_slope(const Knot& a, const Knot& b, double x) noexcept {
   const double h = b.x - a.x;
   const double t = (x - a.x) / h;
@@ -25,7 +26,7 @@ constexpr double cubic_slope(const Knot& a, const Knot& b, double x) noexcept {
   return 6.0 * t * (1.0 - t) * mean_slope + (1.0 - t) * (1.0 - 3.0 * t) * a.slope + t * (3.0 * t - 2.0) * b.slope;
 }
 
-/// The curve through two or more knots of rising x, straight beyond the first and the last.
+/// The curve through two or more knots of rising x, straight beyond the first and the last. Real-time safe.
 constexpr double curve_value(std::span<const Knot> knots, double x) noexcept {
   constexpr double kLargestArgument = 1e300;  // straight lines stop growing there, to stay finite
   const Knot& first = knots.front();
@@ -37,6 +38,7 @@ constexpr double curve_value(std::span<const Knot> knots, double x) noexcept {
   return cubic_value(knots[i - 1], knots[i], x);
 }
 
+/// Its derivative.
 constexpr double curve_slope(std::span<const Knot> knots, double x) noexcept {
   if (x <= knots.front().x) return knots.front().slope;
   if (x >= knots.back().x) return knots.back().slope;

@@ -9,21 +9,22 @@ namespace myotact::simulation {
 /// and at each point the nominal stress of the fibres (force over rest section) with its slope against the stretch.
 struct MuscleBatch {
   const TetShapes& shapes;
-  const PointBatch<QuadraticTet>& points;
+  const PointBatch<QuadraticTet>& points;  // deformed
   StableNeoHookean matrix;
-  Eight fluctuation_Pa;
-  std::array<Eight, QuadraticTet::kPoints> stress_Pa{};
-  std::array<Eight, QuadraticTet::kPoints> slope_Pa{};
+  Eight fluctuation_Pa;                                  // c of MeanVolume
+  std::array<Eight, QuadraticTet::kPoints> stress_Pa{};  // of the fibres
+  std::array<Eight, QuadraticTet::kPoints> slope_Pa{};   // against the stretch
 };
 
-/// Forces that hold the deformed tets (slope of their energy) [N].
+/// Forces that hold the deformed tets (slope of their energy), in the world. Overwrites, as the functions below do.
+/// Allocates nothing.
 void muscle_forces(const MuscleBatch& batch, TetNodeVectors<Eight, QuadraticTet>& force_N);
 
 /// Slope of the forces against the positions. `definite` drops or bounds every term that could make it indefinite: a
 /// slower but safe Newton matrix.
 void muscle_stiffness(const MuscleBatch& batch, bool definite, TetBlocks<Eight, QuadraticTet>& blocks_N_m);
 
-/// Slope of the integral of the fibres' stretch over the tets' volume against the node positions [m^2].
+/// Slope of the integral of the fibres' stretch over the tets' volume against the node positions.
 void fibre_stretch_slopes(const TetShapes& shapes, const PointBatch<QuadraticTet>& points,
                           TetNodeVectors<Eight, QuadraticTet>& slope_m2);
 

@@ -19,26 +19,29 @@ namespace myotact::simulation {
 constexpr std::size_t coordinate_pair(std::size_t m, std::size_t n) {
   return m * 4 - m * (m + 1) / 2 + n;
 }
+/// How many there are.
 inline constexpr std::size_t kCoordinatePairs = 10;
 /// Blocks of one pair of coordinates: G of the four points, then S.
 inline constexpr std::size_t kSumsPerPair = 5;
 
+/// One block's part in the stiffness of a pair of nodes.
 struct PairTerm {
   std::size_t block = 0;  // coordinate_pair * kSumsPerPair + (point or 4)
-  double factor = 0.0;
+  double factor = 0.0;    // of that block
 };
 
 /// Terms of each pair of nodes: those with the blocks as they are, then those with the blocks transposed.
 struct PairTerms {
-  std::array<PairTerm, 800> terms{};
+  std::array<PairTerm, 800> terms{};  // list after list; not all are in use
+  /// List 2 pair: as they are, list 2 pair + 1: transposed; each ends where the next one starts.
   std::array<std::size_t, 2 * kPairs<QuadraticTet> + 1> start{};
 };
 
 namespace detail {
 
-inline constexpr double kBetween = 4.0 * (QuadraticTet::kFar - QuadraticTet::kNear);
-inline constexpr double kOfPoint = 4.0 * QuadraticTet::kNear * kBetween;           // of B^p in G^p
-inline constexpr double kOfSum = 8.0 * QuadraticTet::kNear * QuadraticTet::kNear;  // of S in G^p
+inline constexpr double kBetween = 4.0 * (QuadraticTet::kFar - QuadraticTet::kNear);  // w
+inline constexpr double kOfPoint = 4.0 * QuadraticTet::kNear * kBetween;              // of B^p in G^p
+inline constexpr double kOfSum = 8.0 * QuadraticTet::kNear * QuadraticTet::kNear;     // of S in G^p
 
 /// Factors of G^0 .. G^3 and S that give sum_p c_p B^p, with as many zeros as can be.
 constexpr std::array<double, kSumsPerPair> factors_of_sums(const std::array<double, 4>& c) {
@@ -60,6 +63,7 @@ constexpr std::array<double, kSumsPerPair> factors_of_sums(const std::array<doub
   return factor;
 }
 
+/// For all pairs of nodes a <= b, from the slopes of the shape functions.
 constexpr PairTerms make_pair_terms() {
   PairTerms out;
   std::size_t next = 0, list = 0;
@@ -89,6 +93,7 @@ constexpr PairTerms make_pair_terms() {
 
 }  // namespace detail
 
+/// Made when compiling.
 inline constexpr PairTerms kPairTerms = detail::make_pair_terms();
 
 }  // namespace myotact::simulation

@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 
 #include "core/vector.h"
-#include "simulation/block_factor.h"
 #include "simulation/element/tet_batch.h"
+#include "simulation/linear/block_factor.h"
 
 // Tets, eight at a time, and how they meet the nodes.
 
@@ -18,19 +18,22 @@ struct PairSlot {
   bool in_order = true;  // a's row, b's column; else the other way round
 };
 
+/// [pair of nodes a <= b][lane].
 template <class Tet>
 using TetSlots = std::array<std::array<PairSlot, kBatch>, kPairs<Tet>>;
 
+/// Up to eight tets of one kind and material, and where they meet the nodes.
 template <class Tet>
 struct TetBatch {
-  TetShapes shapes;
-  int count = 0;  // tets in use; the other lanes repeat the last one and count for nothing
-  std::size_t material = 0;
-  std::array<int, kBatch> tet{};
-  std::array<std::array<int, Tet::kNodes>, kBatch> nodes{};
-  TetSlots<Tet> slots{};  // in the matrix of all unknowns
+  TetShapes shapes;               // at rest
+  int count = 0;                  // tets in use; the other lanes repeat the last one and count for nothing
+  std::size_t material = 0;       // of a Solid's list
+  std::array<int, kBatch> tet{};  // number of each lane's tet in its mesh
+  std::array<std::array<int, Tet::kNodes>, kBatch> nodes{};  // of the mesh, [lane][node]
+  TetSlots<Tet> slots{};                                     // in the matrix of all unknowns
 };
 
+/// The tets' part of an array of 3 numbers a node of the mesh.
 template <class Tet>
 void gather(const TetBatch<Tet>& batch, const Eigen::VectorXd& values, TetNodeVectors<Eight, Tet>& gathered) {
   for (std::size_t lane = 0; lane < kBatch; ++lane) {
@@ -41,6 +44,7 @@ void gather(const TetBatch<Tet>& batch, const Eigen::VectorXd& values, TetNodeVe
   }
 }
 
+/// Adds the first batch.count lanes to an array of 3 numbers a node of the mesh.
 template <class Tet>
 void scatter(const TetBatch<Tet>& batch, const TetNodeVectors<Eight, Tet>& values, Eigen::VectorXd& out) {
   for (std::size_t lane = 0; lane < static_cast<std::size_t>(batch.count); ++lane) {
@@ -51,7 +55,8 @@ void scatter(const TetBatch<Tet>& batch, const TetNodeVectors<Eight, Tet>& value
   }
 }
 
-/// Adds the first `count` lanes of the blocks to the values of the matrix that the slots belong to.
+/// Adds the first `count` lanes of the blocks to the values of the matrix that the slots belong to (Scalar: what these
+/// are kept in).
 template <class Tet, class Scalar>
 void scatter(const TetSlots<Tet>& slots, int count, const TetBlocks<Eight, Tet>& blocks, Scalar* values) {
   for (std::size_t pair = 0; pair < kPairs<Tet>; ++pair) {
@@ -85,17 +90,19 @@ void set_lane(TetBatch<Tet>& batch, std::size_t lane, int tet, const TetShape<do
   }
 }
 
+/// Slot of the block of nodes a and b, in the pattern's numbering; nowhere when one is below 0.
 inline PairSlot pair_slot(const BlockMatrix& pattern, int a, int b) {
   if (a < 0 || b < 0) return {};
   return {pattern.slot(a > b ? a : b, a > b ? b : a), a >= b};
 }
 
+/// The same in the places of a factor.
 inline PairSlot pair_slot(const BlockFactor& factor, int a, int b) {
   if (a < 0 || b < 0) return {};
   return {factor.slot(a, b), !factor.is_later(b, a)};
 }
 
-/// Slots of a tet's pairs a <= b in a BlockMatrix or a BlockFactor; nodes below 0 are no unknowns.
+/// Slots of a tet's pairs a <= b in a BlockMatrix or a BlockFactor; nodes below 0 are no unknowns. Of one lane.
 template <class Tet, class Matrix>
 void set_slots(const Matrix& matrix, const std::array<int, Tet::kNodes>& nodes, std::size_t lane,
                TetSlots<Tet>& slots) {
@@ -115,7 +122,7 @@ std::vector<PairSlot> pair_slots(const BlockMatrix& pattern, const Nodes& nodes)
   return slots;
 }
 
-/// From the rest position of the 4 corners (volume > 0) and the unit direction of the fibres, or zero.
+/// From the rest positions of the 4 corners (volume > 0, not checked) and the unit direction of the fibres, or zero.
 TetShape<double> make_tet_shape(const std::array<Vec3, 4>& corners_m, const Vec3& fibre);
 
 }  // namespace myotact::simulation

@@ -20,16 +20,18 @@ namespace myotact::simulation {
 template <class Real>
 struct TetShape {
   std::array<Vector3<Real>, 4> gradient_1_m{};  // of the barycentric coordinates
-  Real volume_m3{};
-  Vector3<Real> fibre{};  // unit direction at rest, or zero
+  Real volume_m3{};                             // at rest
+  Vector3<Real> fibre{};                        // unit direction at rest, or zero
 };
 
+/// A vector of each node.
 template <class Real, class Tet>
 using TetNodeVectors = std::array<Vector3<Real>, Tet::kNodes>;
 /// 3 x 3 blocks of the pairs of nodes a <= b, row-major.
 template <class Real, class Tet>
 using TetBlocks = std::array<Matrix3<Real>, kPairs<Tet>>;
 
+/// Deformation at the integration points, from the node positions (world).
 template <class Tet, class Real>
 MYOTACT_INLINE void deform_tet(const TetShape<Real>& shape, const TetNodeVectors<Real, Tet>& position_m,
                                std::array<Point<Real>, Tet::kPoints>& points) {
@@ -71,8 +73,7 @@ MYOTACT_INLINE void deform_tet(const TetShape<Real>& shape, const TetNodeVectors
   }
 }
 
-/// force[a] = volume / points * sum over points and A of P_iA dN_a / dX_A. `stress` holds the P
-/// of each point.
+/// force[a] = volume / points * sum over points and A of P_iA dN_a / dX_A (world). `stress`: P of each point.
 template <class Tet, class Real>
 MYOTACT_INLINE void tet_forces(const TetShape<Real>& shape, const std::array<Matrix3<Real>, Tet::kPoints>& stress,
                                TetNodeVectors<Real, Tet>& force_N) {
@@ -146,9 +147,11 @@ MYOTACT_INLINE void coordinate_blocks(const TetShape<Real>& shape, const std::ar
   }
 }
 
+/// The tangent C at a point, packed as in point.h.
 template <class Real>
 using PackedTangent = std::array<Real, kPacked>;
 
+/// tet_stiffness() of a quadratic tet.
 template <class Real>
 MYOTACT_INLINE void quadratic_stiffness(const TetShape<Real>& shape, const std::array<PackedTangent<Real>, 4>& C,
                                         TetBlocks<Real, QuadraticTet>& blocks_N_m) {
@@ -211,9 +214,9 @@ MYOTACT_INLINE void add_outer_blocks(const TetNodeVectors<Real, Tet>& v, const R
 /// The volume term on the element's mean volume ratio, plus c/2 (J - mean J)^2 at each point.
 template <class Real>
 struct MeanVolume {
-  Real mean_J{};
-  VolumeTerm<Real> term{};
-  Real fluctuation_Pa{};  // c
+  Real mean_J{};            // of the element
+  VolumeTerm<Real> term{};  // at mean_J
+  Real fluctuation_Pa{};    // c
 };
 
 /// Below this volume ratio a point is pushed back by its own volume term too: the mean alone lets points fold over and

@@ -38,7 +38,7 @@ inline constexpr std::array<std::array<std::size_t, 4>, 4> kNodeBetween = [] {
   return node;
 }();
 
-/// dN_node / dL_m at a point.
+/// dN_node / dL_m at an integration point, the four coordinates taken as independent.
 template <class Tet>
 constexpr double shape_slope(std::size_t node, std::size_t m, std::size_t point) {
   if constexpr (Tet::kNodes == 4) {

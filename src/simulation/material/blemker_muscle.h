@@ -12,6 +12,7 @@ struct SquaredArccosh {
   double value = 0.0, slope = 0.0, curvature = 0.0;
 };
 
+/// At any finite x.
 inline SquaredArccosh squared_arccosh(double x) {
   constexpr double kSeries = 1e-2;  // below, the quotients would lose digits; the series' next term is 1e-17
   constexpr double kStraight = 0.5;
@@ -49,11 +50,13 @@ template <FibreCurve Curve>
 struct BlemkerMuscle {
   double along_Pa = 0.0;   // G1
   double across_Pa = 0.0;  // G2
-  double bulk_Pa = 0.0;
-  Curve curve;
+  double bulk_Pa = 0.0;    // K
+  Curve curve;             // slope of w against the isochoric stretch
 
+  /// What shear and fibres take of the deformation.
   static constexpr Uses kUses{.I1 = true, .J = true, .I4 = true, .I5 = true};
 
+  /// Adds the energy without that of volume(). `activation` 0 .. 1. Real is double here.
   template <class Real>
   MYOTACT_INLINE void add_energy(const Point<Real>& p, const Real& activation, Response<Real>& out) const {
     const IsochoricValues<Real> bar = isochoric_values(invariants_of<Real, kUses>(p));
@@ -61,6 +64,7 @@ struct BlemkerMuscle {
     FibreFamily<Curve, FibreStretch::Isochoric>{curve}.add_energy(p, activation, out);
   }
 
+  /// Adds stress and tangent without those of volume(), and no energy.
   template <class Real>
   MYOTACT_INLINE void add(const Point<Real>& p, const Real& activation, Response<Real>& out) const {
     const IsochoricValues<Real> bar = isochoric_values(invariants_of<Real, kUses>(p));
@@ -72,6 +76,7 @@ struct BlemkerMuscle {
     add_slopes<Real, kUses>(p, from_isochoric(slopes, bar.values, bar.scale, bar.ratio), out);
   }
 
+  /// The volume term U(J), U', U''.
   template <class Real>
   MYOTACT_INLINE VolumeTerm<Real> volume(const Real& J) const {
     return logarithmic_volume(bulk_Pa, J);

@@ -65,9 +65,10 @@ MYOTACT_INLINE Matrix3<Real> polar_rotation(const Point<Real>& p) {
 /// Fixed corotated linear law, for comparison with other programs: W = mu |F - R|^2 + lambda/2 (tr S - 3)^2, F = R S.
 /// Its volume term is not a function of J, so an element's mean-volume remedy does not touch it.
 struct Corotated {
-  double shear_Pa = 0.0;
-  double lambda_Pa = 0.0;
+  double shear_Pa = 0.0;   // mu
+  double lambda_Pa = 0.0;  // lambda
 
+  /// Adds the energy without that of volume(). `activation` 0 .. 1.
   template <class Real>
   MYOTACT_INLINE void add_energy(const Point<Real>& p, const Real& /*activation*/, Response<Real>& out) const {
     const Matrix3<Real> R = detail::polar_rotation(p);
@@ -79,6 +80,7 @@ struct Corotated {
     out.energy_Pa += shear_Pa * squared + 0.5 * lambda_Pa * trace * trace;
   }
 
+  /// Adds stress and tangent without those of volume(), and no energy.
   template <class Real>
   MYOTACT_INLINE void add(const Point<Real>& p, const Real& /*activation*/, Response<Real>& out) const {
     const Matrix3<Real> R = detail::polar_rotation(p);
@@ -96,6 +98,7 @@ struct Corotated {
     add_rotation_slope(R, S, trace, pressure - 2.0 * shear_Pa, out);
   }
 
+  /// Zero: there is none.
   template <class Real>
   MYOTACT_INLINE VolumeTerm<Real> volume(const Real& /*J*/) const {
     return {};

@@ -17,8 +17,8 @@ struct FibreLaw {
   double slope_Pa = 0.0;
 };
 
-/// A curve tells the nominal stress of a fibre: FibreLaw at(stretch, activation), and energy_Pa(stretch, activation),
-/// the integral of the stress from stretch 1.
+/// A curve gives the nominal stress of a fibre: FibreLaw at(stretch, activation), and energy_Pa(stretch, activation),
+/// the integral of the stress from stretch 1. Both are asked for stretches from kShortestStretch on.
 template <class Curve>
 concept FibreCurve = requires(const Curve& curve, double stretch, double activation) {
   { curve.at(stretch, activation) } -> std::same_as<FibreLaw>;
@@ -59,6 +59,7 @@ struct FibreSlopes {
   Real first{}, second{};
 };
 
+/// `law(stretch, lane)` gives the FibreLaw of one lane.
 template <class Real, class Law>
 MYOTACT_INLINE FibreSlopes<Real> fibre_slopes(const Real& I4, const Law& law) {
   const Real stretch = larger(square_root(I4), constant<Real>(kShortestStretch));
@@ -81,13 +82,15 @@ MYOTACT_INLINE FibreSlopes<Real> fibre_slopes(const Real& I4, const Law& law) {
 
 }  // namespace detail
 
-/// Fibres of one direction: an energy of their stretch alone.
+/// Fibres of one direction: an energy of their stretch alone. A law as in law.h; has no volume term.
 template <FibreCurve Curve, FibreStretch kStretch>
 struct FibreFamily {
-  Curve curve;
+  Curve curve;  // nominal stress by the stretch
 
+  /// What the fibres take of the deformation.
   static constexpr Uses kUses{.J = kStretch == FibreStretch::Isochoric, .I4 = true};
 
+  /// Adds the energy without that of volume(). `activation` 0 .. 1. Real is double here.
   template <class Real>
   MYOTACT_INLINE void add_energy(const Point<Real>& p, const Real& activation, Response<Real>& out) const {
     Real I4 = p.I4;
@@ -99,6 +102,7 @@ struct FibreFamily {
     out.energy_Pa += below * 0.5 * curve.at(stretch, activation).stress_Pa / stretch;
   }
 
+  /// Adds stress and tangent without those of volume(), and no energy.
   template <class Real>
   MYOTACT_INLINE void add(const Point<Real>& p, const Real& activation, Response<Real>& out) const {
     const auto law = [&](double stretch, int lane) { return curve.at(stretch, lane_of(activation, lane)); };
@@ -117,6 +121,7 @@ struct FibreFamily {
     }
   }
 
+  /// Zero: there is none.
   template <class Real>
   MYOTACT_INLINE VolumeTerm<Real> volume(const Real& /*J*/) const {
     return {};

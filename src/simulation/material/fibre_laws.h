@@ -9,11 +9,12 @@ namespace myotact::simulation {
 /// Active and passive fibre of skeletal muscle by a published set of curves: nominal stress = peak (a fL(n) + fP(n)),
 /// with the normalised length n = rest_length + gain (stretch - 1).
 struct MuscleFibre {
-  double peak_Pa = 0.0;
-  double rest_length = 1.0;  // over the optimal length, at stretch 1
-  double gain = 1.0;
-  CurveSet curves = CurveSet::DeGrooteFregly2016;
+  double peak_Pa = 0.0;                            // nominal stress at full activation and optimal length
+  double rest_length = 1.0;                        // over the optimal length, at stretch 1
+  double gain = 1.0;                               // dn / d(stretch)
+  CurveSet curves = CurveSet::DeGrooteFregly2016;  // fL and fP
 
+  /// Nominal stress and its slope; its integral from stretch 1. `activation` 0 .. 1, stretch > 0.
   FibreLaw at(double stretch, double activation) const {
     const double n = rest_length + gain * (stretch - 1.0);
     const ForceCurves& set = force_curves(curves);
@@ -32,6 +33,7 @@ struct ExponentialFibre {
   double straight_Pa = 0.0;  // c5
   double straight = 1.0;     // stretch where the toe ends
 
+  /// Nominal stress and its slope; its integral from stretch 1. `activation` 0 .. 1, stretch > 0.
   FibreLaw at(double stretch, double /*activation*/) const {
     if (stretch <= 1.0) return {};
     const double end = std::min(stretch, straight);
@@ -44,15 +46,17 @@ struct ExponentialFibre {
   double energy_Pa(double stretch, double activation) const { return integrate_stress(*this, stretch, activation); }
 };
 
-/// Fibres of Blemker's muscle: nominal stress = peak (a fL(r) + fP(r)), r = stretch over the optimal stretch.
+/// Fibres of Blemker's muscle: nominal stress = peak / optimal stretch (a fL(r) + fP(r)), r = stretch over the
+/// optimal stretch.
 /// fL as in curves/blemker.h, fP = P1 (exp(P2 (r - 1)) - 1) from r = 1, straight from `straight` on.
 struct BlemkerFibre {
-  double peak_Pa = 0.0;
-  double optimal_stretch = 1.0;
-  double toe = 0.05;      // P1
-  double exponent = 6.6;  // P2
-  double straight = 1.4;
+  double peak_Pa = 0.0;          // sigma max: nominal stress times the optimal stretch
+  double optimal_stretch = 1.0;  // > 0
+  double toe = 0.05;             // P1
+  double exponent = 6.6;         // P2
+  double straight = 1.4;         // r where the exponential ends
 
+  /// Nominal stress and its slope; its integral from stretch 1. `activation` 0 .. 1, stretch > 0.
   FibreLaw at(double stretch, double activation) const {
     const double r = stretch / optimal_stretch;
     double passive = 0.0, passive_slope = 0.0;

@@ -9,8 +9,10 @@
 
 namespace myotact::simulation {
 
+/// Place of each in Invariants, and how many there are.
 enum Invariant : std::size_t { kI1, kI2, kJ, kI4, kI5, kInvariants };
 
+/// Values of all, or slopes against all.
 template <class Real>
 using Invariants = std::array<Real, kInvariants>;
 
@@ -28,10 +30,12 @@ struct Slopes {
 /// by a finite force.
 template <class Real>
 struct PositiveRatio {
-  Real j{}, slope{}, curvature{};
+  Real j{}, slope{}, curvature{};  // j(J), j', j''
 };
+/// Where the curve leaves J.
 inline constexpr double kLowestRatio = 0.1;
 
+/// At any finite J.
 template <class Real>
 MYOTACT_INLINE PositiveRatio<Real> positive_ratio(const Real& J) {
   const Real low = constant<Real>(kLowestRatio), one = constant<Real>(1.0), zero{};
@@ -48,7 +52,7 @@ MYOTACT_INLINE VolumeTerm<Real> through(const PositiveRatio<Real>& ratio, const 
           of_j.curvature_Pa * ratio.slope * ratio.slope + of_j.slope_Pa * ratio.curvature};
 }
 
-/// bulk / 2 (ln J)^2.
+/// bulk / 2 (ln J)^2, J replaced by positive_ratio().
 template <class Real>
 MYOTACT_INLINE VolumeTerm<Real> logarithmic_volume(double bulk_Pa, const Real& J) {
   const PositiveRatio<Real> ratio = positive_ratio(J);
@@ -69,6 +73,7 @@ struct Products {
   Vector3<Real> g{};      // F F^T F a
 };
 
+/// Of a deformed point.
 template <class Real>
 MYOTACT_INLINE Products<Real> products_of(const Point<Real>& p) {
   Products<Real> out;
@@ -102,6 +107,7 @@ MYOTACT_INLINE void add_rest_matrix(const Matrix3<Real>& s, const Real& scale, s
   }
 }
 
+/// a (x) b, row-major.
 template <class Real>
 MYOTACT_INLINE Matrix3<Real> outer(const Vector3<Real>& a, const Vector3<Real>& b) {
   Matrix3<Real> product;
@@ -160,7 +166,7 @@ struct Uses {
   bool I1 = false, I2 = false, J = false, I4 = false, I5 = false;
 };
 
-/// What a law knows before it states its slopes.
+/// What a law knows before it states its slopes. I2 and I5 are 0 when neither is used.
 template <class Real, Uses kUses>
 MYOTACT_INLINE Invariants<Real> invariants_of(const Point<Real>& p) {
   Invariants<Real> inv{};

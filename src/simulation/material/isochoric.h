@@ -9,11 +9,12 @@ namespace myotact::simulation {
 /// J^(-2/3) I1, J^(-4/3) I2 ..., and what they were made with.
 template <class Real>
 struct IsochoricValues {
-  PositiveRatio<Real> ratio;
-  Real scale{};  // j^(-2/3)
-  Invariants<Real> values{};
+  PositiveRatio<Real> ratio;  // of J
+  Real scale{};               // j^(-2/3)
+  Invariants<Real> values{};  // that of J is 0
 };
 
+/// From the invariants; J must be among them.
 template <class Real>
 MYOTACT_INLINE IsochoricValues<Real> isochoric_values(const Invariants<Real>& inv) {
   IsochoricValues<Real> out;
@@ -26,6 +27,7 @@ MYOTACT_INLINE IsochoricValues<Real> isochoric_values(const Invariants<Real>& in
 }
 
 /// From slopes against the isochoric invariants J^-p I to those against the invariants and J themselves.
+/// `bar_values`, `scale_third` and `ratio` are the members of IsochoricValues. The energy is not carried over.
 template <class Real>
 MYOTACT_INLINE Slopes<Real> from_isochoric(const Slopes<Real>& bar, const Invariants<Real>& bar_values,
                                            const Real& scale_third, const PositiveRatio<Real>& ratio) {

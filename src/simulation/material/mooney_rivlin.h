@@ -8,16 +8,19 @@ namespace myotact::simulation {
 struct MooneyRivlin {
   double c1_Pa = 0.0;
   double c2_Pa = 0.0;
-  double bulk_Pa = 0.0;
+  double bulk_Pa = 0.0;  // K
 
+  /// What the law takes of the deformation.
   static constexpr Uses kUses{.I1 = true, .I2 = true, .J = true};
 
+  /// Adds the energy without that of volume(). `activation` 0 .. 1.
   template <class Real>
   MYOTACT_INLINE void add_energy(const Point<Real>& p, const Real& /*activation*/, Response<Real>& out) const {
     const IsochoricValues<Real> bar = isochoric_values(invariants_of<Real, kUses>(p));
     out.energy_Pa += c1_Pa * (bar.values[kI1] - 3.0) + c2_Pa * (bar.values[kI2] - 3.0);
   }
 
+  /// Adds stress and tangent without those of volume(), and no energy.
   template <class Real>
   MYOTACT_INLINE void add(const Point<Real>& p, const Real& /*activation*/, Response<Real>& out) const {
     const IsochoricValues<Real> bar = isochoric_values(invariants_of<Real, kUses>(p));
@@ -27,6 +30,7 @@ struct MooneyRivlin {
     add_slopes<Real, kUses>(p, from_isochoric(slopes, bar.values, bar.scale, bar.ratio), out);
   }
 
+  /// The volume term U(J), U', U''.
   template <class Real>
   MYOTACT_INLINE VolumeTerm<Real> volume(const Real& J) const {
     return logarithmic_volume(bulk_Pa, J);

@@ -2,13 +2,14 @@
 
 #include <array>
 
-#include "simulation/material/lanes.h"
+#include "simulation/simd/lanes.h"
 
 // What a law is told about a point of the tissue, and what it answers. 3x3 matrices are row-major: entry 3 i + A has
 // the component i in the world and the direction A of the rest position.
 
 namespace myotact::simulation {
 
+/// Real is a double, several side by side (lanes.h) or Eight.
 template <class Real>
 using Vector3 = std::array<Real, 3>;
 template <class Real>
@@ -19,6 +20,7 @@ constexpr std::size_t packed(std::size_t row, std::size_t column) {
   const std::size_t low = row < column ? row : column, high = row < column ? column : row;
   return low * 9 - low * (low + 1) / 2 + high;
 }
+/// Entries of that triangle.
 inline constexpr std::size_t kPacked = 45;
 
 /// A deformed point.
@@ -26,11 +28,11 @@ template <class Real>
 struct Point {
   Matrix3<Real> F{};         // deformation gradient
   Matrix3<Real> cofactor{};  // dJ/dF
-  Real J{};
-  Real I1{};              // F : F
-  Vector3<Real> fibre{};  // unit direction at rest, or zero
-  Vector3<Real> f{};      // F fibre
-  Real I4{};              // |F fibre|^2
+  Real J{};                  // det F, the volume ratio
+  Real I1{};                 // F : F
+  Vector3<Real> fibre{};     // unit direction at rest, or zero
+  Vector3<Real> f{};         // F fibre
+  Real I4{};                 // |F fibre|^2
 };
 
 /// Energy and its derivatives against F: nominal stress P [Pa] and its slope C [Pa], packed.
@@ -47,11 +49,13 @@ struct VolumeTerm {
   Real energy_Pa{}, slope_Pa{}, curvature_Pa{};
 };
 
+/// a x b, three numbers each.
 template <class Real>
 MYOTACT_INLINE Vector3<Real> cross(const Real* a, const Real* b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
+/// What follows from F; `fibre` of unit length at rest, or zero.
 template <class Real>
 MYOTACT_INLINE Point<Real> make_point(const Matrix3<Real>& F, const Vector3<Real>& fibre) {
   Point<Real> point;
@@ -82,7 +86,7 @@ MYOTACT_INLINE void add_outer(const Matrix3<Real>& a, const Real& scale, std::ar
 /// C += scale (a (x) b + b (x) a).
 template <class Real>
 MYOTACT_INLINE void add_mixed(const Matrix3<Real>& a, const Matrix3<Real>& b, const Real& scale,
-                                   std::array<Real, kPacked>& C) {
+                              std::array<Real, kPacked>& C) {
   for (std::size_t r = 0; r < 9; ++r) {
     for (std::size_t c = r; c < 9; ++c) C[packed(r, c)] += scale * (a[r] * b[c] + b[r] * a[c]);
   }
@@ -108,10 +112,9 @@ MYOTACT_INLINE void add_volume_curvature(const Matrix3<Real>& F, const Real& sca
   }
 }
 
-/// A term of the volume ratio acts at a point.
+/// A term of the volume ratio acts at a point: adds its energy, stress and tangent.
 template <class Real>
-MYOTACT_INLINE void add_volume(const Point<Real>& point, const VolumeTerm<Real>& volume,
-                                    Response<Real>& response) {
+MYOTACT_INLINE void add_volume(const Point<Real>& point, const VolumeTerm<Real>& volume, Response<Real>& response) {
   response.energy_Pa += volume.energy_Pa;
   for (std::size_t k = 0; k < 9; ++k) response.P[k] += volume.slope_Pa * point.cofactor[k];
   add_outer(point.cofactor, volume.curvature_Pa, response.C);

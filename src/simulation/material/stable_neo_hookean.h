@@ -11,11 +11,13 @@ struct StableNeoHookean {
   double shear_Pa = 0.0;   // mu, Lame
   double lambda_Pa = 0.0;  // first Lame parameter
 
+  /// m and L.
   double shear_term_Pa() const { return 4.0 / 3.0 * shear_Pa; }
   double volume_term_Pa() const { return lambda_Pa + 5.0 / 6.0 * shear_Pa; }
   /// Volume ratio at which the volume term alone would rest, so that the whole law rests at J = 1.
   double rest_ratio() const { return 1.0 + 0.75 * shear_term_Pa() / volume_term_Pa(); }
 
+  /// Adds the energy without that of volume(). `activation` 0 .. 1.
   template <class Real>
   MYOTACT_INLINE void add_energy(const Point<Real>& p, const Real& /*activation*/, Response<Real>& out) const {
     const double m = shear_term_Pa();
@@ -24,6 +26,7 @@ struct StableNeoHookean {
     out.energy_Pa += 0.5 * m * (p.I1 - 3.0 - logarithm(p.I1 + 1.0)) - rest;
   }
 
+  /// Adds stress and tangent without those of volume(), and no energy.
   template <class Real>
   MYOTACT_INLINE void add(const Point<Real>& p, const Real& /*activation*/, Response<Real>& out) const {
     const double m = shear_term_Pa();
@@ -34,6 +37,7 @@ struct StableNeoHookean {
     add_outer<Real>(p.F, 2.0 * m * inverse * inverse, out.C);
   }
 
+  /// The volume term U(J), U', U''.
   template <class Real>
   MYOTACT_INLINE VolumeTerm<Real> volume(const Real& J) const {
     const double L = volume_term_Pa();

@@ -9,8 +9,8 @@ namespace myotact::simulation {
 
 /// A component of a node that is held or moved.
 struct HeldDof {
-  int node = 0;
-  int component = 0;
+  int node = 0;                 // of the solid's mesh
+  int component = 0;            // 0 x, 1 y, 2 z
   double displacement_m = 0.0;  // from rest, at full load
 };
 
@@ -18,12 +18,15 @@ struct HeldDof {
 /// matrix, scaled, so that the pattern stays.
 class HeldSystem {
  public:
+  /// Nodes and components are not checked. The solid need not outlive this.
   HeldSystem(const Solid& solid, std::span<const HeldDof> held);
 
+  /// `dof`: 3 node + component.
   bool is_held(Eigen::Index dof) const { return held_[static_cast<std::size_t>(dof)] != 0; }
-  /// Values at held components become zero.
+  /// Values at held components become zero; 3 numbers a node.
   void drop_held(Eigen::VectorXd& values) const;
-  /// Takes the held rows and columns out of the matrix.
+  /// Takes the held rows and columns out of a matrix with the solid's pattern; held diagonal entries keep their value,
+  /// or become 1 where that is not positive.
   void hold(BlockMatrix& matrix) const;
 
  private:

@@ -12,6 +12,7 @@
 
 namespace myotact::simulation {
 
+/// Fibres of the whole stretch, and of that of the deformation without its change of volume.
 template <class Curve>
 using UnsplitFibres = FibreFamily<Curve, FibreStretch::Unsplit>;
 template <class Curve>

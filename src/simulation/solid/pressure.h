@@ -14,7 +14,8 @@ struct PressureFace {
 };
 
 /// Subtracts the force of the pressure, scaled by `load`, from the forces; with `tangent` adds the symmetric part of
-/// its slope (all of it, for a closed surface or one whose rim is held).
+/// its slope (all of it, for a closed surface or one whose rim is held). Positions: 3 numbers a node. A quadratic face
+/// needs its nodes' pairs in the pattern, which faces of quadratic tets have.
 void add_pressure(const PressureFace& face, double load, const Eigen::VectorXd& position_m, bool tangent,
                   Solid::Evaluation& out);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/at.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "simulation/solid/law_batch.h"
@@ -14,10 +15,6 @@ namespace {
 
 /// A mid-side node may lie this far off the middle of its edge, over the edge's length.
 constexpr double kStraight = 1e-6;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 Error refuse(const std::string& file, std::size_t tet, const std::string& problem) {
   return bad_data(file, "tet " + std::to_string(tet), problem);

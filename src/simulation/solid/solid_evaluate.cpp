@@ -1,15 +1,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/at.h"
 #include "simulation/solid/law_batch.h"
 #include "simulation/solid/solid.h"
 
 namespace myotact::simulation {
 namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 template <class Tet>
 Eight mean_ratio(const PointBatch<Tet>& points) {

@@ -82,7 +82,7 @@ bool SolidMotion::find_direction(const TimeRule& rule, Instant& next, Eigen::Vec
 }
 
 /// Every force of a step, inertia included, has a potential. The step goes along the Newton direction as far as that
-/// falls; its slope there tells. Nearly always the whole way, and what is found there is the start of the next step.
+/// falls; its slope there says so. Nearly always the whole way, and what is found there is the start of the next step.
 bool SolidMotion::newton_step(const TimeRule& rule, Instant& next) {
   Eigen::VectorXd direction;
   if (!find_direction(rule, next, direction)) return false;

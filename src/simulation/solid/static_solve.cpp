@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulation/block_factor.h"
+#include "simulation/linear/block_factor.h"
 
 namespace myotact::simulation {
 namespace {

@@ -33,12 +33,9 @@ void draw_class_panel(PanelContext& context, const Area& scene) {
     draw_headline(ui::tr("class.K", joint.stiffness_Nm_rad), "class.K");
     ImGui::TextUnformatted(ui::tr("class.angle", joint.angle_rad * kDegrees).c_str());
   }
-  const SceneState& scene_state = context.controls.scene;
-  const double common = scene_state.drive == Drive::Balance ? scene_state.common : 0.0;
-  if (scene_state.drive == Drive::Balance) {
-    ImGui::TextUnformatted(ui::tr("class.common", 100.0 * common).c_str());
-    ui::note_control("class.common", ui::tr("class.common", 100.0 * common));
-  }
+  const std::string common = ui::tr("class.common", 100.0 * context.scene.state().common_now);
+  ImGui::TextUnformatted(common.c_str());
+  ui::note_control("class.common", common);
   if (ui::button("class.less")) context.asks.co_contraction_step = -kCoContractionStep;
   ImGui::SameLine();
   if (ui::button("class.more")) context.asks.co_contraction_step = kCoContractionStep;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "view/layout.h"
 #include "view/panels/panel.h"
+#include "view/ui/layout.h"
 
 namespace myotact::view {
 

@@ -19,25 +19,28 @@ namespace {
 
 const ImVec4 kStiffens(0.3f, 0.55f, 0.85f, 1.0f), kSoftens(0.85f, 0.45f, 0.2f, 1.0f), kUnstable(1.0f, 0.4f, 0.3f, 1.0f);
 
-void draw_sliders(SceneState& scene) {
+void draw_sliders(SceneControls& scene) {
+  messages::ControlState now = scene.state();
   ui::text("demonstrate.levels");
-  const bool flexors_moved = ui::slider("demonstrate.flexors", scene.flexors, {0.0f, 1.0f});  // both are drawn
-  if (ui::slider("demonstrate.extensors", scene.extensors, {0.0f, 1.0f}) || flexors_moved) scene.drive = Drive::Levels;
-  ui::text("demonstrate.balance");
-  const bool common_moved = ui::slider("demonstrate.common", scene.common, {0.0f, 1.0f});
-  if (ui::slider("demonstrate.difference", scene.difference, {-0.5f, 0.5f}) || common_moved) {
-    scene.drive = Drive::Balance;
+  const bool flexors_moved = ui::slider("demonstrate.flexors", now.flexors, {0.0f, 1.0f});  // both are drawn
+  if (ui::slider("demonstrate.extensors", now.extensors, {0.0f, 1.0f}) || flexors_moved) {
+    scene.push(messages::SetLevels{now.flexors, now.extensors});
   }
-  ui::checkbox("demonstrate.hold_posture", scene.hold_posture);
+  ui::text("demonstrate.balance");
+  const bool common_moved = ui::slider("demonstrate.common", now.common, {0.0f, 1.0f});
+  if (ui::slider("demonstrate.difference", now.difference, {-0.5f, 0.5f}) || common_moved) {
+    scene.push(messages::CoContract{now.common, now.difference});
+  }
+  if (ui::checkbox("demonstrate.hold_posture", now.hold_posture)) scene.push(messages::HoldPosture{now.hold_posture});
 }
 
-struct Part {
+struct StiffnessShare {
   const char* key;  // of its name
   double K_Nm_rad;
 };
 
 /// A bar to the right of the middle for what stiffens, to the left for what softens.
-void draw_part(const Part& part, double largest_Nm_rad) {
+void draw_part(const StiffnessShare& part, double largest_Nm_rad) {
   const float width = 10.0f * ImGui::GetFontSize();
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const float height = ImGui::GetTextLineHeight();
@@ -67,7 +70,7 @@ void draw_shove(PanelContext& context, std::optional<double>& began_s) {
   constexpr double kLasts_s = 4.2;  // simulated: a slow push, then a stroke
   const double now_s = context.frame.time_s;
   if (ui::button("demonstrate.shove")) {
-    ++context.controls.shoves;
+    context.scene.push(messages::TestShove{});
     began_s = now_s;
   }
   if (began_s && (now_s < *began_s || now_s > *began_s + kLasts_s)) began_s.reset();
@@ -80,13 +83,13 @@ void draw_joint(PanelContext& context, std::optional<double>& shove_began_s) {
   const JointReadings& readings = context.readings;
   draw_headline(joint, readings);
   ui::paragraph(ui::tr("demonstrate.torque", joint.torque_Nm, joint.angle_rad * 57.29577951308232));
-  const std::array parts = {Part{"demonstrate.K_muscle", readings.K_muscle_Nm_rad},
-                            Part{"demonstrate.K_geometry", readings.K_geometry_Nm_rad},
-                            Part{"demonstrate.K_contact", readings.K_contact_Nm_rad},
-                            Part{"demonstrate.K_passive", readings.K_passive_Nm_rad}};
+  const std::array parts = {StiffnessShare{"demonstrate.K_muscle", readings.K_muscle_Nm_rad},
+                            StiffnessShare{"demonstrate.K_geometry", readings.K_geometry_Nm_rad},
+                            StiffnessShare{"demonstrate.K_contact", readings.K_contact_Nm_rad},
+                            StiffnessShare{"demonstrate.K_passive", readings.K_passive_Nm_rad}};
   double largest_Nm_rad = 1e-3;
-  for (const Part& part : parts) largest_Nm_rad = std::max(largest_Nm_rad, std::abs(part.K_Nm_rad));
-  for (const Part& part : parts) draw_part(part, largest_Nm_rad);
+  for (const StiffnessShare& part : parts) largest_Nm_rad = std::max(largest_Nm_rad, std::abs(part.K_Nm_rad));
+  for (const StiffnessShare& part : parts) draw_part(part, largest_Nm_rad);
   if (joint.preview) ui::paragraph(messages::kPreviewMark);
   if (!readings.why.empty()) ui::paragraph(readings.why);
   draw_shove(context, shove_began_s);
@@ -116,21 +119,23 @@ void draw_scene_choice(PanelContext& context) {
 }
 
 /// Same picture, different feel: two states to switch between.
-void draw_stored(SceneState& scene, std::array<std::optional<SceneState>, 2>& stored) {
+void draw_stored(SceneControls& scene, std::array<std::optional<SceneState>, 2>& stored) {
   constexpr std::array kStore = {"demonstrate.store_a", "demonstrate.store_b"};
   constexpr std::array kShow = {"demonstrate.show_a", "demonstrate.show_b"};
   for (std::size_t i = 0; i < stored.size(); ++i) {
     if (i > 0) ImGui::SameLine();
-    if (ui::button(kStore[i])) stored[i] = scene;
+    const SceneState now = scene_state_of(scene.state());
+    if (ui::button(kStore[i])) stored[i] = now;
     ImGui::SameLine();
     ImGui::BeginDisabled(!stored[i]);
-    if (ui::toggle_button(kShow[i], stored[i] == scene)) scene = *stored[i];
+    const bool on = stored[i] && orders_between(now, *stored[i]).empty();
+    if (ui::toggle_button(kShow[i], on)) scene.restore(*stored[i]);
     ImGui::EndDisabled();
   }
 }
 
 /// Ready states that show something, by the joint; they break into rows.
-void draw_presets(SceneState& scene, const std::vector<Preset>& presets) {
+void draw_presets(SceneControls& scene, const std::vector<Preset>& presets) {
   const float right = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
   const ImGuiStyle& style = ImGui::GetStyle();
   for (std::size_t i = 0; i < presets.size(); ++i) {
@@ -139,13 +144,11 @@ void draw_presets(SceneState& scene, const std::vector<Preset>& presets) {
     const std::string& key = ui::has_text(text_key) ? text_key : preset.name;
     const float width = ImGui::CalcTextSize(ui::tr(key)).x + 2.0f * style.FramePadding.x;
     if (i > 0 && ImGui::GetItemRectMax().x + style.ItemSpacing.x + width < right) ImGui::SameLine();
-    const bool on =
-        scene.drive == Drive::Balance && scene.common == preset.common && scene.difference == preset.difference;
+    const messages::ControlState& now = scene.state();
+    const bool on = now.drive == Drive::Balance && now.common == preset.common && now.difference == preset.difference;
     if (!ui::toggle_button(key.c_str(), on)) continue;
-    scene.drive = Drive::Balance;
-    scene.common = preset.common;
-    scene.difference = preset.difference;
-    scene.hold_posture = preset.difference == 0.0;
+    scene.push(messages::CoContract{preset.common, preset.difference});
+    scene.push(messages::HoldPosture{preset.difference == 0.0});
   }
 }
 
@@ -155,13 +158,14 @@ void DemonstratePanel::draw(PanelContext& context) {
   context.asks.big_type = ui::button("comfort.big_type") || context.asks.big_type;
   if (context.specimen.muscles.size() > 1) {
     ui::heading("demonstrate.presets");
-    draw_presets(context.controls.scene, context.facts.presets);
-    draw_stored(context.controls.scene, stored_);
+    draw_presets(context.scene, context.facts.presets);
+    draw_stored(context.scene, stored_);
     ui::heading("demonstrate.bench");
   }
   const bool has_muscles = !context.specimen.muscles.empty();
-  if (has_muscles) draw_sliders(context.controls.scene);
-  ui::checkbox("demonstrate.gravity", context.controls.scene.gravity);
+  if (has_muscles) draw_sliders(context.scene);
+  bool gravity = context.scene.state().gravity;
+  if (ui::checkbox("demonstrate.gravity", gravity)) context.scene.push(messages::SetGravity{gravity});
   ImGui::Separator();
   if (has_muscles && context.facts.joint < static_cast<int>(context.frame.joints.size()))
     draw_joint(context, shove_began_s_);

@@ -62,10 +62,10 @@ void draw_device(const DeviceNews& device) {
 
 /// The same as the toolbar's, where the eyes are when a device pulls.
 void draw_stop_and_arm(PanelContext& context) {
-  if (red_button("devices.stop")) ++context.controls.stops;
+  if (red_button("devices.stop")) context.scene.stop_forces();
   ImGui::SameLine();
   ImGui::BeginDisabled(!forces_stopped(context.frame));
-  if (ui::button("devices.arm")) ++context.controls.arms;
+  if (ui::button("devices.arm")) context.scene.enable_forces();
   ImGui::EndDisabled();
 }
 

@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "view/look/part_actions.h"
 #include "view/panels/device_part.h"
-#include "view/part_actions.h"
-#include "view/tool_drawing.h"
+#include "view/render/tool_drawing.h"
 #include "view/ui/controls.h"
 #include "view/ui/text.h"
 
@@ -89,7 +89,7 @@ std::array<PartOfForce, 8> parts_of(const messages::ForceParts& parts) {
 
 /// The force in its parts: vectors that may work against each other, so that bars need not add up to the whole.
 void draw_why(const messages::ToolFrame& tool) {
-  constexpr double kFelt_N = 0.01;  // less is below what a finger tells
+  constexpr double kFelt_N = 0.01;  // less is below what a finger feels
   const auto parts = parts_of(tool.parts);
   if (parts.front().force_N < kFelt_N) return ui::paragraph(ui::tr("feel.why_nothing"));
   for (const PartOfForce& part : parts) {

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "view/panels/panel.h"
-#include "view/pressure_map.h"
+#include "view/render/pressure_map.h"
 
 namespace myotact::view {
 

@@ -8,8 +8,8 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "view/colour_map.h"
-#include "view/part_actions.h"
+#include "view/charts/colour_map.h"
+#include "view/look/part_actions.h"
 #include "view/ui/controls.h"
 #include "view/ui/text.h"
 
@@ -181,8 +181,7 @@ void FindPanel::draw(PanelContext& context) {
   if (focus_) ImGui::SetKeyboardFocusHere();
   focus_ = false;
   ui::input_text("find.search", text_);
-  const bool entered = ImGui::IsItemDeactivated() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
-  if (entered && !text_.empty()) select_first(context);
+  if (ui::is_entered() && !text_.empty()) select_first(context);
   const bool card = static_cast<bool>(selected_part(context.view));
   constexpr float kCard = 0.42f;  // of the panel's height
   const float below = card ? kCard * ImGui::GetWindowHeight() : 0.0f;

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "view/key_bindings.h"
+#include "view/input/key_bindings.h"
 #include "view/ui/controls.h"
 #include "view/ui/text.h"
 

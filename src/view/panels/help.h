@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "view/key_bindings.h"
-#include "view/mouse_preset.h"
+#include "view/input/key_bindings.h"
+#include "view/input/mouse_preset.h"
 
 namespace myotact::view {
 

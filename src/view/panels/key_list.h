@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "view/key_choice.h"
+#include "view/input/key_choice.h"
 
 namespace myotact::view {
 

@@ -10,8 +10,8 @@
 #include "core/text.h"
 #include "learn/lesson_file.h"
 #include "learn/lesson_results.h"
-#include "view/lesson_look.h"
 #include "view/panels/learn_task.h"
+#include "view/panels/lesson_look.h"
 #include "view/ui/controls.h"
 #include "view/ui/text.h"
 
@@ -110,7 +110,7 @@ void LearnPanel::close(ViewState& view) {
 void LearnPanel::draw_step(PanelContext& context) {
   learn::LessonRun& run = open_->run;
   if (open_->shown != run.index()) {
-    show_step(run.step(), context.view, context.controls.scene);
+    show_step(run.step(), context.view, context.scene);
     if (!run.step().view.empty()) context.asks.standard_view = run.step().view.c_str();
     context.asks.pointer_mode = pointer_mode_for(run.step().task);
     open_->shown = run.index();

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "view/lesson_look.h"
+#include "view/panels/lesson_look.h"
 #include "view/ui/controls.h"
 #include "view/ui/text.h"
 
@@ -96,7 +96,7 @@ void draw(const Scribe& s, const learn::NameTask& task) {
   if (s.state().done) return;
   if (!task.options.empty()) return draw_options(s, task.options);
   ui::input_text("learn.typed", s.typed);
-  const bool entered = ImGui::IsItemFocused() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+  const bool entered = ui::is_entered();
   if ((ui::button("learn.answer") || entered) && !s.typed.empty()) s.run.type(s.typed);
 }
 
@@ -109,10 +109,10 @@ void draw(const Scribe& s, const learn::PressTask& task) {
 }
 
 void draw_explanation(const Scribe& s, const learn::PredictTask& task) {
-  const double lever_mm = 1e3 * s.state().lever_m;
+  const double moment_arm_mm = 1e3 * s.state().moment_arm_m;
   const std::string muscle = s.name({task.muscle, -1}), joint = joint_name(s, task.joint);
-  ui::paragraph(
-      ui::tr(lever_mm > 0.0 ? "learn.predict.flexes" : "learn.predict.extends", muscle, std::abs(lever_mm), joint));
+  ui::paragraph(ui::tr(moment_arm_mm > 0.0 ? "learn.predict.flexes" : "learn.predict.extends", muscle,
+                       std::abs(moment_arm_mm), joint));
 }
 
 void draw(const Scribe& s, const learn::PredictTask& task) {
@@ -135,11 +135,8 @@ void draw(const Scribe& s, const learn::PredictTask& task) {
 
 void draw(const Scribe& s, const learn::StiffenTask& task) {
   const learn::TaskState& state = s.state();
-  SceneState& scene = s.context.controls.scene;
-  if (ui::slider("learn.common", scene.common, {0.0f, 1.0f})) {
-    scene.drive = Drive::Balance;
-    scene.difference = 0.0;
-  }
+  double common = s.context.scene.state().common;
+  if (ui::slider("learn.common", common, {0.0f, 1.0f})) s.context.scene.push(messages::CoContract{common, 0.0});
   if (state.done) return;
   const double wanted = task.factor * state.lowest_Nm_rad;
   if (wanted <= 0.0) return;  // it has not come to rest yet

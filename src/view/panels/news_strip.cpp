@@ -25,7 +25,8 @@ bool is_lightest(const std::string& tissue) {
 }  // namespace
 
 void NewsStrip::count_slow_time(const PanelContext& context) {
-  const bool slow = context.frame.rates.time_factor < kTooSlow && !context.controls.paused && !context.news.opening;
+  const bool slow =
+      context.frame.rates.time_factor < kTooSlow && !context.scene.state().paused && !context.news.opening;
   slow_s_ = slow ? slow_s_ + ImGui::GetIO().DeltaTime : 0.0f;
 }
 

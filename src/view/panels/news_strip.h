@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "view/layout.h"
 #include "view/panels/panel.h"
+#include "view/ui/layout.h"
 
 namespace myotact::view {
 

@@ -9,11 +9,12 @@
 #include "anatomy/specimen.h"
 #include "messages/device_report.h"
 #include "messages/scene_frame.h"
-#include "view/joint_readings.h"
-#include "view/part.h"
+#include "view/look/part.h"
+#include "view/look/view_state.h"
 #include "view/session/saved_work.h"
-#include "view/view_controls.h"
-#include "view/view_state.h"
+#include "view/state/joint_readings.h"
+#include "view/state/scene_controls.h"
+#include "view/state/view_controls.h"
 
 namespace myotact::view {
 
@@ -47,7 +48,6 @@ struct DeviceNews {
 
 /// What the session is about.
 struct SessionNews {
-  bool recording = false;
   bool opening = false;                  // another scene is being built
   double silence_s = 0.0;                // since the simulation told anything: a step that does not end
   std::vector<DeviceNews> devices = {};  // on the table: neither mouse nor simulated ones
@@ -82,7 +82,7 @@ struct WindowAsks {
   bool help = false;                               // to be shown or hidden
   bool big_type = false;                           // for a class, to begin or to end
   double co_contraction_step = 0.0;                // to be added to the common level
-  bool free_orbit = false;                         // was switched on or off
+  std::optional<bool> free_orbit;                  // was switched on or off
   bool record = false, film = false;               // to begin, or to end
   std::optional<SceneWish> wish;                   // a scene to be opened
   std::optional<PartNote> note;                    // to be kept
@@ -110,7 +110,8 @@ struct PanelContext {
   Part hovered;            // under the pointer, in the scene or in a list
   bool filming;            // a film is being taken
   ViewState& view;         // how it is looked at
-  ViewControls& controls;  // what is asked of the scene
+  ViewControls& controls;  // what the person holds and moves
+  SceneControls& scene;    // what is in force, and what is asked for
   WindowAsks& asks;
 };
 

@@ -2,7 +2,7 @@
 
 #include <imgui.h>
 
-#include "view/part_actions.h"
+#include "view/look/part_actions.h"
 #include "view/ui/controls.h"
 
 namespace myotact::view {

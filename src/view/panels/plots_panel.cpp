@@ -8,8 +8,8 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/user_folder.h"
-#include "view/part_actions.h"
-#include "view/plot.h"
+#include "view/charts/plot.h"
+#include "view/look/part_actions.h"
 #include "view/ui/controls.h"
 #include "view/ui/text.h"
 

@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
+#include "view/charts/plot_record.h"
 #include "view/panels/panel.h"
-#include "view/plot_record.h"
 
 namespace myotact::view {
 

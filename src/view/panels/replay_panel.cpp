@@ -1,7 +1,7 @@
 #include "view/panels/replay_panel.h"
 
 #include <algorithm>
-#include <utility>
+#include <variant>
 
 #include <imgui.h>
 
@@ -18,24 +18,26 @@ constexpr double kStep_s = 0.01;                   // where no neighbour is kept
 }  // namespace
 
 const messages::SceneFrame& ReplayPanel::choose(const messages::SceneFrame& newest, double length_s,
-                                                ViewControls& controls) {
+                                                SceneControls& scene) {
   history_.add(newest);
   newest_s_ = newest.time_s;
   length_s_ = length_s;
-  if (std::exchange(steps_, controls.steps) != controls.steps) step(1);
-  if (std::exchange(resets_, controls.resets) != controls.resets) place_s_ = 0.0;
-  if (!controls.paused) {
+  if (!scene.state().paused) {
     // The clock waits for the simulation, or a slow computer would skip what it is to show.
     constexpr double kAhead_s = 0.1;
     const double next_s = place_s_ + speed_ * static_cast<double>(ImGui::GetIO().DeltaTime);
     place_s_ = std::max(place_s_, std::min(next_s, newest_s_ + kAhead_s));
-    if (place_s_ >= length_s_) controls.paused = true;
+    if (place_s_ >= length_s_) scene.push(messages::Pause{true});
   }
   place_s_ = std::clamp(place_s_, 0.0, length_s_);
-  controls.replay_to_s = place_s_;
   if (place_s_ >= newest_s_ || history_.size() == 0) return newest;
   history_.fetch(*history_.nearest(place_s_), shown_);
   return shown_;
+}
+
+void ReplayPanel::obey(const messages::Order& order) {
+  if (std::holds_alternative<messages::SingleStep>(order)) step(1);
+  if (std::holds_alternative<messages::Reset>(order)) place_s_ = 0.0;
 }
 
 void ReplayPanel::step(int by) {
@@ -50,7 +52,8 @@ void ReplayPanel::step(int by) {
 }
 
 void ReplayPanel::draw(PanelContext& context) {
-  ViewControls& controls = context.controls;
+  SceneControls& scene = context.scene;
+  const bool paused = scene.state().paused;
   if (ui::button("keep.to_scene")) {
     context.asks.wish = SceneWish{context.facts.file, context.facts.tissue, {}, {}, {}};
   }
@@ -58,17 +61,17 @@ void ReplayPanel::draw(PanelContext& context) {
   if (ui::toggle_button(context.filming ? "keep.stop_film" : "keep.film", context.filming)) context.asks.film = true;
   ImGui::SameLine();
   if (ui::button("keep.replay_back")) {
-    controls.paused = true;
+    scene.push(messages::Pause{true});
     step(-1);
   }
   ImGui::SameLine();
-  if (ui::button(controls.paused ? "keep.replay_play" : "keep.replay_pause")) {
-    if (controls.paused && place_s_ >= length_s_) place_s_ = 0.0;  // at the end: once more
-    controls.paused = !controls.paused;
+  if (ui::button(paused ? "keep.replay_play" : "keep.replay_pause")) {
+    if (paused && place_s_ >= length_s_) place_s_ = 0.0;  // at the end: once more
+    scene.push(messages::Pause{!paused});
   }
   ImGui::SameLine();
   if (ui::button("keep.replay_forward")) {
-    controls.paused = true;
+    scene.push(messages::Pause{true});
     step(1);
   }
   ImGui::SameLine();

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "view/frame_history.h"
-#include "view/layout.h"
 #include "view/panels/panel.h"
+#include "view/state/frame_history.h"
+#include "view/ui/layout.h"
 
 namespace myotact::view {
 
@@ -10,12 +10,15 @@ namespace myotact::view {
 /// simulated again as far as it is looked at; what was simulated once is kept, so that going back shows at once.
 class ReplayPanel {
  public:
-  /// Moves on by the time of the last picture, and asks for what is to be simulated. Returns the frame that is to be
-  /// drawn, valid until the next call.
-  const messages::SceneFrame& choose(const messages::SceneFrame& newest, double length_s, ViewControls& controls);
+  /// Moves on by the time of the last picture, unless it is paused. Returns the frame that is to be drawn, valid until
+  /// the next call.
+  const messages::SceneFrame& choose(const messages::SceneFrame& newest, double length_s, SceneControls& scene);
   void draw(PanelContext& context);
   /// To the moment before or after.
   void step(int by);
+  /// Steps and resets that were asked for move the place.
+  void obey(const messages::Order& order);
+  double place_s() const { return place_s_; }  // of the recording, to be simulated up to there
 
  private:
   FrameHistory history_;
@@ -23,7 +26,6 @@ class ReplayPanel {
   double place_s_ = 0.0;  // of the recording, that is looked at
   double newest_s_ = 0.0, length_s_ = 0.0;
   double speed_ = 1.0;
-  std::uint32_t steps_ = 0, resets_ = 0;  // obeyed
 };
 
 }  // namespace myotact::view

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "view/panels/key_list.h"
-#include "view/settings.h"
+#include "view/session/settings.h"
 
 namespace myotact::view {
 

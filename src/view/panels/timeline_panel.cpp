@@ -11,8 +11,9 @@ namespace myotact::view {
 
 const messages::SceneFrame& TimelinePanel::choose(const messages::SceneFrame& present) {
   history_.add(present);
+  const bool begun_anew = present.time_s < newest_s_;
   newest_s_ = present.time_s;
-  if (past_s_ && (history_.size() == 0 || *past_s_ > newest_s_)) back_to_now();  // the scene was begun anew
+  if (history_.size() == 0 || begun_anew) back_to_now();  // what is looked at is no more
   if (!past_s_) return present;
   history_.fetch(*history_.nearest(*past_s_), past_);
   return past_;
@@ -27,8 +28,9 @@ void TimelinePanel::step(int by) {
 }
 
 void TimelinePanel::draw(PanelContext& context) {
-  ViewControls& controls = context.controls;
-  if (ui::toggle_button(context.news.recording ? "keep.stop_recording" : "keep.record", context.news.recording)) {
+  const bool paused = context.scene.state().paused;
+  const bool recording = context.scene.state().recording;
+  if (ui::toggle_button(recording ? "keep.stop_recording" : "keep.record", recording)) {
     context.asks.record = true;
   }
   ImGui::SameLine();
@@ -38,8 +40,8 @@ void TimelinePanel::draw(PanelContext& context) {
   ImGui::SameLine();
   if (ui::button("keep.step_back")) step(-1);
   ImGui::SameLine();
-  if (ui::button(controls.paused ? "keep.play" : "keep.pause")) {
-    controls.paused = !controls.paused;
+  if (ui::button(paused ? "keep.play" : "keep.pause")) {
+    context.scene.push(messages::Pause{!paused});
     back_to_now();
   }
   ImGui::SameLine();

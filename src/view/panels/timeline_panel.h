@@ -3,9 +3,9 @@
 #include <optional>
 #include <string>
 
-#include "view/frame_history.h"
-#include "view/layout.h"
 #include "view/panels/panel.h"
+#include "view/state/frame_history.h"
+#include "view/ui/layout.h"
 
 namespace myotact::view {
 

@@ -16,29 +16,30 @@ namespace {
 void draw_force_switch(PanelContext& context) {
   const bool stopped = forces_stopped(context.frame);
   if (red_button(stopped ? "toolbar.forces_on" : "toolbar.forces_off")) {
-    ++(stopped ? context.controls.arms : context.controls.stops);
+    stopped ? context.scene.enable_forces() : context.scene.stop_forces();
   }
 }
 
-void draw_modes(Pointer& pointer) {
+void draw_modes(PointerMode now, WindowAsks& asks) {
   constexpr std::array kModes = {std::pair{"toolbar.look", PointerMode::Look},
                                  std::pair{"toolbar.touch", PointerMode::Touch},
                                  std::pair{"toolbar.pull", PointerMode::Pull}};
   for (const auto& [key, mode] : kModes) {
-    if (ui::toggle_button(key, pointer.mode() == mode)) pointer.set_mode(mode);
+    if (ui::toggle_button(key, now == mode)) asks.pointer_mode = mode;
     ImGui::SameLine();
   }
 }
 
-void draw_play(ViewControls& controls) {
-  if (ui::button(controls.paused ? "toolbar.play" : "toolbar.pause")) controls.paused = !controls.paused;
+void draw_play(SceneControls& scene) {
+  const bool paused = scene.state().paused;
+  if (ui::button(paused ? "toolbar.play" : "toolbar.pause")) scene.push(messages::Pause{!paused});
   ImGui::SameLine();
   if (ui::button("toolbar.step")) {
-    controls.paused = true;
-    ++controls.steps;
+    scene.push(messages::Pause{true});
+    scene.push(messages::SingleStep{});
   }
   ImGui::SameLine();
-  if (ui::button("toolbar.reset")) ++controls.resets;
+  if (ui::button("toolbar.reset")) scene.push(messages::Reset{});
   ImGui::SameLine();
 }
 
@@ -49,7 +50,7 @@ void draw_saving(WindowAsks& asks) {
   ImGui::SameLine();
 }
 
-void draw_views(PanelContext& context, Pointer& pointer) {
+void draw_views(PanelContext& context, bool free_orbit) {
   const bool hind = anatomy::find_joint(context.specimen, "stifle") >= 0;
   const std::array views = {
       std::pair{"toolbar.lateral", "lateral"}, std::pair{"toolbar.medial", "medial"},
@@ -59,7 +60,7 @@ void draw_views(PanelContext& context, Pointer& pointer) {
     if (ui::button(key)) context.asks.standard_view = view;
     ImGui::SameLine();
   }
-  context.asks.free_orbit = ui::checkbox("toolbar.free_orbit", pointer.free_orbit);
+  if (ui::checkbox("toolbar.free_orbit", free_orbit)) context.asks.free_orbit = free_orbit;
   ImGui::SameLine();
 }
 
@@ -71,24 +72,24 @@ void draw_gap() {
 
 }  // namespace
 
-void draw_toolbar(PanelContext& context, Pointer& pointer, const UndoState& undo) {
+void draw_toolbar(PanelContext& context, const ToolbarState& state) {
   draw_force_switch(context);
   ImGui::SameLine();
   draw_gap();
-  draw_modes(pointer);
+  draw_modes(state.pointer, context.asks);
   draw_gap();
-  draw_play(context.controls);
+  draw_play(context.scene);
   draw_gap();
   draw_saving(context.asks);
   constexpr float kTwoRows = 3.5f;  // heights of the font, which is more than one row takes
   ImGui::GetWindowHeight() > kTwoRows* ImGui::GetFontSize() ? ImGui::NewLine() : draw_gap();
-  draw_views(context, pointer);
+  draw_views(context, state.free_orbit);
   draw_gap();
-  ImGui::BeginDisabled(!undo.can_undo);
+  ImGui::BeginDisabled(!state.can_undo);
   context.asks.undo = ui::button("toolbar.undo") || context.asks.undo;
   ImGui::EndDisabled();
   ImGui::SameLine();
-  ImGui::BeginDisabled(!undo.can_redo);
+  ImGui::BeginDisabled(!state.can_redo);
   context.asks.redo = ui::button("toolbar.redo") || context.asks.redo;
   ImGui::EndDisabled();
   ImGui::SameLine();

@@ -1,15 +1,16 @@
 #pragma once
 
 #include "view/panels/panel.h"
-#include "view/pointer.h"
 
 namespace myotact::view {
 
-struct UndoState {
+struct ToolbarState {
+  PointerMode pointer = PointerMode::Look;
+  bool free_orbit = false;  // a drag turns the limb any way
   bool can_undo = false, can_redo = false;
 };
 
 /// Along the top: what the mouse is, play, save and open, the standard views, undo, help, and in red: forces off.
-void draw_toolbar(PanelContext& context, Pointer& pointer, const UndoState& undo);
+void draw_toolbar(PanelContext& context, const ToolbarState& state);
 
 }  // namespace myotact::view

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "view/part_actions.h"
+#include "view/look/part_actions.h"
 
 namespace myotact::view {
 

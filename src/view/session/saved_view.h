@@ -7,7 +7,7 @@
 
 #include "anatomy/specimen.h"
 #include "core/json_reader.h"
-#include "view/view_state.h"
+#include "view/look/view_state.h"
 
 namespace myotact::view {
 

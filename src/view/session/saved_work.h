@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "view/scene_state.h"
 #include "view/session/marks.h"
 #include "view/session/saved_view.h"
+#include "view/state/scene_state.h"
 
 namespace myotact::view {
 

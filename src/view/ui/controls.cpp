@@ -23,7 +23,7 @@ Places& places() {
 
 /// The text that is shown, then what ImGui knows the control by, whatever the language.
 std::string label(const char* key) {
-  return fmt::format("{}##{}", tr(key), key);
+  return fmt::format("{}###{}", tr(key), key);
 }
 
 void show_tip(const char* key) {
@@ -130,7 +130,8 @@ bool input_text(const char* key, std::string& value) {
 }
 
 bool is_entered() {
-  return ImGui::IsItemDeactivated() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+  const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false); };
+  return ImGui::IsItemDeactivated() && (pressed(ImGuiKey_Enter) || pressed(ImGuiKey_KeyPadEnter));
 }
 
 bool is_held() {

@@ -27,7 +27,7 @@ bool choice(const char* key, int& value, std::span<const char* const> option_key
 /// A line of text to be typed; true at every change.
 bool input_text(const char* key, std::string& value);
 
-/// The line of text just drawn was ended with Enter.
+/// The line of text just drawn was ended with Enter, that of the number pad too.
 bool is_entered();
 
 /// A control is being dragged or pressed.
@@ -37,7 +37,7 @@ void text(const char* key);
 /// Any text, broken at the panel's edge.
 void paragraph(const std::string& text);
 void heading(const char* key);
-/// A thin bar of the panel's width, filled to `share` (0 .. 1), under what it tells: text on the bar itself would not
+/// A thin bar of the panel's width, filled to `share` (0 .. 1), under its label: text on the bar itself would not
 /// stand out from every colour. Its colour is ImGuiCol_PlotHistogram.
 void bar(double share, const std::string& text);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include <nlohmann/json.hpp>
+
 #include "core/data_folder.h"
 #include "core/error.h"
 #include "core/json_reader.h"

@@ -12,7 +12,7 @@ HERE = pathlib.Path(__file__).parent
 MANIFEST = []
 TYPES = {"Hello": 1, "Welcome": 2, "ToolState": 3, "ToolContact": 4, "ToolGrip": 5, "Force": 6, "Event": 7, "Ping": 8,
          "Pong": 9, "Bye": 10, "LocalModel": 16, "SceneKey": 17, "SceneDelta": 18, "BonePoses": 19, "Readings": 20,
-         "Mesh": 21, "Control": 32}
+         "Mesh": 21, "InForce": 22, "Control": 32}
 
 
 def write(name, kind, payload, fields, flags=0, sequence=0, time_ns=0):
@@ -88,5 +88,10 @@ write("scene_delta", "SceneDelta", struct.pack("<IHHI", 1, 0, 1, 2) + b"".join(v
 pose = [1, 0, 0, 0.1, 0, 1, 0, 0.2, 0, 0, 1, 0.3]
 write("bone_poses", "BonePoses", struct.pack("<QdH", 5, 1.25, 1) + doubles(*pose),
       {"sequence": 5, "time_s": 1.25, "poses": [pose]}, flags=1, sequence=5)
+
+write("in_force", "InForce", struct.pack("<BBB", 2, 3, 1 + 4) + doubles(0.5, 0.25, 0.75, -0.125, 0.625),
+      {"drive": "balance", "driver": "network", "hold_posture": True, "gravity": False, "paused": True,
+       "recording": False, "flexors": 0.5, "extensors": 0.25, "common": 0.75, "difference": -0.125,
+       "common_now": 0.625}, sequence=6)
 
 (HERE / "manifest.json").write_text(json.dumps(MANIFEST, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")

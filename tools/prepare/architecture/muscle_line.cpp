@@ -299,7 +299,7 @@ void add_wraps(const std::string& name, const std::vector<WrapData>& wraps, cons
 double moment_arm_m(const anatomy::MuscleLine& line, const Joint& joint, const LineBones& bones) {
   if (joint.type != anatomy::JointType::Hinge) return 0.0;
   const std::vector<bool> distal = distal_bodies(joint, bones);
-  double lever_m = 0.0;
+  double moment_arm_m = 0.0;
   for (std::size_t i = 1; i < line.points.size(); ++i) {
     const LinePoint& a = line.points[i - 1];
     const LinePoint& b = line.points[i];
@@ -311,9 +311,9 @@ double moment_arm_m(const anatomy::MuscleLine& line, const Joint& joint, const L
     const auto [begin, end] = directions_at(line, i - 1);
     const Vec3 along = with_b ? begin : end;
     const Vec3& through_m = with_b ? a.position_m : b.position_m;
-    lever_m += (a_distal ? 1.0 : -1.0) * joint.axes[0].dot((through_m - joint.centre_m).cross(along));
+    moment_arm_m += (a_distal ? 1.0 : -1.0) * joint.axes[0].dot((through_m - joint.centre_m).cross(along));
   }
-  return lever_m;
+  return moment_arm_m;
 }
 
 }  // namespace myotact::prepare

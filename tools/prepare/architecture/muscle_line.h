@@ -33,7 +33,7 @@ struct LineGuide {
 
 /// A line through the middle of the muscle: origin, borders of the belly, points between, insertion; 4 to 8 points.
 /// A point rides on the body before a joint until the line has passed its axis. Near an axis there is none, so that the
-/// part of the line that changes length is long against the uncertainty of the axis; where the guide tells how the line
+/// part of the line that changes length is long against the uncertainty of the axis; where the guide says how the line
 /// crosses a joint, there is none between the two points of the crossing. `muscle` is left at -1. Throws Error BadData
 /// for a crossing of a joint that is not on the way.
 anatomy::MuscleLine trace_line(const std::string& name, const MuscleProfile& profile, const BellySpan& belly,
@@ -44,8 +44,8 @@ anatomy::MuscleLine trace_line(const std::string& name, const MuscleProfile& pro
 void add_wraps(const std::string& name, const std::vector<WrapData>& wraps, const LineBones& bones,
                anatomy::MuscleLine& line);
 
-/// Lever of a unit pull along the line about a hinge, in the file pose, positive flexes [m]; 0 when it does not cross.
-/// Round surfaces as they lie.
+/// Moment arm of a unit pull along the line about a hinge, in the file pose, positive flexes [m]; 0 when it does not
+/// cross. Round surfaces as they lie.
 double moment_arm_m(const anatomy::MuscleLine& line, const anatomy::Joint& joint, const LineBones& bones);
 
 }  // namespace myotact::prepare

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "prepare/repair/edge_table.h"
+#include "prepare/surface/edge_table.h"
 
 namespace myotact::prepare {
 

@@ -10,7 +10,7 @@
 #include "geometry/depth_inside.h"
 #include "geometry/triangle_tree.h"
 #include "prepare/field/level_set.h"
-#include "prepare/repair/surface_pieces.h"
+#include "prepare/surface/surface_pieces.h"
 
 namespace myotact::prepare {
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <nlohmann/json.hpp>
+
 #include "core/json_reader.h"
 #include "prepare/loft/ellipses.h"
 

@@ -7,7 +7,7 @@
 #include "geometry/triangle_tree.h"
 #include "prepare/field/level_set.h"
 #include "prepare/part/film.h"
-#include "prepare/repair/surface_pieces.h"
+#include "prepare/surface/surface_pieces.h"
 
 namespace myotact::prepare {
 
@@ -93,7 +93,7 @@ Cut cut_on_lattice(const Body& own, const BodyField& field, const Eigen::Aligned
     if (const auto end = loose_end(pieces[i], pieces.front(), tree, least_m)) cut.loose_ends.push_back(*end);
   }
   cut.left = std::move(pieces.front());
-  cut.tunnels = tunnels(cut.left) - tunnels(own.distance.surface());
+  cut.added_genus = genus(cut.left) - genus(own.distance.surface());
   return cut;
 }
 
@@ -142,7 +142,7 @@ TriangleMesh patch(const Body& own, const Borders& borders, double clearance_m, 
   const BodyField field = field_of(own, borders, clearance_m);
   const auto patched = [&](const Vec3& p) { return std::min(field(p), kFlattening * (film.distance_m(p) - radius_m)); };
   Cut closed = cut_on_lattice(own, patched, box_of(own, borders), cut.spacing_m);
-  const bool better = closed.tunnels <= cut.tunnels && closed.loose_ends.size() <= cut.loose_ends.size();
+  const bool better = closed.added_genus <= cut.added_genus && closed.loose_ends.size() <= cut.loose_ends.size();
   if (!better) return {};
   cut = std::move(closed);
   return film.surface(radius_m);

@@ -13,9 +13,9 @@ struct Cut {
   double dropped_m3 = 0.0;       // enclosed by the other pieces
   std::vector<Vec3> loose_ends;  // farthest places of dropped pieces that reach far beyond what is left: tendons
   double spacing_m = 0.0;        // of the lattice that it was extracted on
-  int tunnels = 0;               // that the muscle did not have before
+  int added_genus = 0;           // that the muscle did not have before
 
-  bool needs_film() const { return tunnels > 0 || !loose_ends.empty(); }
+  bool needs_film() const { return added_genus > 0 || !loose_ends.empty(); }
 };
 
 /// What is left of a muscle.
@@ -27,10 +27,10 @@ bool falls_apart(const Body& own, const Cut& cut);
 /// When the borders cut the muscle in two, its core stays: `borders.core` is set, and it is cut again.
 void keep_core(const Body& own, Borders& borders, double clearance_m, Cut& cut);
 
-/// Films that close the tunnels of the cut and strands to its loose ends (film.h), thick enough to be muscle.
+/// Films that close the handles of the cut and strands to its loose ends (film.h), thick enough to be muscle.
 geometry::TriangleMesh film_surface(const Body& own, const Borders& borders, double clearance_m, const Cut& cut);
 
-/// Closes what tunnels the cut still has, and holds its loose ends, with films of one node's thickness, whatever is in
+/// Closes what handles the cut still has, and holds its loose ends, with films of one node's thickness, whatever is in
 /// their way. Tunnels of a lattice step or two come and go with films; this ends them. Returns the films' surface;
 /// empty when nothing was done.
 geometry::TriangleMesh patch(const Body& own, const Borders& borders, double clearance_m, Cut& cut);

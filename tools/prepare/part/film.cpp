@@ -7,7 +7,7 @@
 
 #include "prepare/field/block_lattice.h"
 #include "prepare/part/simple_point.h"
-#include "prepare/repair/surface_pieces.h"
+#include "prepare/surface/surface_pieces.h"
 
 namespace myotact::prepare {
 
@@ -83,7 +83,7 @@ std::vector<bool> nodes_to_keep(const BlockLattice& lattice, const Steps& steps,
   return kept;
 }
 
-/// What is left of a full block when all nodes but `kept` that can go without opening a tunnel are gone, dear ones
+/// What is left of a full block when all nodes but `kept` that can go without opening a handle are gone, dear ones
 /// first.
 std::vector<bool> hollow_out(const BlockLattice& lattice, const Steps& steps, const std::vector<bool>& kept,
                              const std::vector<float>& cost) {
@@ -116,7 +116,7 @@ std::vector<bool> hollow_out(const BlockLattice& lattice, const Steps& steps, co
 
 }  // namespace
 
-int tunnels(const TriangleMesh& surface) {
+int genus(const TriangleMesh& surface) {
   std::vector<bool> used(surface.positions_m.size(), false);
   for (const auto& corners : surface.triangles) {
     for (const int v : corners) used[static_cast<std::size_t>(v)] = true;

@@ -12,7 +12,7 @@
 namespace myotact::prepare {
 
 /// Ways through a closed surface: its genus, all pieces together, from Euler's V - E + F = 2 (pieces - genus).
-int tunnels(const geometry::TriangleMesh& surface);
+int genus(const geometry::TriangleMesh& surface);
 
 /// A muscle that its neighbours reach through, or that falls apart.
 struct PiercedBody {
@@ -23,9 +23,9 @@ struct PiercedBody {
   std::vector<Vec3> loose_ends;  // places of pieces that are to stay besides the largest one
 };
 
-/// Lattice nodes that close the tunnels of what is left of a muscle, and hold its pieces together: through the middle
+/// Lattice nodes that close the handles of what is left of a muscle, and hold its pieces together: through the middle
 /// of the muscle where a neighbour reaches through it, over the bone where that stands out of it. Found by hollowing a
-/// full block of nodes from outside, the places where film is least wanted first, as long as no tunnel opens (Aktouf,
+/// full block of nodes from outside, the places where film is least wanted first, as long as no handle opens (Aktouf,
 /// Bertrand and Perroton 2002): what cannot be taken away is film.
 class Film {
  public:

@@ -126,7 +126,7 @@ std::vector<PartReport> part_surfaces(std::vector<NamedSurface>& muscles, const 
     report.dropped_m3 = cuts[i].dropped_m3;
     report.kept_core = borders[i].core > 0.0;
     report.filmed = borders[i].own_film != nullptr;
-    report.tunnels = cuts[i].tunnels;
+    report.added_genus = cuts[i].added_genus;
     muscles[i].surface = std::move(cuts[i].left);
   }
   return reports;

@@ -17,7 +17,7 @@ struct PartReport {
   double dropped_m3 = 0.0;      // of that: loose ends and flaps too thin to be muscle
   bool kept_core = false;       // would have been cut in two: its core stays, and overlaps what cut it
   bool filmed = false;          // would have been pierced: its middle layer closes the holes
-  int tunnels = 0;              // holes through it that it did not have before
+  int added_genus = 0;          // holes through it that it did not have before
   std::vector<std::pair<double, std::string>> gave_way;  // to bones and muscles: overlap [m3], key; largest first
   std::vector<std::string> hosts;  // neighbours that it lies in for the most part: they were hollowed out for it
 };

@@ -12,7 +12,7 @@ using Neighbourhood = std::uint32_t;
 /// those whose offset is nowhere negative or nowhere positive.
 extern const Neighbourhood kLink;
 
-/// Whether taking the middle node away from a body leaves the number of its pieces, tunnels and cavities as it is; the
+/// Whether taking the middle node away from a body leaves the number of its pieces, handles and cavities as it is; the
 /// bits set are the body. The link is a triangulated sphere, so this is when the body's part of it and the rest of it
 /// each hang together.
 bool is_simple(Neighbourhood body);

@@ -1,5 +1,7 @@
 #include "prepare/recipe/read_line.h"
 
+#include <nlohmann/json.hpp>
+
 #include "anatomy/read_wrap.h"
 #include "prepare/recipe/index_of.h"
 

@@ -1,6 +1,7 @@
 #include "prepare/recipe/read_recipe.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "anatomy/read_body.h"
 #include "core/json_reader.h"

@@ -6,7 +6,7 @@
 
 namespace myotact::prepare {
 
-/// Reads a recipe (assets/canine/README.md tells its keys): bodies, bones, joints, mechanics and attachments of the
+/// Reads a recipe (assets/canine/README.md lists its keys): bodies, bones, joints, mechanics and attachments of the
 /// muscles, groups, parts to build, files to leave out. Throws Error NoInput or BadData naming file, place and remedy.
 AnatomyData read_recipe(const std::filesystem::path& file);
 

@@ -10,10 +10,10 @@
 #include "prepare/child_process.h"
 #include "prepare/field/signed_distance.h"
 #include "prepare/remesh/crossing_triangles.h"
-#include "prepare/repair/edge_table.h"
 #include "prepare/repair/stages.h"
-#include "prepare/repair/surface_pieces.h"
 #include "prepare/repair/surface_surgery.h"
+#include "prepare/surface/edge_table.h"
+#include "prepare/surface/surface_pieces.h"
 
 namespace myotact::prepare {
 

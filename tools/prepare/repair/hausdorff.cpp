@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "geometry/triangle_tree.h"
-#include "prepare/repair/edge_table.h"
 #include "prepare/repair/surface_surgery.h"
+#include "prepare/surface/edge_table.h"
 
 namespace myotact::prepare {
 

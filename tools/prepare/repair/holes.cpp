@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include "prepare/remesh/crossing_triangles.h"
-#include "prepare/repair/edge_table.h"
 #include "prepare/repair/soup.h"
 #include "prepare/repair/stages.h"
 #include "prepare/repair/surface_surgery.h"
+#include "prepare/surface/edge_table.h"
 
 namespace myotact::prepare {
 

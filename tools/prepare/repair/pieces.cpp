@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include "prepare/remesh/crossing_triangles.h"
-#include "prepare/repair/edge_table.h"
 #include "prepare/repair/stages.h"
-#include "prepare/repair/surface_pieces.h"
 #include "prepare/repair/surface_surgery.h"
+#include "prepare/surface/edge_table.h"
+#include "prepare/surface/surface_pieces.h"
 
 namespace myotact::prepare {
 

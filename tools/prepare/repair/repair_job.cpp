@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
-#include "prepare/repair/edge_table.h"
+#include "prepare/surface/edge_table.h"
 
 namespace myotact::prepare {
 

@@ -11,7 +11,7 @@
 #include "prepare/repair/soup.h"
 #include "prepare/repair/stages.h"
 #include "prepare/repair/surface_check.h"
-#include "prepare/repair/surface_pieces.h"
+#include "prepare/surface/surface_pieces.h"
 
 namespace myotact::prepare {
 

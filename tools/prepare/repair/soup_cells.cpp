@@ -5,9 +5,9 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "prepare/repair/edge_table.h"
-#include "prepare/repair/edge_wheel.h"
 #include "prepare/repair/soup.h"
+#include "prepare/surface/edge_table.h"
+#include "prepare/surface/edge_wheel.h"
 
 //  Each triangle t has a front (2t, where its normal points) and a back (2t + 1). Around an edge, what lies between one
 //  triangle and the next is one room, so the two faces that look into it are joined:

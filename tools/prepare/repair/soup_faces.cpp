@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "prepare/repair/edge_table.h"
 #include "prepare/repair/soup.h"
+#include "prepare/surface/edge_table.h"
 
 namespace myotact::prepare {
 

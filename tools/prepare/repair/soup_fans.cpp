@@ -3,9 +3,9 @@
 
 #include <Eigen/Geometry>
 
-#include "prepare/repair/edge_table.h"
-#include "prepare/repair/edge_wheel.h"
 #include "prepare/repair/soup.h"
+#include "prepare/surface/edge_table.h"
+#include "prepare/surface/edge_wheel.h"
 
 namespace myotact::prepare {
 

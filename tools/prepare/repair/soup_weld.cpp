@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "geometry/triangle_tree.h"
-#include "prepare/repair/edge_table.h"
 #include "prepare/repair/soup.h"
+#include "prepare/surface/edge_table.h"
 
 namespace myotact::prepare {
 

@@ -6,9 +6,9 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "prepare/remesh/crossing_triangles.h"
-#include "prepare/repair/edge_table.h"
 #include "prepare/repair/repair_job.h"
-#include "prepare/repair/surface_pieces.h"
+#include "prepare/surface/edge_table.h"
+#include "prepare/surface/surface_pieces.h"
 
 namespace myotact::prepare {
 

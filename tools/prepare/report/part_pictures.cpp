@@ -4,8 +4,9 @@
 
 #include <openssl/evp.h>
 
-#include "view/limb_bounds.h"
-#include "view/offscreen.h"
+#include "view/look/limb_bounds.h"
+#include "view/look/start_view.h"
+#include "view/pictures/offscreen.h"
 
 namespace myotact::prepare {
 

@@ -171,7 +171,8 @@ std::string architecture_table(const LimbWork& limb) {
     const anatomy::Muscle& m = muscle.data.mechanics;
     const double pcsa_m2 = r.volume_m3 * std::cos(m.pennation_rad) / m.optimal_fibre_m;
     std::vector<std::string> levers;
-    for (const auto& [joint, lever_m] : r.levers_m) levers.push_back(fmt::format("{} {:+.1f}", joint, 1e3 * lever_m));
+    for (const auto& [joint, moment_arm_m] : r.levers_m)
+      levers.push_back(fmt::format("{} {:+.1f}", joint, 1e3 * moment_arm_m));
     table.add({r.key, fixed(1e6 * r.volume_m3, 1), fixed(1e3 * kMuscleDensity_kg_m3 * r.volume_m3, 1),
                fixed(1e3 * r.path_m, 0), fixed(1e3 * r.belly_m, 0), fixed(1e3 * m.optimal_fibre_m, 1),
                fixed(m.pennation_rad * 180.0 / std::numbers::pi, 0), fixed(1e4 * pcsa_m2, 2), fixed(m.peak_force_N, 0),

@@ -14,7 +14,7 @@ std::string stages_table(const LimbWork& limb, int violations);
 std::string bones_table(const LimbWork& limb);
 /// Tets and their shape, attachments, what parting took.
 std::string meshes_table(const LimbWork& limb);
-/// Volume, mass, fibres, cross-section, force, levers.
+/// Volume, mass, fibres, cross-section, force, moment arms.
 std::string architecture_table(const LimbWork& limb);
 /// Masses and fibre lengths beside the published ones; an empty text when the recipe has none.
 std::string published_table(const LimbWork& limb);

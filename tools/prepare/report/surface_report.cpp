@@ -42,13 +42,13 @@ nlohmann::ordered_json json_of(const SurfaceReport& r) {
                {"belly_m", r.belly_m},
                {"largest_section_m2", r.largest_section_m2},
                {"levers_m", nlohmann::ordered_json::object()}});
-  for (const auto& [joint, lever_m] : r.levers_m) json["levers_m"][joint] = lever_m;
+  for (const auto& [joint, moment_arm_m] : r.levers_m) json["levers_m"][joint] = moment_arm_m;
   return json;
 }
 
 std::string levers_text(const SurfaceReport& r) {
   std::string text;
-  for (const auto& [joint, lever_m] : r.levers_m) text += fmt::format(" {} {:+.1f}", joint, 1e3 * lever_m);
+  for (const auto& [joint, moment_arm_m] : r.levers_m) text += fmt::format(" {} {:+.1f}", joint, 1e3 * moment_arm_m);
   return text;
 }
 

@@ -6,8 +6,8 @@
 #include "geometry/triangle_tree.h"
 #include "prepare/architecture/muscle_line.h"
 #include "prepare/parallel.h"
-#include "prepare/repair/surface_pieces.h"
 #include "prepare/stages/stages.h"
+#include "prepare/surface/surface_pieces.h"
 
 namespace myotact::prepare {
 

@@ -37,7 +37,7 @@ struct Neighbour {
 using Fields = std::vector<std::unique_ptr<SignedDistance>>;
 
 /// How far a point must move to be clear of the neighbours, and which way.
-Vec3 way_out(const Vec3& p, const std::vector<Neighbour>& neighbours) {
+Vec3 depenetration(const Vec3& p, const std::vector<Neighbour>& neighbours) {
   Vec3 way = Vec3::Zero();
   for (const Neighbour& neighbour : neighbours) {
     if (!neighbour.skin->box().contains(p)) continue;
@@ -85,7 +85,7 @@ void ask_all_over(const TriangleMesh& skin, Measure&& measure, Offer&& offer) {
 std::vector<Vec3> steps_m(const TriangleMesh& skin, const std::vector<Neighbour>& neighbours) {
   std::vector<Vec3> steps(skin.positions_m.size(), Vec3::Zero());
   ask_all_over(
-      skin, [&](const Vec3& p) { return way_out(p, neighbours); },
+      skin, [&](const Vec3& p) { return depenetration(p, neighbours); },
       [&](std::size_t v, const Vec3& step) {
         if (step.norm() > steps[v].norm()) steps[v] = step;
       });

@@ -24,7 +24,7 @@ void fill_cages(LimbWork& limb, const PartDone& done);
 void attach_muscles(LimbWork& limb, const PartDone& done);
 /// Fibre directions, sections and regions.
 void lay_fibres(LimbWork& limb, const PartDone& done);
-/// Muscle lines and their levers.
+/// Muscle lines and their moment arms.
 void trace_lines(LimbWork& limb, const PartDone& done);
 /// Skins that still reach into each other are moved apart; what remains is listed.
 void settle_skins(LimbWork& limb, const PartDone& done);

@@ -5,8 +5,8 @@
 #include "prepare/remesh/fine_surface.h"
 #include "prepare/repair/repair_surface.h"
 #include "prepare/repair/surface_check.h"
-#include "prepare/repair/surface_pieces.h"
 #include "prepare/stages/stages.h"
+#include "prepare/surface/surface_pieces.h"
 
 namespace myotact::prepare {
 
@@ -56,8 +56,9 @@ void report_parting(const PartReport& part, SurfaceReport& report) {
   report.volume_m3 = part.volume_before_m3 - part.volume_lost_m3;
   for (const auto& [volume_m3, key] : part.gave_way) report.gave_way.emplace_back(key, volume_m3);
   if (!part.hosts.empty()) report.notes.push_back("nested in " + join(part.hosts) + ": keeps its shape");
-  if (part.filmed) report.notes.push_back("neighbours reach through it: films close the holes, strands hold loose ends");
-  if (part.tunnels > 0) report.notes.push_back(fmt::format("parting left {} holes through it", part.tunnels));
+  if (part.filmed)
+    report.notes.push_back("neighbours reach through it: films close the holes, strands hold loose ends");
+  if (part.added_genus > 0) report.notes.push_back(fmt::format("parting left {} holes through it", part.added_genus));
   if (part.kept_core) report.notes.push_back("would be cut in two by its neighbours: its core stays and overlaps them");
   if (part.dropped_m3 > kWorthANote_m3) {
     report.notes.push_back(fmt::format("{:.2f} cm3 of loose ends dropped in parting", 1e6 * part.dropped_m3));

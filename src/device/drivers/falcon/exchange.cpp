@@ -11,7 +11,7 @@ namespace myotact::device::falcon {
 
 namespace {
 
-constexpr std::uint64_t kSilence_ns = 30'000'000;     // as a stale model: FORMATS, force gate
+constexpr std::uint64_t kSilence_ns = 30'000'000;     // as the force gate takes a stale model
 constexpr std::uint64_t kForceLife_ns = 20'000'000;   // twenty ticks: who asked for it has stopped ticking
 constexpr std::uint64_t kReportLife_ns = 10'000'000;  // two turns without one: a force would answer an old position
 constexpr std::uint64_t kDistrust_ns = 100'000'000;   // after a leap: many reports that agree

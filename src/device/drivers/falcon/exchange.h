@@ -5,7 +5,7 @@
 
 #include "core/vector.h"
 #include "device/drivers/falcon/packet.h"
-#include "device/hardware_device.h"
+#include "device/exchanging_device.h"
 
 namespace myotact::device::falcon {
 
@@ -14,12 +14,6 @@ struct ExchangeSettings {
   /// maker's library fit 2300 .. 4700, the maker's peak force would need 18 000. Too low a scale only feels weak.
   double counts_per_Nm = 4000.0;
   double peak_force_N = 8.0;  // |force| that is ever turned into torque
-};
-
-/// What the hand asks of the motors.
-struct WantedForce {
-  std::array<double, 3> force_N{};  // in the device's frame
-  std::uint64_t at_ns = 0;          // when it was asked; 0: never
 };
 
 /// One report in, one command out: where the grip is, whether that is to be believed, and what the motors may do.

@@ -7,17 +7,13 @@
 #include "device/drivers/falcon/firmware.h"
 #include "device/drivers/falcon/session.h"
 #include "realtime/periodic_loop.h"
-#include "realtime/real_time_thread.h"
 
 namespace myotact::device::falcon {
 
 namespace {
 
-constexpr std::uint64_t kPoseLife_ns = 30'000'000;  // as a stale model: FORMATS, force gate
-constexpr std::uint64_t kRateWindow_ns = 1'000'000'000;
 /// The chip hears us and the processor behind it says nothing: it lost its power, and its firmware with it.
 constexpr std::uint64_t kGivenUp_ns = 2'000'000'000;
-constexpr auto kLookAgain = std::chrono::milliseconds(500);
 
 std::uint64_t steady(void*) {
   return realtime::steady_now_ns();
@@ -60,58 +56,17 @@ class Stoppable : public Transport {
 }  // namespace
 
 FalconDevice::FalconDevice(std::string name, const FalconSettings& settings, OpenTransport open_transport)
-    : name_(std::move(name)),
+    : ExchangingDevice(std::move(name), "falcon"),
       settings_(settings),
       open_transport_(std::move(open_transport)),
       profile_(falcon_profile(settings.exchange.peak_force_N)) {}
 
 std::unique_ptr<Transport> FalconDevice::start_transport() const {
-  auto transport = std::make_unique<Stoppable>(open_transport_(), stopping_);
+  auto transport = std::make_unique<Stoppable>(open_transport_(), stopping());
   const std::vector<std::uint8_t> image =
       settings_.firmware.empty() ? std::vector<std::uint8_t>{} : read_firmware(settings_.firmware);
   start_firmware(*transport, image);
   return transport;
-}
-
-void FalconDevice::open() {
-  if (thread_.joinable()) return;
-  phase_ = DevicePhase::Opening;
-  stopping_ = false;
-  try {
-    transport_ = start_transport();
-    thread_ = std::thread([this] {
-      realtime::name_this_thread("falcon");
-      realtime::make_this_thread_real_time();
-      run();
-    });
-  } catch (...) {
-    transport_.reset();
-    phase_ = DevicePhase::Closed;
-    throw;
-  }
-}
-
-void FalconDevice::close() noexcept {
-  if (!thread_.joinable()) return;
-  stopping_ = true;
-  thread_.join();
-  transport_.reset();
-  phase_ = DevicePhase::Closed;
-  is_ready_ = false;
-}
-
-void FalconDevice::run() noexcept {
-  for (;;) {
-    exchange_until_gone(*transport_);
-    if (stopping_) return;
-    poses_.publish({});
-    phase_ = DevicePhase::Lost;
-    rate_Hz_ = 0.0;
-    while (!reopen()) {
-      if (stopping_) return;
-      std::this_thread::sleep_for(kLookAgain);
-    }
-  }
 }
 
 bool FalconDevice::reopen() noexcept {
@@ -124,50 +79,31 @@ bool FalconDevice::reopen() noexcept {
   }
 }
 
-void FalconDevice::exchange_until_gone(Transport& transport) noexcept {
-  Session session(transport, settings_.exchange, steady, nullptr);
-  std::uint64_t window_ns = session.now_ns(), counted = 0;
-  std::uint64_t heard_ns = window_ns, heard = 0;
-  while (!stopping_ && !transport.is_gone()) {
-    forces_.update();
-    session.turn(forces_.front());
+void FalconDevice::exchange_until_gone() noexcept {
+  Session session(*transport_, settings_.exchange, steady, nullptr);
+  ExchangeRate rate(session.now_ns());
+  std::uint64_t heard_ns = session.now_ns(), heard = 0;
+  while (!stopping() && !transport_->is_gone()) {
+    session.turn(wanted());
     const Exchange& exchange = session.exchange();
     const std::uint64_t now_ns = session.now_ns();
-    const DevicePhase phase = exchange.phase(now_ns);
-    phase_ = phase;
-    poses_.publish({{to_array(exchange.position_m()), to_array(exchange.velocity_m_s()), exchange.reported_ns(),
-                     stylus_buttons(exchange.buttons())},
-                    phase == DevicePhase::Ready});
+    publish({to_array(exchange.position_m()), to_array(exchange.velocity_m_s()), exchange.reported_ns(),
+             stylus_buttons(exchange.buttons())},
+            exchange.phase(now_ns));
     if (session.reports() != heard) {
       heard = session.reports();
       heard_ns = now_ns;
     }
     if (now_ns - heard_ns > kGivenUp_ns) break;
-    if (now_ns - window_ns < kRateWindow_ns) continue;
-    rate_Hz_ = 1e9 * static_cast<double>(session.reports() - counted) / static_cast<double>(now_ns - window_ns);
-    window_ns = now_ns;
-    counted = session.reports();
+    if (rate.count(session.reports(), now_ns)) set_rate(rate.rate_Hz());
   }
   session.rest();
 }
 
-messages::DeviceState FalconDevice::read(std::uint64_t now_ns) noexcept {
-  read_ns_ = now_ns;
-  poses_.update();
-  const Pose& pose = poses_.front();
-  const std::uint64_t at_ns = pose.state.sampled_at_ns;
-  is_ready_ = pose.is_ready && (now_ns < at_ns || now_ns - at_ns <= kPoseLife_ns);
-  return pose.state;
-}
-
-void FalconDevice::write(const messages::DeviceCommand& command) noexcept {
-  forces_.publish({is_ready_ ? command.force_world_N : std::array<double, 3>{}, read_ns_});
-}
-
 DeviceReport FalconDevice::report() const noexcept {
   DeviceReport report;
-  report.phase = phase_;
-  report.rate_Hz = rate_Hz_;
+  report.phase = phase();
+  report.rate_Hz = rate_Hz();
   if (report.phase == DevicePhase::NeedsCalibration)
     report.hint = "Pull the grip all the way out, then push it all the way in.";
   if (report.phase == DevicePhase::Lost) report.hint = "Plug the Falcon in again, with its power.";

@@ -7,7 +7,7 @@
 
 namespace myotact::device::force_dimension {
 
-// The part of DHD (and of DRD, whose library has both) that is used, as exported on 64-bit Linux (reference: SDK 3.17).
+// The part of DHD (and of DRD, whose library has both) that is used, as exported on 64-bit Linux (SDK 3.17).
 // Devices are opened by their place among those plugged in; every other call takes the ID that opening gave, last.
 // Below zero: an error. 1: no newer data. 2: motors at their limit.
 

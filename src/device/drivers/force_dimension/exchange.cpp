@@ -58,15 +58,15 @@ void Exchange::take(const RawState& raw, std::uint64_t now_ns) noexcept {
     state_.sampled_at_ns = now_ns;
     state_.buttons = buttons_of(raw.buttons);
   }
-  judge(now_ns);
+  validate(now_ns);
 }
 
 void Exchange::distrust(std::uint64_t now_ns) noexcept {
   distrusted_until_ns_ = now_ns + kDistrust_ns;
-  judge(now_ns);
+  validate(now_ns);
 }
 
-void Exchange::judge(std::uint64_t now_ns) noexcept {
+void Exchange::validate(std::uint64_t now_ns) noexcept {
   phase_ = DevicePhase::Lost;
   if (!status_.is_connected) {
     hint_ = "The device does not answer: see to its cable.";

@@ -5,11 +5,11 @@
 
 #include "core/vector.h"
 #include "device/drivers/force_dimension/dhdapi.h"
-#include "device/hardware_device.h"
+#include "device/exchanging_device.h"
 
 namespace myotact::device::force_dimension {
 
-/// What the library tells in one exchange, in its frame: x towards the person, y to the right, z up [m, m/s].
+/// What the library reports in one exchange, in its frame: x towards the person, y to the right, z up [m, m/s].
 struct RawState {
   int result = 0;  // the lowest of all answers: below zero, one failed
   Vec3 position_m = Vec3::Zero(), velocity_m_s = Vec3::Zero();
@@ -20,12 +20,6 @@ struct RawState {
 struct RawStatus {
   bool is_powered = true, is_connected = true, is_initialised = true, force_is_on = true;
   int force_off_cause = kNoCause;
-};
-
-/// What the hand asks of the motors.
-struct WantedForce {
-  std::array<double, 3> force_N{};  // in the device's frame (hardware_device.h)
-  std::uint64_t at_ns = 0;          // when it was asked; 0: never
 };
 
 /// What of an exchange is to be believed, and which force is allowed: none from a device that failed, stopped its
@@ -52,7 +46,7 @@ class Exchange {
 
  private:
   bool leaps(const Vec3& position_m, std::uint64_t now_ns) const noexcept;
-  void judge(std::uint64_t now_ns) noexcept;
+  void validate(std::uint64_t now_ns) noexcept;
 
   double peak_force_N_;
   RawStatus status_;

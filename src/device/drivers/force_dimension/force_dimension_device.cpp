@@ -8,25 +8,21 @@
 #include "core/error.h"
 #include "device/drivers/force_dimension/models.h"
 #include "realtime/periodic_loop.h"
-#include "realtime/real_time_thread.h"
 
 namespace myotact::device::force_dimension {
 
 namespace {
 
 constexpr std::uint64_t kExchange_ns = 500'000;       // twice a tick: no force waits longer than that
-constexpr std::uint64_t kPoseLife_ns = 30'000'000;    // as a stale model: FORMATS, force gate
 constexpr std::uint64_t kGivenUp_ns = 2'000'000'000;  // of a device that answers with errors alone
-constexpr std::uint64_t kRateWindow_ns = 1'000'000'000;
 constexpr std::uint64_t kExchangesBetweenLooks = 20;  // at the status: a hundredth of a second
 constexpr int kMostRefused = 4;                       // two milliseconds of forces that were not taken
-constexpr auto kLookAgain = std::chrono::milliseconds(500);
 
 }  // namespace
 
 ForceDimensionDevice::ForceDimensionDevice(std::string name, int number, const ForceDimensionSettings& settings,
                                            std::shared_ptr<DhdLibrary> library)
-    : name_(std::move(name)),
+    : ExchangingDevice(std::move(name), "force_dimension"),
       number_(number),
       settings_(settings),
       library_(std::move(library)),
@@ -36,6 +32,7 @@ bool ForceDimensionDevice::open_on_library() noexcept {
   const int opened = api().open_device(number_);
   if (opened < 0) return false;
   id_ = static_cast<char>(opened);
+  is_held_ = true;
   return true;
 }
 
@@ -62,68 +59,38 @@ void ForceDimensionDevice::prepare() const noexcept {
 
 /// Brakes, where it has them, slow the grip's fall once nothing carries it.
 void ForceDimensionDevice::close_on_library() noexcept {
+  if (!std::exchange(is_held_, false)) return;
   api().set_force(0.0, 0.0, 0.0, id_);
   api().enable_force(0, id_);
   api().set_brakes(1, id_);
   api().close_device(id_);
 }
 
-void ForceDimensionDevice::open() {
-  if (thread_.joinable()) return;
+void ForceDimensionDevice::connect() {
   std::atomic<bool>& is_open = library_->is_open[static_cast<std::size_t>(number_)];
-  if (is_open.exchange(true)) throw Error(ExitStatus::Unavailable, name_ + ": this program has it open already");
-  phase_ = DevicePhase::Opening;
+  if (is_open.exchange(true)) throw Error(ExitStatus::Unavailable, name() + ": this program has it open already");
   if (!open_on_library()) {
     is_open = false;
-    phase_ = DevicePhase::Closed;
     throw Error(ExitStatus::Unavailable,
                 fmt::format("{}: it does not open: {}; end other programs that use it, see to its cable and its power, "
                             "and let this computer's user open it by assets/devices/udev/70-myotact.rules",
-                            name_, api().error_text()));
+                            name(), api().error_text()));
   }
   identity_ = identity();
   profile_ = profile_of(model_of(identity_.type), api().max_force(id_));
   initialise();
   prepare();
-  stopping_ = false;
-  try {
-    thread_ = std::thread([this] {
-      realtime::name_this_thread("force_dimension");
-      realtime::make_this_thread_real_time();
-      run();
-    });
-  } catch (...) {
-    close_on_library();
-    is_open = false;
-    phase_ = DevicePhase::Closed;
-    throw;
-  }
 }
 
-void ForceDimensionDevice::close() noexcept {
-  if (!thread_.joinable()) return;
-  stopping_ = true;
-  thread_.join();
+void ForceDimensionDevice::disconnect() noexcept {
+  close_on_library();
   library_->is_open[static_cast<std::size_t>(number_)] = false;
-  phase_ = DevicePhase::Closed;
   hint_ = "";
-  is_ready_ = false;
 }
 
-void ForceDimensionDevice::run() noexcept {
-  for (;;) {
-    exchange_until_gone();
-    close_on_library();
-    if (stopping_) return;
-    poses_.publish({});
-    phase_ = DevicePhase::Lost;
-    hint_ = "The device does not answer: see to its cable and its power.";
-    rate_Hz_ = 0.0;
-    while (!reopen()) {
-      if (stopping_) return;
-      std::this_thread::sleep_for(kLookAgain);
-    }
-  }
+void ForceDimensionDevice::leave_gone() noexcept {
+  close_on_library();
+  hint_ = "The device does not answer: see to its cable and its power.";
 }
 
 /// The same device; another one at its place is left alone.
@@ -134,6 +101,7 @@ bool ForceDimensionDevice::reopen() noexcept {
     return true;
   }
   api().close_device(id_);
+  is_held_ = false;
   return false;
 }
 
@@ -141,30 +109,29 @@ void ForceDimensionDevice::exchange_until_gone() noexcept {
   Exchange exchange(profile_.peak_force_N);
   realtime::PeriodicLoop beat(kExchange_ns);
   beat.start();
-  std::uint64_t window_ns = realtime::steady_now_ns(), begun_ns = window_ns, exchanges = 0, counted = 0;
+  const std::uint64_t begun_ns = realtime::steady_now_ns();
+  ExchangeRate rate(begun_ns);
+  std::uint64_t exchanges = 0;
   int refused = 0;      // forces in a row that it did not take
   bool pushes = false;  // by the last one that it took
-  while (!stopping_) {
+  while (!stopping()) {
     beat.wait();
     const bool looks = exchanges++ % kExchangesBetweenLooks == 0;
     if (looks) exchange.take(read_status());
     const RawState state = read_state();
     const std::uint64_t now_ns = realtime::steady_now_ns();
     exchange.take(state, now_ns);
-    forces_.update();
-    const Vec3 force_N = exchange.allowed(forces_.front(), now_ns);
+    const Vec3 force_N = exchange.allowed(wanted(), now_ns);
     const int sent = api().set_force(force_N.x(), force_N.y(), force_N.z(), id_);  // zeros, too: they carry its weight
     refused = sent < 0 ? refused + 1 : 0;
     if (refused == 0) pushes = force_N != Vec3::Zero();
     if (refused > 0) exchange.distrust(now_ns);
     if (refused > kMostRefused && pushes) return;  // its motors may keep that: they are switched off
     if (looks && exchange.may_enable(now_ns)) api().enable_force(1, id_);
-    tell(exchange);
+    publish(exchange.state(), exchange.phase());
+    hint_ = exchange.hint();
     if (now_ns - std::max(exchange.heard_ns(), begun_ns) > kGivenUp_ns) return;
-    if (now_ns - window_ns < kRateWindow_ns) continue;
-    rate_Hz_ = 1e9 * static_cast<double>(exchanges - counted) / static_cast<double>(now_ns - window_ns);
-    window_ns = now_ns;
-    counted = exchanges;
+    if (rate.count(exchanges, now_ns)) set_rate(rate.rate_Hz());
   }
 }
 
@@ -184,29 +151,6 @@ RawStatus ForceDimensionDevice::read_status() const noexcept {
   if (api().get_status(raw.data(), id_) < 0) return {.is_connected = false};
   const bool is_initialised = api().has_drd() ? api().is_initialised(id_) : raw[kInitialised] != 0;
   return {raw[kPower] != 0, raw[kConnected] != 0, is_initialised, raw[kForceIsOn] != 0, raw[kForceOffCause]};
-}
-
-void ForceDimensionDevice::tell(const Exchange& exchange) noexcept {
-  poses_.publish({exchange.state(), exchange.phase() == DevicePhase::Ready});
-  phase_ = exchange.phase();
-  hint_ = exchange.hint();
-}
-
-messages::DeviceState ForceDimensionDevice::read(std::uint64_t now_ns) noexcept {
-  read_ns_ = now_ns;
-  poses_.update();
-  const Pose& pose = poses_.front();
-  const std::uint64_t at_ns = pose.state.sampled_at_ns;
-  is_ready_ = pose.is_ready && (now_ns < at_ns || now_ns - at_ns <= kPoseLife_ns);
-  return pose.state;
-}
-
-void ForceDimensionDevice::write(const messages::DeviceCommand& command) noexcept {
-  forces_.publish({is_ready_ ? command.force_world_N : std::array<double, 3>{}, read_ns_});
-}
-
-DeviceReport ForceDimensionDevice::report() const noexcept {
-  return {phase_, rate_Hz_, -1.0, hint_};
 }
 
 }  // namespace myotact::device::force_dimension

@@ -11,11 +11,11 @@ struct Model {
   double reach_radius_m;  // of the ball that its grip reaches
 };
 
-/// By the number that dhdGetSystemType tells; one that is not known: the weakest limits of all. (reference: types of
+/// By the number that dhdGetSystemType reports; one that is not known: the weakest limits of all. (Source: types of
 /// the SDK's header, limits as CHAI3D lists them)
 Model model_of(int system_type);
 
-/// What such a device bears; never more than the library says itself, where it says a force.
+/// What such a device supports; never more than the library says itself, where it says a force.
 DeviceProfile profile_of(const Model& model, double told_max_force_N);
 
 }  // namespace myotact::device::force_dimension

@@ -86,7 +86,7 @@ std::string Exchange::take(std::string_view text, std::uint64_t now_ns) {
     fault(kNotUnderstood);
     return problem;
   }
-  if (owed_ > 0) return "";  // an answer to an earlier command: what it tells is old
+  if (owed_ > 0) return "";  // an answer to an earlier command: what it reports is old
   const auto device = std::find_if(message_.devices.begin(), message_.devices.end(),
                                    [&](const DeviceEntry& entry) { return entry.id == id_; });
   if (device == message_.devices.end()) {

@@ -92,10 +92,10 @@ class Exchange {
   ServiceMessage message_;
   std::string command_;
   Sample sample_;
-  Vec3 position_service_m_ = Vec3::Zero();  // not a number where this connection has not told it
-  std::uint64_t epoch_ = 0;                 // of the Ready phases
-  int good_ = 0;                            // states in a row without a fault
-  int owed_ = 0;                            // commands that the service has not answered
+  Vec3 position_service_m_ = Vec3::Zero();       // not a number where this connection has not told it
+  std::uint64_t epoch_ = 0;                      // of the Ready phases
+  int good_ = 0;                                 // states in a row without a fault
+  int owed_ = 0;                                 // commands that the service has not answered
   std::uint64_t sent_ns_ = 0, answered_ns_ = 0;  // the newest command, the newest message
   std::uint64_t heard_ns_ = 0;
   std::uint64_t counted_from_ns_ = 0;

@@ -56,7 +56,7 @@ std::array<std::optional<double>, 3> axes_of(const Json& state, const char* key,
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const Json* const number = member(*object, kNames[i]);
     if (number == nullptr) continue;
-    if (!number->is_number()) throw Broken{fmt::format("\"{}/{}\" is no number", key, kNames[i])};
+    if (!number->is_number()) throw Broken{fmt::format("\"{}/{}\" is not a number", key, kNames[i])};
     const double value = number->get<double>();
     if (!(std::abs(value) <= farthest)) {
       throw Broken{fmt::format("\"{}/{}\" is {}; must be in -{} .. {}", key, kNames[i], value, farthest, farthest)};

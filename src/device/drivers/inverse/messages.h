@@ -37,7 +37,7 @@ struct GripEntry {
 struct ServiceMessage {
   std::vector<DeviceEntry> devices;
   std::vector<GripEntry> grips;  // wireless ones first
-  std::string version;           // of the service, where the message tells it
+  std::string version;           // of the service, where the message reports it
 };
 
 /// What is wrong with the text, naming the place; empty: `message` holds it. Any bytes, never throws for them.

@@ -13,8 +13,9 @@ namespace myotact::device::inverse {
 /// versions between want is uncertain: by default the service's version decides.
 enum class CommandForm : std::uint8_t { ByVersion, Values, Vector };
 
-/// What the Inverse3 bears. 10 N, 1000 N/m: what the CHAI3D port chai3d_haply sets, not the maker's data (uncertain).
-/// Continuous force: nobody says it; a third of the peak, until it is measured. Friction and inertia are not known.
+/// What the Inverse3 supports. 10 N, 1000 N/m: what the CHAI3D port chai3d_haply sets, not the maker's data
+/// (uncertain). Continuous force: nobody says it; a third of the peak, until it is measured. Friction and inertia are
+/// not known.
 inline DeviceProfile inverse3_profile() {
   DeviceProfile profile;
   profile.peak_force_N = 10.0;

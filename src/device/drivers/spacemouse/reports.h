@@ -32,7 +32,7 @@ constexpr std::array<std::uint8_t, 2> light_report(bool on) {
   return {0x04, static_cast<std::uint8_t>(on ? 1 : 0)};
 }
 
-/// Changes of `cap` what the report tells. False: the report is of another kind or too short, and nothing is changed.
+/// Changes of `cap` what the report says. False: the report is of another kind or too short, and nothing is changed.
 /// Models that put push and turn into one report are told by its length, not by a list of models.
 bool apply_report(std::span<const std::uint8_t> report, Cap& cap) noexcept;
 

@@ -36,7 +36,8 @@ DeviceFinding finding_of(const HidEntry& cap, const std::string& name) {
   return finding;
 }
 
-/// What tells a device from the others as long as it is plugged in, and where it has a serial number also afterwards.
+/// What distinguishes a device from the others as long as it is plugged in, and where it has a serial number also
+/// afterwards.
 std::vector<std::string> identities_of(const std::vector<HidEntry>& caps) {
   std::vector<std::string> identities;
   for (const HidEntry& cap : caps) {

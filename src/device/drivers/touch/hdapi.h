@@ -6,7 +6,7 @@
 
 namespace myotact::device::touch {
 
-// The part of HDAPI that is used, as its library exports it on 64-bit Linux (reference: HDAPI 3.0 and 3.4).
+// The part of HDAPI that is used, as its library exports it on 64-bit Linux (HDAPI 3.0 and 3.4).
 
 using Handle = unsigned int;
 using Code = unsigned int;

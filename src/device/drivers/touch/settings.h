@@ -10,8 +10,8 @@ struct TouchSettings {
   /// Names of the devices as the maker's setup program has them, the first one "touch", the second "touch:2"; empty
   /// name: its default device.
   std::vector<std::string> configurations{""};
-  /// What CHAI3D holds for safe with a Touch. The maker's library tells a figure of its own, but not in which unit: its
-  /// manual says 0 .. 1, its example newtons a millimetre.
+  /// What CHAI3D holds for safe with a Touch. The maker's library reports a figure of its own, but not in which unit:
+  /// its manual says 0 .. 1, its example newtons a millimetre.
   double max_stiffness_N_m = 400.0;
 };
 

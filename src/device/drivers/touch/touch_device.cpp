@@ -19,7 +19,7 @@ constexpr std::uint64_t kSilence_ns = 500'000'000;  // of a servo thread that sh
 constexpr std::uint64_t kCalibrationEvery = 10;
 constexpr std::uint64_t kMotorsEvery = 100;
 
-/// As assets/devices/touch.json, whose sources hold here, too; what the device tells itself comes over it.
+/// As assets/devices/touch.json, whose sources hold here, too; what the device reports itself replaces it.
 DeviceProfile touch_profile(const TouchSettings& settings) {
   DeviceProfile profile;
   profile.max_stiffness_N_m = settings.max_stiffness_N_m;
@@ -54,16 +54,16 @@ void TouchDevice::open() {
   }
   acquire();
   learn_profile();
-  judge_ = FrameJudge(middle_mm_);
+  validator_ = FrameValidator(middle_mm_);
   library_->servo.add(*this);
 }
 
-/// What it can bear stays as it was learnt: the loops that feel it have heard of it.
+/// What it can support stays as it was learnt: the loops that feel it have heard of it.
 void TouchDevice::recover(bool hung) {
-  if (handle_ != kNoDevice && !hung && !judge_.is_silent()) return;
+  if (handle_ != kNoDevice && !hung && !validator_.is_silent()) return;
   release();
   acquire();
-  judge_ = FrameJudge(middle_mm_);
+  validator_ = FrameValidator(middle_mm_);
 }
 
 void TouchDevice::acquire() {
@@ -137,9 +137,9 @@ void TouchDevice::begin_frame(std::uint64_t now_ns) noexcept {
   note(api().take_error());
   if (frames_ % kMotorsEvery == 0) note(look_after_motors());
   if (frames_ % kCalibrationEvery == 0) note(look_after_calibration());
-  judge_.take(raw_, now_ns);
-  phase_ = judge_.phase();
-  hint_ = judge_.hint();
+  validator_.take(raw_, now_ns);
+  phase_ = validator_.phase();
+  hint_ = validator_.hint();
   wanted_N_ = {};  // what is not written in this frame is no force
   ++frames_;
   count_rate(now_ns);
@@ -147,7 +147,7 @@ void TouchDevice::begin_frame(std::uint64_t now_ns) noexcept {
 }
 
 void TouchDevice::end_frame(bool is_last) noexcept {
-  const Vec3 force_N = is_last ? Vec3::Zero() : judge_.allowed(wanted_N_, profile_.peak_force_N);
+  const Vec3 force_N = is_last ? Vec3::Zero() : validator_.allowed(wanted_N_, profile_.peak_force_N);
   api().make_current(handle_);
   api().set_doublev(kForce, force_N.data());
   api().end_frame(handle_);

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "device/drivers/touch/frame.h"
+#include "device/drivers/touch/frame_validator.h"
 #include "device/drivers/touch/servo.h"
 #include "device/drivers/touch/settings.h"
 #include "device/hardware_device.h"
@@ -37,12 +37,12 @@ class TouchDevice : public HardwareDevice, private ServoClient {
   TouchDevice& operator=(const TouchDevice&) = delete;
 
   const std::string& name() const override { return name_; }
-  /// After open(): force and reach as the device tells them.
+  /// After open(): force and reach as the device reports them.
   const DeviceProfile& profile() const override { return profile_; }
   void open() override;
   void close() noexcept override;
   bool connected() const noexcept override { return phase_ == DevicePhase::Ready && library_->servo.is_ticking(); }
-  messages::DeviceState read(std::uint64_t) noexcept override { return judge_.state(); }
+  messages::DeviceState read(std::uint64_t) noexcept override { return validator_.state(); }
   void write(const messages::DeviceCommand& command) noexcept override;
   DeviceReport report() const noexcept override;
   ServoClock* servo_clock() noexcept override { return &library_->servo; }
@@ -69,7 +69,7 @@ class TouchDevice : public HardwareDevice, private ServoClient {
   Handle handle_ = kNoDevice;
 
   Vec3 middle_mm_ = Vec3::Zero();  // of its workspace
-  FrameJudge judge_{Vec3::Zero()};
+  FrameValidator validator_{Vec3::Zero()};
   RawFrame raw_;
   Code end_error_ = kNone;  // that the end of the last frame left
   std::array<double, 3> wanted_N_{};

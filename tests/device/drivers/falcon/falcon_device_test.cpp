@@ -19,10 +19,10 @@ struct SharedFalcon {
   std::mutex mutex;
   FakeFalcon fake;
 
-  template <typename Deed>
-  void with(Deed deed) {
+  template <typename Action>
+  void with(Action action) {
     const std::lock_guard lock(mutex);
-    deed(fake);
+    action(fake);
   }
 };
 

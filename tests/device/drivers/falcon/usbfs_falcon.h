@@ -31,10 +31,10 @@ class UsbfsFalcon {
   /// Another program has the interface.
   void let_another_have_it(bool has);
 
-  template <typename Deed>
-  auto with(Deed deed) {
+  template <typename Action>
+  auto with(Action action) {
     const std::lock_guard lock(mutex_);
-    return deed(fake_);
+    return action(fake_);
   }
   int cleared_halts() {
     const std::lock_guard lock(mutex_);

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <variant>
+
+#include "haptics/effects/effect.h"
+#include "haptics/effects/proxy_touch.h"
+#include "haptics/effects/reported_touch.h"
+#include "haptics/gate/buzz_detector.h"
+#include "haptics/haptic_settings.h"
+#include "messages/tool_state.h"
+
+namespace myotact::haptics {
+
+/// Touch: the force of surfaces on the tool, by the proxy or by a published method. It is softened while the tool
+/// buzzes, while the simulation's answer is old, and by what the hand closes on a bone. Its port knows a spring between
+/// hand and surface, carried by the tissue. Real-time safe; one thread.
+class ContactEffect {
+ public:
+  ContactEffect(const HapticSettings& settings, const device::DeviceProfile& profile);
+
+  EffectTick tick(const HandTick& hand, EffectNotes& notes) noexcept;
+  /// The proxy's place, and the contact with the spring that the simulation adds to its solve.
+  void tell(messages::ToolState& tool) const noexcept;
+
+ private:
+  std::uint32_t soften(const HandTick& hand) noexcept;
+
+  double force_scale_;  // felt over simulated force
+  double stiffness_N_m_;
+  bool limit_stiffness_;
+  std::variant<ProxyTouch, ReportedTouch> method_;
+  BuzzDetector buzz_;
+  double age_share_ = 1.0;       // of the stiffness, that the age of the model leaves
+  double share_ = 1.0;           // of the stiffness, in all
+  Vec3 force_N_ = Vec3::Zero();  // on the hand in the last tick, before the force scale; world
+};
+
+}  // namespace myotact::haptics

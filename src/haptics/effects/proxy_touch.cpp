@@ -1,0 +1,82 @@
+#include "haptics/effects/proxy_touch.h"
+
+#include <algorithm>
+
+#include "haptics/faults.h"
+
+namespace myotact::haptics {
+
+Vec3 coupling_force_N(const Proxy& proxy, const ProxyGoal& device, const ContactSettings& settings) noexcept {
+  const ProxyContact& contact = proxy.contact();
+  if (!contact.active) return Vec3::Zero();
+  const Vec3 spring_N = settings.stiffness_N_m * (proxy.position_m() - device.position_m);
+  const double approach_m_s = std::max(0.0, -contact.normal.dot(device.velocity_m_s - contact.velocity_m_s));
+  const double normal_N = spring_N.dot(contact.normal);
+  const Vec3 tangential_N = spring_N - normal_N * contact.normal;
+  return tangential_N + std::max(0.0, normal_N + settings.damping_Ns_m * approach_m_s) * contact.normal;
+}
+
+ProxyTouch::ProxyTouch(const ContactSettings& settings) : settings_(settings), proxy_(settings) {}
+
+TouchTick ProxyTouch::tick(const HandTick& hand, double share) noexcept {
+  if (hand.model != nullptr) surface_.begin_tick(*hand.model, hand.now_ns, hand.is_new);
+  TouchTick tick;
+  tick.force_N = force_N(hand, share);
+  tick.end_m = proxy_.position_m() - compliance_.shift_m();
+  if (proxy_.contact().active) {
+    tick.stiffness_N_m = compliance_.felt_stiffness_N_m();
+    tick.end_moved_m = hand.dt_s * proxy_.contact().velocity_m_s + unloaded_moved_m_;
+  }
+  tick.surface = &surface_;
+  tick.contact = proxy_.contact();
+  tick.faults = new_faults();
+  return tick;
+}
+
+Vec3 ProxyTouch::force_N(const HandTick& hand, double share) noexcept {
+  const messages::LocalModel* model = hand.model;
+  const bool nothing_known = model == nullptr || (model->triangle_count == 0 && !(model->coverage_radius_m > 0.0));
+  if (nothing_known) {
+    proxy_.follow(hand.hand.position_m);
+    compliance_.forget();
+    return Vec3::Zero();
+  }
+  const Vec3 unloaded_m = -compliance_.shift_m();
+  compliance_.bear(share * settings_.stiffness_N_m);
+  compliance_.tick(*model, proxy_.contact(), hand.now_ns, hand.dt_s);
+  unloaded_moved_m_ = -compliance_.shift_m() - unloaded_m;
+  ContactSettings felt = settings_;
+  felt.stiffness_N_m = compliance_.felt_stiffness_N_m();
+  felt.damping_Ns_m *= share;
+  const ProxyGoal played{hand.hand.position_m + compliance_.shift_m(), hand.hand.velocity_m_s};
+  proxy_.couple(felt.stiffness_N_m, felt.damping_Ns_m);
+  proxy_.tick(surface_, *model, played, hand.dt_s);
+  return share > 0.0 ? coupling_force_N(proxy_, played, felt) : Vec3::Zero();
+}
+
+std::uint32_t ProxyTouch::new_faults() noexcept {
+  const ProxyCounters& now = proxy_.counters();
+  std::uint32_t faults = 0;
+  if (now.rescues != counted_.rescues) faults |= bit(Fault::ProxyRescued);
+  if (now.over_budget != counted_.over_budget) faults |= bit(Fault::ProxyBudget);
+  counted_ = now;
+  return faults;
+}
+
+void ProxyTouch::tell(const Vec3& force_N, double share, messages::ToolState& tool) const noexcept {
+  const Vec3 tissue_shift_m = compliance_.tissue_shift_m(force_N);  // from the played surface
+  tool.proxy_position_world_m = to_array(proxy_.position_m() + tissue_shift_m);
+  const ProxyContact& contact = proxy_.contact();
+  if (!contact.active || !(share > 0.0)) return;
+  const Vec3 touched_m = contact.point_m + tissue_shift_m;
+  const double stiffness_N_m = compliance_.coupling_stiffness_N_m();
+  tool.contact = {contact.surface,
+                  contact.triangle,
+                  contact.barycentric,
+                  to_array(contact.normal),
+                  to_array(touched_m - force_N / stiffness_N_m),
+                  stiffness_N_m};
+  tool.touched_world_m = to_array(touched_m);
+}
+
+}  // namespace myotact::haptics

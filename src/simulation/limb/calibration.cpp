@@ -1,0 +1,125 @@
+#include "simulation/limb/calibration.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/limb/settle.h"
+#include "simulation/line/line_model.h"
+#include "simulation/muscle/fibre_field.h"
+
+namespace myotact::simulation {
+namespace {
+
+constexpr double kActivation = 0.5;  // the middle of the range: the rest lies on both sides
+/// Most muscles need some ten; the thickest ones creep.
+constexpr int kMostRounds = 40;
+/// From this round on, steps of half the size: offset, scale and gain act on each other, and with whole steps some
+/// muscles swing about the goal for ever (measured: a biceps over its pulley, +-10 % after 60 rounds; so, done in 20).
+constexpr int kWholeRounds = 12;
+/// Agreement at which the rounds end. Under half of the 5 % that a specimen is allowed.
+constexpr double kCloseEnough = 0.02;
+/// Out-of-balance share to which each round is solved.
+constexpr double kRoundShare = 1e-5;
+/// A round changes scale and gain by no more than this factor, so that the guess of the next one stays near.
+constexpr double kLargestFactor = 1.3;
+/// Force and slope are adjusted once the mean fibre length is this near to rest_stretch.
+constexpr double kLengthFits = 0.05;
+/// Limits of the whole adjustment; beyond them the mesh is too coarse or too bent to stand for the line.
+constexpr double kSmallestScale = 0.4, kLargestScale = 2.5;
+/// Turn for the slope of the tension, small against any curvature, large against rounding [rad].
+constexpr double kProbe_rad = 1e-6;
+
+/// The line at the file pose and the joint that changes its length most.
+struct LineTarget {
+  LineForce force;
+  int joint = -1;
+  double slope_m_rad = 0.0;
+};
+
+LineTarget line_target(const anatomy::Specimen& specimen, int index, const Skeleton& skeleton) {
+  const auto line = std::find_if(specimen.lines.begin(), specimen.lines.end(),
+                                 [&](const anatomy::MuscleLine& l) { return l.muscle == index; });
+  LineGeometry geometry;
+  measure_line(*line, skeleton, geometry);
+  LineTarget target{line_force(specimen.muscles[static_cast<std::size_t>(index)], 0.0, 0.0, kActivation)};
+  const double smallest_moment_arm_m = 1e-4;
+  for (int j = 0; j < skeleton.joint_count(); ++j) {
+    const double slope = geometry.slope_m_rad[j];
+    if (std::abs(slope) < std::max(smallest_moment_arm_m, std::abs(target.slope_m_rad))) continue;
+    target.joint = j;
+    target.slope_m_rad = slope;
+  }
+  return target;
+}
+
+/// Change of the tension with a joint's angle, the free nodes following in equilibrium [N/rad]. At a settled state.
+double tension_slope(const Skeleton& skeleton, int joint, LimbMuscle& muscle) {
+  const TissueLoad load;
+  compute_system(skeleton, load, muscle, Accuracy::Refined);
+  Eigen::MatrixXd follow;
+  const Pivots pivots = factor_system(muscle, muscle.system.coupling_N_rad.col(joint), follow, Accuracy::Refined);
+  if (pivots == Pivots::Unusable) return std::nan("");
+  const double tension_N = muscle.system.tension_N;
+  const Eigen::VectorXd kept = muscle.state.now.position_m;
+  std::vector<double> angles(static_cast<std::size_t>(skeleton.joint_count()));
+  for (int j = 0; j < skeleton.joint_count(); ++j) angles[static_cast<std::size_t>(j)] = skeleton.angle_rad(j);
+  angles[static_cast<std::size_t>(joint)] += kProbe_rad;
+  Skeleton turned = skeleton;
+  turned.set_pose(angles);
+  move_free_nodes(muscle, -kProbe_rad * follow);
+  place_clamped(muscle.tissue, turned, muscle.state);
+  compute_forces(muscle.tissue, turned, load, muscle.state, muscle.system);
+  muscle.state.now.position_m = kept;
+  return (muscle.system.tension_N - tension_N) / kProbe_rad;
+}
+
+double error_of(const LineAgreement& agreement) {
+  const double error = std::max(std::abs(agreement.force - 1.0), std::abs(agreement.stiffness - 1.0));
+  return std::isfinite(error) ? error : 1e300;
+}
+
+LineAgreement measure(const LineTarget& target, const Skeleton& skeleton, LimbMuscle& muscle) {
+  if (!settle_muscle(skeleton, Vec3::Zero(), kRoundShare, muscle)) return {std::nan(""), std::nan("")};
+  LineAgreement agreement{muscle.system.tension_N / target.force.force_N, 1.0};
+  if (target.joint >= 0 && target.force.stiffness_N_m > 0.0) {
+    const double slope = tension_slope(skeleton, target.joint, muscle);
+    agreement.stiffness = slope / target.slope_m_rad / target.force.stiffness_N_m;
+  }
+  return agreement;
+}
+
+double bounded(double factor) {
+  return std::clamp(factor, 1.0 / kLargestFactor, kLargestFactor);
+}
+
+}  // namespace
+
+LineAgreement calibrate_muscle(const anatomy::Specimen& specimen, int index, const Skeleton& skeleton,
+                               LimbMuscle& muscle) {
+  const LineTarget target = line_target(specimen, index, skeleton);
+  FibreMap& map = muscle.tissue.fibre_map;
+  const FibreMap plain = map;
+  muscle.state.activation = kActivation;
+  FibreMap best_map = map;
+  LineAgreement best{std::nan(""), std::nan("")};
+  for (int round = 0; round < kMostRounds && !(error_of(best) < kCloseEnough); ++round) {
+    const LineAgreement now = measure(target, skeleton, muscle);
+    if (error_of(now) < error_of(best)) {
+      best = now;
+      best_map = map;
+    }
+    if (!std::isfinite(now.force) || !(now.force > 0.0)) break;
+    const double short_of = map.rest_stretch - mean_fibre_length(muscle.tissue, muscle.state.now.stretch);
+    const double part = round < kWholeRounds ? 1.0 : 0.5;
+    map.offset += part * short_of;
+    if (std::abs(short_of) > kLengthFits) continue;  // force and slope mean little at another length
+    map.scale = std::clamp(map.scale * bounded(std::pow(now.force, -part)), kSmallestScale, kLargestScale);
+    const double steeper = now.stiffness > 0.0 ? bounded(std::pow(now.stiffness, -part)) : kLargestFactor;
+    map.gain = std::clamp(map.gain * steeper, kSmallestScale * plain.gain, kLargestScale * plain.gain);
+  }
+  map = best_map;
+  muscle.state = make_state(muscle.tissue);
+  return best;
+}
+
+}  // namespace myotact::simulation

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "simulation/limb/limb.h"
+
+namespace myotact::simulation {
+
+/// How well a muscle's tissue agrees with its line at the file pose, half active: both 1 when it agrees. NaN when no
+/// static solve came to rest.
+struct LineAgreement {
+  double force = 0.0;      // isometric tension over the line's force
+  double stiffness = 0.0;  // dF/dL by turning a joint, over the line's; 1 when no joint changes the line's length
+};
+
+/// Adjusts the fibres so that the muscle as a whole does what its line does (one muscle, one mechanics). A curved belly
+/// straightens when it pulls and soft ends give way, so the fibres shorten on the isometric muscle; the offset returns
+/// their mean length to rest_stretch, the scale of the peak stress returns the force, and the gain the slope dF/dL.
+/// Leaves the muscle as it was when the tissue agrees already or cannot be brought nearer, and always at rest.
+/// `index`: of the muscle in the specimen, a soft one that has its line; `skeleton` is at the file pose. Returns the
+/// best agreement found. Costs some ten static solves, 40 at most. Muscles may be calibrated by different threads at
+/// once.
+LineAgreement calibrate_muscle(const anatomy::Specimen& specimen, int index, const Skeleton& skeleton,
+                               LimbMuscle& muscle);
+
+}  // namespace myotact::simulation

@@ -1,0 +1,210 @@
+#include "simulation/limb/limb.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "simulation/muscle/build_tissue.h"
+
+namespace myotact::simulation {
+namespace {
+
+/// From the sparse matrix's solution to the whole one's, by Sherman and Morrison's formula.
+void add_mean_term(const LimbMuscle& muscle, Eigen::MatrixXd& solution) {
+  const Eigen::RowVectorXd along = muscle.mean_share_Nm * (muscle.system.mean.gradient.transpose() * solution);
+  solution -= muscle.mean_solution * along;
+}
+
+/// The line of a muscle; build_muscle_tissue() has seen to it that there is one.
+const anatomy::MuscleLine& line_of(const anatomy::Specimen& specimen, int muscle) {
+  return *std::find_if(specimen.lines.begin(), specimen.lines.end(),
+                       [&](const anatomy::MuscleLine& line) { return line.muscle == muscle; });
+}
+
+std::span<const double> as_span(const Eigen::VectorXd& v) {
+  return {v.data(), static_cast<std::size_t>(v.size())};
+}
+
+}  // namespace
+
+Limb::Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> models, Tendon tendon, bool contact)
+    : skeleton(specimen) {
+  now.angle_rad = now.velocity_rad_s = Eigen::VectorXd::Zero(skeleton.joint_count());
+  last = before = now;
+  external_torque_Nm = now.angle_rad;
+  std::shared_ptr<const BoneShapes> bones;  // made for the first muscle that can touch them: they take a while
+  for (int m = 0; m < static_cast<int>(specimen.muscles.size()); ++m) {
+    LimbMuscle muscle;
+    const TissueModel model = models.empty() ? TissueModel::Fem : models[static_cast<std::size_t>(m)];
+    muscle.tissue = build_muscle_tissue(specimen, m, model);
+    muscle.rigid = model == TissueModel::Rigid || model == TissueModel::Line;
+    if (model == TissueModel::Line) {
+      muscle.line =
+          make_line_tissue(specimen.muscles[static_cast<std::size_t>(m)], line_of(specimen, m), skeleton, tendon);
+    }
+    if (contact && !muscle.rigid) {
+      if (!bones) bones = make_bone_shapes(specimen);
+      muscle.tissue.bone_contact = make_bone_contact(bones, muscle.tissue.mesh, muscle.tissue.body);
+    }
+    muscle.state = make_state(muscle.tissue);
+    muscle.system = make_system(muscle.tissue, skeleton);
+    muscle.stiffness_Nm_rad = muscle.contact_stiffness_Nm_rad = muscle.readout.torque_Nm =
+        Eigen::VectorXd::Zero(skeleton.joint_count());
+    muscles.push_back(std::move(muscle));
+  }
+  if (!contact) return;
+  std::vector<MuscleTissue*> soft;
+  for (LimbMuscle& muscle : muscles) soft.push_back(muscle.rigid ? nullptr : &muscle.tissue);
+  touch_surfaces = make_touch_surfaces(soft);
+}
+
+Vec3 spring_point(const Limb& limb, const ToolSpring& spring) {
+  if (spring.muscle < 0) return limb.skeleton.body_pose(spring.body) * spring.body_rest_m;
+  const LimbMuscle& muscle = limb.muscles[static_cast<std::size_t>(spring.muscle)];
+  Vec3 p = Vec3::Zero();
+  for (std::size_t k = 0; k < static_cast<std::size_t>(spring.point.count); ++k) {
+    p += spring.point.weights[k] * node_vector(muscle.state.now.position_m, spring.point.nodes[k]);
+  }
+  return p;
+}
+
+Vec3 spring_slope(const Limb& limb, const ToolSpring& spring, int joint) {
+  if (spring.muscle < 0) return limb.skeleton.point_derivative(spring.body, joint, spring_point(limb, spring));
+  const LimbMuscle& muscle = limb.muscles[static_cast<std::size_t>(spring.muscle)];
+  Vec3 slope = Vec3::Zero();
+  for (std::size_t k = 0; k < static_cast<std::size_t>(spring.point.count); ++k) {
+    const int node = spring.point.nodes[k];
+    const int body = muscle.tissue.body[static_cast<std::size_t>(node)];
+    if (body < 0) continue;
+    const Vec3 x = node_vector(muscle.state.now.position_m, node);
+    slope += spring.point.weights[k] * limb.skeleton.point_derivative(body, joint, x);
+  }
+  return slope;
+}
+
+void follow_angles(Limb& limb) {
+  limb.skeleton.set_pose(limb.angles());
+  for (LimbMuscle& muscle : limb.muscles) {
+    if (!muscle.rigid) {
+      place_clamped(muscle.tissue, limb.skeleton, muscle.state);
+      continue;
+    }
+    for (std::size_t node = 0; node < muscle.tissue.body.size(); ++node) {
+      Vec3 p = Vec3::Zero();
+      for (std::size_t k = 0; k < muscle.tissue.bodies.size(); ++k) {
+        const double share = muscle.tissue.blend(static_cast<Eigen::Index>(node), static_cast<Eigen::Index>(k));
+        p += share * (limb.skeleton.body_pose(muscle.tissue.bodies[k]) * muscle.tissue.mesh.nodes_m[node]);
+      }
+      muscle.state.now.position_m.segment<3>(static_cast<Eigen::Index>(3 * node)) = p;
+    }
+  }
+}
+
+void move_free_nodes(LimbMuscle& muscle, const Eigen::VectorXd& change_m) {
+  for (std::size_t node = 0; node < muscle.tissue.body.size(); ++node) {
+    const int f = muscle.tissue.free_index[node];
+    if (f < 0) continue;
+    muscle.state.now.position_m.segment<3>(static_cast<Eigen::Index>(3 * node)) += change_m.segment<3>(3 * f);
+  }
+}
+
+void evaluate_lines(Limb& limb, const TimeRule& rule) {
+  for (LimbMuscle& muscle : limb.muscles) {
+    if (!muscle.line) continue;
+    const LineLoad load = evaluate_line_tissue(limb.skeleton, rule, muscle.state.activation, *muscle.line);
+    muscle.system.joint_residual_Nm = load.residual_Nm;
+    muscle.system.joint_stiffness_Nm_rad = load.stiffness_Nm_rad;
+    muscle.readout.torque_Nm = -load.residual_Nm;
+    muscle.readout.tension_N = muscle.line->force.force_N;
+  }
+}
+
+void read_out(Limb& limb) {
+  for (LimbMuscle& muscle : limb.muscles) {
+    if (muscle.rigid) continue;
+    const TissueSystem& system = muscle.system;
+    muscle.readout = {system.muscle_torque_Nm, system.tension_N, system.smallest_J,
+                      system.volume_ratio,     system.contact_N, system.contact_depth_m};
+  }
+  const auto span = [](const Eigen::VectorXd& v) {
+    return std::span<const double>(v.data(), static_cast<std::size_t>(v.size()));
+  };
+  limb.loads.compute(limb.skeleton, {limb.gravity_m_s2, span(limb.now.velocity_rad_s), span(limb.external_torque_Nm)});
+}
+
+void compute_system(const Skeleton& skeleton, TissueLoad load, LimbMuscle& muscle, Accuracy accuracy) {
+  load.in_factor = accuracy == Accuracy::Single;
+  compute_system(muscle.tissue, skeleton, load, muscle.state, muscle.system);
+}
+
+Pivots factor_system(LimbMuscle& muscle, const Eigen::MatrixXd& right, Eigen::MatrixXd& solution, Accuracy accuracy) {
+  BlockFactor& factor = muscle.system.factor.matrix;
+  const bool refined = accuracy == Accuracy::Refined;
+  if (!(refined ? factor.factor(muscle.system.matrix) : factor.factor())) return Pivots::Unusable;
+  const MeanTerm& mean = muscle.system.mean;
+  Eigen::MatrixXd sides(right.rows(), right.cols() + 1);
+  sides << mean.gradient, right;
+  const Eigen::MatrixXd solved = refined ? factor.solve_refined(muscle.system.matrix, sides) : factor.solve(sides);
+  muscle.mean_solution = solved.col(0);
+  const double pivot = 1.0 + mean.factor_Nm * mean.gradient.dot(muscle.mean_solution);
+  if (!std::isfinite(pivot) || pivot == 0.0) return Pivots::Unusable;
+  muscle.mean_share_Nm = mean.factor_Nm / pivot;
+  solution = solved.rightCols(right.cols());
+  add_mean_term(muscle, solution);
+  return factor.positive() && pivot > 0.0 ? Pivots::Positive : Pivots::Mixed;
+}
+
+Eigen::MatrixXd solve(const LimbMuscle& muscle, const Eigen::MatrixXd& right) {
+  Eigen::MatrixXd solution = muscle.system.factor.matrix.solve(right);
+  add_mean_term(muscle, solution);
+  return solution;
+}
+
+void stop_moving(Limb& limb) {
+  limb.now.velocity_rad_s.setZero();
+  for (LimbMuscle& muscle : limb.muscles) {
+    muscle.state.now.velocity_m_s.setZero();
+    std::fill(muscle.state.stretch_rate_1_s.begin(), muscle.state.stretch_rate_1_s.end(), 0.0);
+  }
+}
+
+void return_to_file_pose(Limb& limb) {
+  limb.now.angle_rad.setZero();
+  limb.now.velocity_rad_s.setZero();
+  limb.last = limb.before = limb.now;
+  for (LimbMuscle& muscle : limb.muscles) {
+    muscle.state = make_state(muscle.tissue);
+    muscle.stiffness_Nm_rad.setZero();
+    muscle.contact_stiffness_Nm_rad.setZero();
+  }
+  follow_angles(limb);
+  for (LimbMuscle& muscle : limb.muscles) {
+    if (!muscle.line) continue;
+    evaluate_line_tissue(limb.skeleton, {}, 0.0, *muscle.line);
+    bring_to_rest(0.0, *muscle.line);
+  }
+}
+
+void add_to_hash(std::span<const double> values, std::uint64_t& hash) {
+  for (double value : values) {
+    std::array<unsigned char, sizeof(double)> bytes;
+    std::memcpy(bytes.data(), &value, sizeof(double));
+    for (unsigned char byte : bytes) hash = (hash ^ byte) * 1099511628211ull;
+  }
+}
+
+std::uint64_t hash_of_state(const Limb& limb) {
+  std::uint64_t hash = 14695981039346656037ull;
+  add_to_hash(as_span(limb.now.angle_rad), hash);
+  add_to_hash(as_span(limb.now.velocity_rad_s), hash);
+  for (const LimbMuscle& muscle : limb.muscles) {
+    add_to_hash(as_span(muscle.state.now.position_m), hash);
+    add_to_hash(as_span(muscle.state.now.velocity_m_s), hash);
+    add_to_hash({&muscle.state.activation, 1}, hash);
+    if (muscle.line) add_to_hash({&muscle.line->fibre_now_m, 1}, hash);
+  }
+  return hash;
+}
+
+}  // namespace myotact::simulation

@@ -1,0 +1,142 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "simulation/line/line_tissue.h"
+#include "simulation/linear/block_factor.h"
+#include "simulation/muscle/tissue_system.h"
+#include "simulation/muscle/touch_surface.h"
+#include "simulation/skeleton/skeleton_loads.h"
+#include "simulation/skin/skin_embedding.h"
+#include "simulation/worker_pool.h"
+
+namespace myotact::simulation {
+
+/// A spring between a place in the world and a material point of a muscle or a point of a body.
+struct ToolSpring {
+  int tool = 0;         // whose it is, in the order of the step's tools
+  int surface = -1;     // of the scene, for the spring of a contact; -1: of something in hand
+  int muscle = -1;      // or -1: `body` and `body_rest_m` say where
+  MaterialPoint point;  // of the muscle's mesh, when `muscle` is given
+  int body = -1;
+  Vec3 body_rest_m = Vec3::Zero();  // L
+  Vec3 target_W_m = Vec3::Zero();   // the spring's end in the world
+  double stiffness_N_m = 0.0;       // > 0, no rest length
+};
+
+/// What a muscle does at the end of a step or settle.
+struct MuscleReadout {
+  Eigen::VectorXd torque_Nm;     // one a joint, positive flexes
+  double tension_N = 0.0;        // on its insertion
+  double smallest_J = 1.0;       // volume ratio over the integration points
+  double volume_ratio = 1.0;     // of the whole muscle
+  double contact_N = 0.0;        // sum of the contact forces on its surface
+  double contact_depth_m = 0.0;  // largest overlap, over that at the file pose
+};
+
+/// One muscle: model, state, and what a solve leaves behind. Owned by one task at a time.
+struct LimbMuscle {
+  MuscleTissue tissue;                // what does not change
+  bool rigid = false;                 // its shape follows the bones: no nodes to solve for
+  std::optional<LineTissue> line;     // of a Line muscle, which is rigid, too
+  TissueState state;                  // the iterate and two instants before it
+  TissueSystem system;                // of the last pass
+  Eigen::VectorXd mean_solution;      // factor^-1 mean gradient
+  double mean_share_Nm = 0.0;         // by which the mean term changes a solution, see solve()
+  Eigen::VectorXd free_solution;      // matrix^-1 residual
+  Eigen::MatrixXd borders;            // free dofs x unknowns of the small system
+  Eigen::MatrixXd border_solution;    // matrix^-1 borders
+  Eigen::MatrixXd reduced;            // borders^T matrix^-1 borders
+  Eigen::VectorXd reduced_residual;   // borders^T matrix^-1 residual
+  Eigen::VectorXd start_m, change_m;  // of the Newton step: nodes where it starts, change of the free ones
+  Eigen::VectorXd coupled_m;          // what contact with neighbours adds to that change; empty: none
+  Eigen::MatrixXd follow_m_rad;       // matrix^-1 coupling, in the last stiffness: free nodes follow by minus this
+  double energy_slope = 0.0;          // along that change
+  double residual_share = 0.0;        // out-of-balance force over the size of the forces, springs included
+  bool balanced = false;              // within this step: needs no new tangent
+  bool made_definite = false;         // the last tangent had to be
+  bool sound = true;                  // the last factorisation and state were finite
+  MuscleReadout readout;              // of the last step or settle
+  Eigen::VectorXd stiffness_Nm_rad;   // quasi-static, one a joint, of the last refresh
+  Eigen::VectorXd contact_stiffness_Nm_rad;  // what contact adds to it, of the last such refresh
+};
+
+/// Angles of all joints at one instant, and their rates. One a joint, positive flexes.
+struct JointFrameState {
+  Eigen::VectorXd angle_rad;
+  Eigen::VectorXd velocity_rad_s;
+};
+
+/// Everything that moves, and what a step needs. See step.h and settle.h. One caller; only what takes a single muscle
+/// may run for several muscles at once.
+struct Limb {
+  /// `models`: one a muscle; empty: all Fem. `tendon`: of the Line ones. `contact`: the others touch bones and each
+  /// other. At the file pose, at rest. Throws Error BadData as Skeleton, build_muscle_tissue() and make_line_tissue()
+  /// do.
+  explicit Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> models = {},
+                Tendon tendon = Tendon::Elastic, bool contact = true);
+
+  Skeleton skeleton;                         // in the pose of `now`
+  SkeletonLoads loads;                       // computed last
+  JointFrameState now, last, before;         // as in TissueState
+  Eigen::VectorXd external_torque_Nm;        // one a joint, positive flexes
+  Vec3 gravity_m_s2 = Vec3::Zero();          // W
+  std::vector<LimbMuscle> muscles;           // as in the specimen
+  std::vector<TouchSurface> touch_surfaces;  // one a muscle; none without contact
+  std::vector<ToolSpring> springs;           // of the present step
+  std::vector<Vec3> spring_force_N;          // on the tissue or bone, at the end of the step
+  std::vector<Mat3> spring_compliance_m_N;   // of what each pulls at, all springs of its tool left out
+
+  /// now.angle_rad as a view.
+  std::span<const double> angles() const {
+    return {now.angle_rad.data(), static_cast<std::size_t>(now.angle_rad.size())};
+  }
+};
+
+/// Where the material point of a spring is in the present iterate, in the world.
+Vec3 spring_point(const Limb& limb, const ToolSpring& spring);
+/// d(spring point)/d(angle) [m/rad] with the free nodes held: through clamped nodes or the body alone.
+Vec3 spring_slope(const Limb& limb, const ToolSpring& spring, int joint);
+
+/// Puts the bodies and all clamped nodes where the present angles say; rigid muscles whole.
+void follow_angles(Limb& limb);
+
+/// Adds `change_m` (3 numbers a free node, world) to the present positions.
+void move_free_nodes(LimbMuscle& muscle, const Eigen::VectorXd& change_m);
+
+/// Loads of the Line muscles in the present pose, at the end of a step by `rule` (all zero: at rest), into their
+/// systems; torque and tension into their readouts.
+void evaluate_lines(Limb& limb, const TimeRule& rule);
+
+/// Equal for equal bits of everything that moves: angles, positions, their rates, activations, fibres of Line muscles.
+std::uint64_t hash_of_state(const Limb& limb);
+/// FNV-1a over the bytes of more numbers; bits count, so that 0 and -0 differ.
+void add_to_hash(std::span<const double> values, std::uint64_t& hash);
+
+/// Copies the outcome of the last forces pass to the muscles' readouts, and the bones' loads to `limb.loads`.
+void read_out(Limb& limb);
+
+/// All present rates zero; the pose stays, and so does the history.
+void stop_moving(Limb& limb);
+
+/// All joints at the file pose, all tissue at its rest positions, no rates, no activation, no stiffness known.
+/// Locks, gravity, external torques and springs stay.
+void return_to_file_pose(Limb& limb);
+
+/// Single: for a Newton step, whose residual says what is left. Refined: for a solution that is read out itself.
+enum class Accuracy { Single, Refined };
+/// Tangent and residual of the present iterate of one muscle that is not rigid, for factor_system() of the same
+/// accuracy.
+void compute_system(const Skeleton& skeleton, TissueLoad load, LimbMuscle& muscle,
+                    Accuracy accuracy = Accuracy::Single);
+/// Factors the system, its mean term included, and solves it for `right` (free dofs x any number of columns). Once
+/// after compute_system(). Unusable: neither the solution nor solve() may be used.
+Pivots factor_system(LimbMuscle& muscle, const Eigen::MatrixXd& right, Eigen::MatrixXd& solution,
+                     Accuracy accuracy = Accuracy::Single);
+/// (matrix + mean term)^-1 right with the last factors.
+Eigen::MatrixXd solve(const LimbMuscle& muscle, const Eigen::MatrixXd& right);
+
+}  // namespace myotact::simulation

@@ -1,0 +1,195 @@
+#include "simulation/limb/small_system.h"
+
+#include <algorithm>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include "core/at.h"
+
+namespace myotact::simulation {
+namespace {
+
+/// Columns by which the small unknowns enter a muscle's equations. Returns how many of them may differ from zero: the
+/// springs' come last, and most muscles have none.
+Eigen::Index fill_borders(const Limb& limb, const SmallSystem& small, int index, LimbMuscle& muscle) {
+  muscle.borders.setZero(muscle.system.residual_N.size(), small.size());
+  auto used = static_cast<Eigen::Index>(small.joints.size());
+  for (std::size_t k = 0; k < small.joints.size(); ++k) {
+    muscle.borders.col(static_cast<Eigen::Index>(k)) = muscle.system.coupling_N_rad.col(small.joints[k]);
+  }
+  for (std::size_t s = 0; s < limb.springs.size(); ++s) {
+    const ToolSpring& spring = limb.springs[s];
+    if (spring.muscle != index) continue;
+    used = small.spring_row(s) + 3;
+    for (std::size_t k = 0; k < at(spring.point.count); ++k) {
+      const int f = muscle.tissue.free_index[at(spring.point.nodes[k])];
+      if (f < 0) continue;
+      for (int i = 0; i < 3; ++i) muscle.borders(3 * f + i, small.spring_row(s) + i) = -spring.point.weights[k];
+    }
+  }
+  return used;
+}
+
+/// Tangent, factor, and the solutions for the residual and the borders.
+Pivots factor_muscle(const Limb& limb, const SmallSystem& small, const TissueLoad& load, int index,
+                     LimbMuscle& muscle) {
+  compute_system(limb.skeleton, load, muscle);
+  const Eigen::Index used = fill_borders(limb, small, index, muscle);
+  Eigen::MatrixXd sides(muscle.borders.rows(), 1 + used), solution;
+  sides << muscle.system.residual_N, muscle.borders.leftCols(used);
+  const Pivots pivots = factor_system(muscle, sides, solution);
+  if (pivots == Pivots::Unusable) return pivots;
+  muscle.free_solution = solution.col(0);
+  muscle.border_solution.setZero(muscle.borders.rows(), muscle.borders.cols());
+  muscle.border_solution.leftCols(used) = solution.rightCols(used);
+  return pivots;
+}
+
+void add_skeleton(Limb& limb, const TimeRule& rule, SmallSystem& small) {
+  const Eigen::VectorXd residual = skeleton_residual(limb, rule);
+  Eigen::MatrixXd tangent = limb.loads.mass_kg_m2 * rule.rate_1_s * rule.rate_1_s + limb.loads.stiffness_Nm_rad;
+  tangent.diagonal() += limb.loads.damping_Nms_rad * rule.rate_1_s;
+  for (std::size_t a = 0; a < small.joints.size(); ++a) {
+    const auto row = static_cast<Eigen::Index>(a);
+    small.right[row] -= residual[small.joints[a]];
+    for (std::size_t b = 0; b < small.joints.size(); ++b) {
+      small.matrix(row, static_cast<Eigen::Index>(b)) += tangent(small.joints[a], small.joints[b]);
+    }
+  }
+}
+
+/// What a muscle's own pull on the joints adds to the small system.
+void add_joint_part(const LimbMuscle& muscle, SmallSystem& small) {
+  for (std::size_t a = 0; a < small.joints.size(); ++a) {
+    const auto row = static_cast<Eigen::Index>(a);
+    small.right[row] -= muscle.system.joint_residual_Nm[small.joints[a]];
+    for (std::size_t b = 0; b < small.joints.size(); ++b) {
+      small.matrix(row, static_cast<Eigen::Index>(b)) +=
+          muscle.system.joint_stiffness_Nm_rad(small.joints[a], small.joints[b]);
+    }
+  }
+}
+
+/// What a muscle adds to the small system once its nodes are eliminated.
+void add_muscle(const LimbMuscle& muscle, SmallSystem& small) {
+  small.matrix -= muscle.reduced;
+  small.right += muscle.reduced_residual;
+  add_joint_part(muscle, small);
+}
+
+/// The springs' forces f are unknowns: -(U^T du + J dq + f / k) = -(target - point), symmetric with the rest.
+void add_springs(const Limb& limb, SmallSystem& small) {
+  for (std::size_t s = 0; s < limb.springs.size(); ++s) {
+    const ToolSpring& spring = limb.springs[s];
+    const Eigen::Index row = small.spring_row(s);
+    small.matrix.block<3, 3>(row, row).diagonal().array() -= 1.0 / spring.stiffness_N_m;
+    small.right.segment<3>(row) -= spring.target_W_m - spring_point(limb, spring);
+    for (std::size_t a = 0; a < small.joints.size(); ++a) {
+      const Vec3 slope = spring_slope(limb, spring, small.joints[a]);
+      const auto column = static_cast<Eigen::Index>(a);
+      small.matrix.block<3, 1>(row, column) -= slope;
+      small.matrix.block<1, 3>(column, row) -= slope.transpose();
+    }
+  }
+}
+
+/// What the springs of the other tools take from a compliance: the joints and those springs' forces eliminated
+/// together. `own`: the spring, of the limb's.
+Mat3 compliance_beside(const Limb& limb, const SmallSystem& small, std::size_t own) {
+  std::vector<Eigen::Index> kept;
+  for (std::size_t a = 0; a < small.joints.size(); ++a) kept.push_back(static_cast<Eigen::Index>(a));
+  for (std::size_t s = 0; s < limb.springs.size(); ++s) {
+    if (limb.springs[s].tool == limb.springs[own].tool) continue;
+    for (Eigen::Index k = 0; k < 3; ++k) kept.push_back(small.spring_row(s) + k);
+  }
+  const auto count = static_cast<Eigen::Index>(kept.size());
+  Eigen::MatrixXd inner(count, count), border(count, 3);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Eigen::Index row = kept[static_cast<std::size_t>(i)];
+    border.row(i) = small.matrix.block<1, 3>(row, small.spring_row(own));
+    for (Eigen::Index j = 0; j < count; ++j) inner(i, j) = small.matrix(row, kept[static_cast<std::size_t>(j)]);
+  }
+  return border.transpose() * inner.partialPivLu().solve(border);  // indefinite: the springs' block is negative
+}
+
+bool of_several_tools(const Limb& limb) {
+  return std::any_of(limb.springs.begin(), limb.springs.end(),
+                     [&](const ToolSpring& spring) { return spring.tool != limb.springs.front().tool; });
+}
+
+/// Compliance of what each spring pulls at, its tool's springs left out: U^T matrix^-1 U of its muscle, and what the
+/// joints add, P^T joints^-1 P, which other tools that hold the limb or press on the same muscle lessen.
+void read_compliance(Limb& limb, const SmallSystem& small) {
+  const auto joints = static_cast<Eigen::Index>(small.joints.size());
+  const Eigen::MatrixXd columns = small.matrix.topRightCorner(joints, small.size() - joints);
+  const Eigen::MatrixXd turns = joints > 0 && columns.cols() > 0
+                                    ? Eigen::MatrixXd(small.matrix.topLeftCorner(joints, joints).ldlt().solve(columns))
+                                    : columns;
+  const bool several = of_several_tools(limb);
+  for (std::size_t s = 0; s < limb.springs.size(); ++s) {
+    const int muscle = limb.springs[s].muscle;
+    const auto first = static_cast<Eigen::Index>(3 * s);
+    Mat3& compliance = limb.spring_compliance_m_N[s];
+    compliance.setZero();
+    if (muscle >= 0 && !limb.muscles[at(muscle)].rigid)
+      compliance = limb.muscles[at(muscle)].reduced.block<3, 3>(small.spring_row(s), small.spring_row(s));
+    if (several) {
+      compliance += compliance_beside(limb, small, s);
+    } else if (joints > 0) {
+      compliance += columns.middleCols<3>(first).transpose() * turns.middleCols<3>(first);
+    }
+  }
+}
+
+}  // namespace
+
+SmallSystem make_small_system(const Limb& limb, Joints joints) {
+  SmallSystem small;
+  for (int j = 0; j < limb.skeleton.joint_count(); ++j) {
+    if (joints == Joints::Free && limb.skeleton.moves(j)) small.joints.push_back(j);
+  }
+  const auto size = static_cast<Eigen::Index>(small.joints.size() + 3 * limb.springs.size());
+  small.matrix = Eigen::MatrixXd::Zero(size, size);
+  small.right = Eigen::VectorXd::Zero(size);
+  return small;
+}
+
+void eliminate(const Limb& limb, const SmallSystem& small, TissueLoad load, int index, LimbMuscle& muscle) {
+  if (muscle.balanced) {
+    muscle.free_solution = solve(muscle, muscle.system.residual_N);
+  } else {
+    muscle.made_definite = factor_muscle(limb, small, load, index, muscle) != Pivots::Positive;
+    load.definite = true;
+    muscle.sound = !muscle.made_definite || factor_muscle(limb, small, load, index, muscle) == Pivots::Positive;
+    if (!muscle.sound) return;
+    muscle.reduced.noalias() = muscle.borders.transpose() * muscle.border_solution;
+  }
+  muscle.reduced_residual.noalias() = muscle.borders.transpose() * muscle.free_solution;
+  muscle.sound = muscle.free_solution.allFinite() && muscle.reduced.allFinite();
+}
+
+Eigen::VectorXd skeleton_residual(Limb& limb, const TimeRule& rule) {
+  const Eigen::VectorXd& q = limb.now.angle_rad;
+  const Eigen::VectorXd velocity =
+      rule.rate_1_s * q - rule.now_1_s * limb.last.angle_rad + rule.before_1_s * limb.before.angle_rad;
+  const Eigen::VectorXd acceleration =
+      rule.rate_1_s * velocity - rule.now_1_s * limb.last.velocity_rad_s + rule.before_1_s * limb.before.velocity_rad_s;
+  const auto span = [](const Eigen::VectorXd& v) {
+    return std::span<const double>(v.data(), static_cast<std::size_t>(v.size()));
+  };
+  limb.loads.compute(limb.skeleton, {limb.gravity_m_s2, span(velocity), span(limb.external_torque_Nm)});
+  return limb.loads.mass_kg_m2 * acceleration - limb.loads.force_Nm;
+}
+
+void add_up(Limb& limb, const TimeRule& rule, SmallSystem& small) {
+  add_skeleton(limb, rule, small);
+  for (const LimbMuscle& muscle : limb.muscles) {
+    if (muscle.line) add_joint_part(muscle, small);
+    if (!muscle.rigid) add_muscle(muscle, small);
+  }
+  add_springs(limb, small);
+  read_compliance(limb, small);
+}
+
+}  // namespace myotact::simulation

@@ -1,0 +1,301 @@
+#include "simulation/limb/step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/LU>
+
+#include "core/at.h"
+#include "simulation/limb/coupled_solve.h"
+#include "simulation/limb/find_touches.h"
+#include "simulation/limb/small_system.h"
+
+namespace myotact::simulation {
+namespace {
+
+/// Newton steps at most; the second one is needed only when a hand yanks or an activation jumps, more than three where
+/// a hand presses slack muscles that lie on each other.
+constexpr int kMostIterations = 5;
+/// Out-of-balance force, over the size of the elements' forces, at which a step counts as solved. Below the 3 % that
+/// one linearised step costs in force anyway (measured on twitches against steps of 1 ms).
+constexpr double kSolvedShare = 0.02;
+/// Share to which the coupling of touching muscles is solved: a quarter of what counts as solved.
+constexpr double kCoupledShare = 0.005;
+/// The same in a static step, over the share that it starts from: each step then gains two digits at most.
+constexpr double kRelaxedPart = 0.01;
+/// Out-of-balance torque of the joints, over the sum of the lines' torques, at which Line muscles count as solved: they
+/// cost next to nothing, so that one more step of Newton's is worth a figure's fourth digit.
+constexpr double kLinesSolvedShare = 1e-4;
+/// A joint that turns farther than this in one Newton step is linearised once more [rad].
+constexpr double kLargestRotation_rad = 0.05;
+/// A place where an element folds over farther than this is not looked at.
+constexpr double kSmallestJ = -0.5;
+/// A Newton step ends where the energy rises by less than this part of how steeply it fell at the start.
+constexpr double kSteepestRise = 0.5;
+constexpr int kMostCuts = 5;
+
+/// The Newton step from the instant where it was computed: start + part * change.
+struct Way {
+  Eigen::VectorXd start_rad, change_rad;  // joints; the nodes' are in the muscles
+};
+
+/// Solutions of the small system.
+struct Solutions {
+  const Eigen::VectorXd& uncoupled;  // with each muscle for itself
+  const Eigen::VectorXd& coupled;    // with the contact between them
+};
+
+/// How far a muscle is from balance, tool springs included, and the slope of its energy along the way.
+void weigh(const Limb& limb, int index, LimbMuscle& muscle) {
+  Eigen::VectorXd unbalanced = muscle.system.residual_N;
+  for (const ToolSpring& spring : limb.springs) {
+    if (spring.muscle != index) continue;
+    const Vec3 force = spring.stiffness_N_m * (spring.target_W_m - spring_point(limb, spring));
+    for (std::size_t k = 0; k < at(spring.point.count); ++k) {
+      const int f = muscle.tissue.free_index[at(spring.point.nodes[k])];
+      if (f >= 0) unbalanced.segment<3>(3 * f) -= spring.point.weights[k] * force;
+    }
+  }
+  muscle.energy_slope = unbalanced.dot(muscle.change_m);
+  muscle.residual_share = unbalanced.norm() / (muscle.system.force_scale_N + 1e-6);
+  muscle.sound = std::isfinite(muscle.residual_share) && muscle.system.smallest_J > kSmallestJ;
+}
+
+/// The muscle's part of the way, and how its energy falls at the start.
+void start_way(const Limb& limb, const Solutions& solutions, int index, LimbMuscle& muscle) {
+  muscle.start_m = muscle.state.now.position_m;
+  muscle.change_m = -muscle.free_solution;
+  muscle.change_m.noalias() -= muscle.border_solution * solutions.uncoupled;
+  if (muscle.coupled_m.size() > 0) muscle.change_m += muscle.coupled_m;
+  weigh(limb, index, muscle);
+}
+
+/// Moves all muscles' nodes along the way.
+void move_nodes(Limb& limb, double part) {
+  for (LimbMuscle& muscle : limb.muscles) {
+    if (muscle.rigid) continue;
+    muscle.state.now.position_m = muscle.start_m;
+    move_free_nodes(muscle, part * muscle.change_m);
+    place_clamped(muscle.tissue, limb.skeleton, muscle.state);
+  }
+  see_neighbours(limb);
+}
+
+/// A muscle's forces in its present place.
+void evaluate(const Limb& limb, const TissueLoad& load, int index, LimbMuscle& muscle) {
+  compute_forces(muscle.tissue, limb.skeleton, load, muscle.state, muscle.system);
+  weigh(limb, index, muscle);
+}
+
+/// Slope of the step's energy along the way at the present place; what is done by springs through the joints included.
+double energy_slope(Limb& limb, const TimeRule& rule, const Way& way) {
+  double slope = skeleton_residual(limb, rule).dot(way.change_rad);
+  for (const LimbMuscle& muscle : limb.muscles) {
+    if (!muscle.rigid) slope += muscle.energy_slope;
+    if (!muscle.rigid || muscle.line) slope += muscle.system.joint_residual_Nm.dot(way.change_rad);
+  }
+  for (const ToolSpring& spring : limb.springs) {
+    const Vec3 force = spring.stiffness_N_m * (spring.target_W_m - spring_point(limb, spring));
+    for (int j = 0; j < limb.skeleton.joint_count(); ++j) {
+      slope -= force.dot(spring_slope(limb, spring, j)) * way.change_rad[j];
+    }
+  }
+  return slope;
+}
+
+/// Puts the limb at a part of the way. False when something is not finite or folded over.
+bool go(Limb& limb, const TissueLoad& load, const Way& way, double part, WorkerPool& workers) {
+  limb.now.angle_rad = way.start_rad + part * way.change_rad;
+  follow_angles(limb);
+  evaluate_lines(limb, load.rule);
+  move_nodes(limb, part);
+  workers.run(static_cast<int>(limb.muscles.size()), [&](int m) {
+    if (!limb.muscles[at(m)].rigid) evaluate(limb, load, m, limb.muscles[at(m)]);
+  });
+  return std::all_of(limb.muscles.begin(), limb.muscles.end(), [](const LimbMuscle& m) { return m.rigid || m.sound; });
+}
+
+/// The way that the small system's solutions mean; all muscles' start and change.
+Way make_way(Limb& limb, const SmallSystem& small, const Solutions& solutions, WorkerPool& workers) {
+  Way way{limb.now.angle_rad, Eigen::VectorXd::Zero(limb.skeleton.joint_count())};
+  for (std::size_t a = 0; a < small.joints.size(); ++a) {
+    way.change_rad[small.joints[a]] = solutions.coupled[static_cast<Eigen::Index>(a)];
+  }
+  workers.run(static_cast<int>(limb.muscles.size()), [&](int m) {
+    if (!limb.muscles[at(m)].rigid) start_way(limb, solutions, m, limb.muscles[at(m)]);
+  });
+  return way;
+}
+
+/// Goes the whole way unless the energy has turned to rise steeply by then; then back towards the lowest place on it.
+/// `part`: how much of it at most, then how much was gone.
+bool search_way(Limb& limb, const TissueLoad& load, const Way& way, WorkerPool& workers, double& part) {
+  const double start_slope = energy_slope(limb, load.rule, way);
+  for (int cut = 0; cut < kMostCuts; ++cut) {
+    const bool sound = go(limb, load, way, part, workers);
+    const double slope = sound ? energy_slope(limb, load.rule, way) : 0.0;
+    if (sound && (start_slope >= 0.0 || slope < kSteepestRise * -start_slope)) return true;
+    part *= sound ? std::clamp(start_slope / (start_slope - slope), 0.1, 0.7) : 0.3;
+  }
+  return go(limb, load, way, part, workers);
+}
+
+struct Iteration {
+  bool sound = true;
+  double residual_share = 0.0;
+  double lines_share = 0.0;  // of the joints' balance, where only lines and bones have a part in it
+  double rotation_rad = 0.0;
+  double part = 1.0;  // of the way that was gone
+};
+
+/// Out-of-balance torque of the joints that may turn over the sizes of the lines' torques; 0 where finite elements or
+/// springs have a part in the balance, which the muscles' own residuals then tell.
+double lines_share(Limb& limb, const TimeRule& rule) {
+  double scale_Nm = 0.0;
+  for (const LimbMuscle& muscle : limb.muscles) {
+    if (!muscle.rigid) return 0.0;
+    if (muscle.line) scale_Nm += muscle.system.joint_residual_Nm.cwiseAbs().maxCoeff();
+  }
+  if (scale_Nm == 0.0 || !limb.springs.empty()) return 0.0;
+  Eigen::VectorXd residual_Nm = skeleton_residual(limb, rule);
+  for (const LimbMuscle& muscle : limb.muscles) {
+    if (muscle.line) residual_Nm += muscle.system.joint_residual_Nm;
+  }
+  double worst_Nm = 0.0;
+  for (int j = 0; j < limb.skeleton.joint_count(); ++j) {
+    if (limb.skeleton.moves(j)) worst_Nm = std::max(worst_Nm, std::abs(residual_Nm[j]));
+  }
+  return worst_Nm / scale_Nm;
+}
+
+/// What a Newton step solves.
+struct Task {
+  const TissueLoad& load;
+  Joints joints = Joints::Free;
+  double coupled_share = kCoupledShare;
+  double farthest_m = std::numeric_limits<double>::infinity();  // that a node may go
+};
+
+/// The part of the way on which no node goes farther than it may.
+double allowed_part(const Limb& limb, double farthest_m) {
+  double longest_m = 0.0;
+  for (const LimbMuscle& muscle : limb.muscles) {
+    if (muscle.rigid || muscle.change_m.size() == 0) continue;
+    longest_m = std::max(longest_m, muscle.change_m.reshaped(3, muscle.tissue.free_nodes).colwise().norm().maxCoeff());
+  }
+  return longest_m > farthest_m ? farthest_m / longest_m : 1.0;
+}
+
+Iteration newton_step(Limb& limb, const Task& task, WorkerPool& workers, int& definite_solves) {
+  const TissueLoad& load = task.load;
+  SmallSystem small = make_small_system(limb, task.joints);
+  workers.run(static_cast<int>(limb.muscles.size()), [&](int m) {
+    if (!limb.muscles[at(m)].rigid) eliminate(limb, small, load, m, limb.muscles[at(m)]);
+  });
+  for (const LimbMuscle& muscle : limb.muscles) {
+    if (muscle.rigid) continue;
+    if (!muscle.sound) return {false};
+    definite_solves += muscle.made_definite;
+  }
+  add_up(limb, load.rule, small);
+  const Eigen::PartialPivLU<Eigen::MatrixXd> factor(small.matrix);
+  const Eigen::VectorXd uncoupled = small.size() > 0 ? Eigen::VectorXd(factor.solve(small.right)) : small.right;
+  if (!uncoupled.allFinite()) return {false};
+  Eigen::VectorXd solution = uncoupled;
+  couple_step(limb, factor, task.coupled_share, solution, workers);
+
+  const Way way = make_way(limb, small, {uncoupled, solution}, workers);
+  Iteration result;
+  result.part = allowed_part(limb, task.farthest_m);
+  result.sound = search_way(limb, load, way, workers, result.part);
+  result.lines_share = lines_share(limb, load.rule);
+  if (way.change_rad.size() > 0) result.rotation_rad = way.change_rad.cwiseAbs().maxCoeff();
+  for (LimbMuscle& muscle : limb.muscles) {
+    if (muscle.rigid) continue;
+    result.residual_share = std::max(result.residual_share, muscle.residual_share);
+    muscle.balanced = muscle.residual_share < kSolvedShare;
+  }
+  return result;
+}
+
+/// Rates that the next step starts from.
+void finish(Limb& limb, const TimeRule& rule) {
+  limb.now.velocity_rad_s =
+      rule.rate_1_s * limb.now.angle_rad - rule.now_1_s * limb.last.angle_rad + rule.before_1_s * limb.before.angle_rad;
+  for (LimbMuscle& muscle : limb.muscles) {
+    TissueState& state = muscle.state;
+    for (std::size_t p = 0; p < state.stretch_rate_1_s.size(); ++p) {
+      state.stretch_rate_1_s[p] =
+          rule.rate_1_s * state.now.stretch[p] - rule.history(state.last.stretch[p], state.before.stretch[p]);
+    }
+  }
+  for (std::size_t s = 0; s < limb.springs.size(); ++s) {
+    const ToolSpring& spring = limb.springs[s];
+    limb.spring_force_N[s] = spring.stiffness_N_m * (spring.target_W_m - spring_point(limb, spring));
+  }
+  read_out(limb);
+}
+
+}  // namespace
+
+StepReport advance(Limb& limb, const StepInput& input, WorkerPool& workers) {
+  TissueLoad load;
+  load.rule = input.second_order_in_time ? second_order(input.dt_s) : backward_euler(input.dt_s);
+  load.gravity_m_s2 = limb.gravity_m_s2;
+  limb.spring_force_N.assign(limb.springs.size(), Vec3::Zero());
+  limb.spring_compliance_m_N.assign(limb.springs.size(), Mat3::Zero());
+  follow_angles(limb);
+  evaluate_lines(limb, load.rule);
+  follow_touches(limb, workers);
+  for (LimbMuscle& muscle : limb.muscles) muscle.balanced = false;
+  StepReport report;
+  for (report.iterations = 1; report.iterations <= kMostIterations; ++report.iterations) {
+    const Iteration iteration = newton_step(limb, {load}, workers, report.definite_solves);
+    report.residual_share = iteration.residual_share;
+    report.sound = iteration.sound;
+    if (!iteration.sound) return report;
+    const bool solved = iteration.residual_share < kSolvedShare && iteration.lines_share < kLinesSolvedShare;
+    if (solved && iteration.rotation_rad < kLargestRotation_rad) break;
+  }
+  report.sound = report.residual_share < 1.0;
+  finish(limb, load.rule);
+  return report;
+}
+
+Relaxation relax(Limb& limb, const RelaxInput& input, WorkerPool& workers) {
+  TissueLoad load;
+  load.rule = backward_euler(input.time_s);
+  load.force_velocity = false;
+  load.gravity_m_s2 = limb.gravity_m_s2;
+  for (LimbMuscle& muscle : limb.muscles) {
+    muscle.balanced = false;
+    muscle.state.last.position_m = muscle.state.now.position_m;
+    muscle.state.last.velocity_m_s.setZero();
+  }
+  int definite_solves = 0;
+  const Task task{load, Joints::Held, kRelaxedPart * input.share, input.farthest_m};
+  const Iteration iteration = newton_step(limb, task, workers, definite_solves);
+  return {iteration.sound, iteration.part};
+}
+
+void push_history(Limb& limb) {
+  limb.before = limb.last;
+  limb.last = limb.now;
+  for (LimbMuscle& muscle : limb.muscles) {
+    std::swap(muscle.state.before, muscle.state.last);
+    muscle.state.last = muscle.state.now;
+    if (muscle.line) push_history(*muscle.line);
+  }
+}
+
+void restore_last(Limb& limb) {
+  limb.now = limb.last;
+  for (LimbMuscle& muscle : limb.muscles) {
+    muscle.state.now = muscle.state.last;
+    if (muscle.line) restore_last(*muscle.line);
+  }
+  follow_angles(limb);
+}
+
+}  // namespace myotact::simulation

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "geometry/tet_mesh.h"
+#include "geometry/triangle_mesh.h"
+
+namespace myotact::simulation {
+
+/// A point as a weighted sum of nodes of its tet: 4 for a linear mesh, 10 for a quadratic one. Weights sum to 1.
+struct NodeWeights {
+  int tet = -1;   // of the mesh
+  int count = 0;  // nodes in use
+  std::array<int, 10> nodes{};
+  std::array<double, 10> weights{};
+};
+
+/// Shape values of a tet at barycentric coordinates (corners' order; any sign, sum 1): quadratic if the mesh is.
+/// Indices are not checked.
+NodeWeights shape_weights(const geometry::TetMesh& tets, int tet, const std::array<double, 4>& barycentric);
+
+/// A skin that follows a tet mesh.
+struct SkinEmbedding {
+  std::vector<NodeWeights> vertices;  // one a skin vertex
+  int outside_count = 0;              // vertices outside every tet: extrapolated from the nearest one
+  int clamped_count = 0;              // of these, how many lie too far and were pulled in
+  double farthest_m = 0.0;            // largest distance of an outside vertex from the tets
+};
+
+/// A vertex may lie outside its tet until a barycentric coordinate falls to minus this; then it is pulled in towards
+/// the tet. Half a tet's height: larger, and bending the tissue would swing the vertex more than the tissue itself
+/// moves.
+inline constexpr double kLargestOvershoot = 0.5;
+
+/// Finds for each vertex the tet that contains it, else the nearest. `tets` in its rest shape, quadratic tets
+/// straight-sided. Outside, the shape functions go on as their tangent at the nearest point of the tet (a quadratic
+/// extrapolation would amplify every wiggle of the mid-side nodes). Throws Error BadData when there is no tet.
+SkinEmbedding embed_skin(const geometry::TriangleMesh& skin, const geometry::TetMesh& tets);
+
+/// positions_m[i] = sum of weights * nodes_m; one node and one vertex each, as embedded; `nodes_m` in any frame.
+/// Real-time safe.
+void update_skin(const SkinEmbedding& embedding, std::span<const Vec3> nodes_m, std::span<Vec3> positions_m) noexcept;
+
+/// A point of a skin triangle as a weighted sum of tet nodes, each node once. Weights sum to 1.
+struct MaterialPoint {
+  int count = 0;  // nodes in use
+  std::array<int, 30> nodes{};
+  std::array<double, 30> weights{};
+};
+
+/// `triangle`: its three skin vertices; `barycentric` of any sign, sum 1. Real-time safe.
+MaterialPoint material_point(const SkinEmbedding& embedding, const std::array<int, 3>& triangle,
+                             const std::array<double, 3>& barycentric) noexcept;
+
+}  // namespace myotact::simulation

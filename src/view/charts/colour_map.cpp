@@ -1,0 +1,47 @@
+#include "view/charts/colour_map.h"
+
+#include <algorithm>
+#include <array>
+
+namespace myotact::view {
+
+glm::vec3 cividis(double level) {
+  // Ten evenly spaced colours of the published table, sRGB.
+  static constexpr std::array<std::array<int, 3>, 10> kStops = {{{0, 32, 77},
+                                                                 {0, 51, 111},
+                                                                 {57, 72, 107},
+                                                                 {87, 92, 109},
+                                                                 {112, 113, 115},
+                                                                 {138, 135, 121},
+                                                                 {166, 157, 117},
+                                                                 {196, 181, 108},
+                                                                 {228, 207, 91},
+                                                                 {255, 234, 70}}};
+  const double share = level > 0.0 ? std::min(level, 1.0) : 0.0;  // of what is not a number as well
+  const double place = share * static_cast<double>(kStops.size() - 1);
+  const std::size_t below = std::min(static_cast<std::size_t>(place), kStops.size() - 2);
+  const auto s = static_cast<float>(place - static_cast<double>(below));
+  glm::vec3 colour;
+  for (int k = 0; k < 3; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    colour[k] =
+        ((1.0f - s) * static_cast<float>(kStops[below][i]) + s * static_cast<float>(kStops[below + 1][i])) / 255.0f;
+  }
+  return colour;
+}
+
+std::array<glm::vec3, 10> cividis_table() {
+  std::array<glm::vec3, 10> table;
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    table[i] = cividis(static_cast<double>(i) / static_cast<double>(table.size() - 1));
+  }
+  return table;
+}
+
+glm::vec3 blue_orange(double level) {
+  constexpr glm::vec3 kBlue{0.00f, 0.35f, 0.66f}, kMiddle{0.93f, 0.91f, 0.88f}, kOrange{0.84f, 0.43f, 0.00f};
+  const auto share = static_cast<float>(std::clamp(level, -1.0, 1.0));
+  return share < 0.0f ? glm::mix(kMiddle, kBlue, -share) : glm::mix(kMiddle, kOrange, share);
+}
+
+}  // namespace myotact::view

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "messages/control_state.h"
+
+namespace myotact::view {
+
+using messages::Drive;
+
+/// What a person sets of the scene, a value like ViewState: undo goes back to an earlier one, two of them can be stored
+/// and compared.
+struct SceneState {
+  Drive drive = Drive::Script;
+  double flexors = 0.0, extensors = 0.0;  // Levels, 0 .. 1
+  double common = 0.0;                    // Balance, 0 .. 1
+  double difference = 0.0;                // Balance, -1 .. 1
+  bool hold_posture = false;
+  bool gravity = false;
+
+  bool operator==(const SceneState&) const = default;
+};
+
+}  // namespace myotact::view

@@ -1,0 +1,83 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "view/ui/text.h"
+#include "view/window/shown_scene.h"
+
+// Keys that save ways of the hand, and big type for a class.
+
+namespace myotact::view {
+
+namespace {
+
+const char* task_of(KeyAction action) {
+  constexpr std::array kTasks = {std::pair{KeyAction::TaskFeel, "tasks.feel"},
+                                 std::pair{KeyAction::TaskSee, "tasks.see"},
+                                 std::pair{KeyAction::TaskDemonstrate, "tasks.demonstrate"},
+                                 std::pair{KeyAction::TaskLearn, "tasks.learn"},
+                                 std::pair{KeyAction::TaskPlots, "tasks.plots"},
+                                 std::pair{KeyAction::TaskSettings, "tasks.settings"}};
+  const auto* found =
+      std::find_if(kTasks.begin(), kTasks.end(), [&](const auto& task) { return task.first == action; });
+  return found == kTasks.end() ? nullptr : found->second;
+}
+
+}  // namespace
+
+/// What the keys of areas, tasks and the class do; false for other keys.
+bool ShownScene::act_on_comfort(KeyAction action, WindowAsks& asks) {
+  if (const char* task = task_of(action)) {
+    open_task_ = task;
+    return true;
+  }
+  switch (action) {
+    case KeyAction::NextArea:
+      area_step_ = 1;
+      return true;
+    case KeyAction::PreviousArea:
+      area_step_ = -1;
+      return true;
+    case KeyAction::LessCoContraction:
+      asks.co_contraction_step = -kCoContractionStep;
+      return true;
+    case KeyAction::MoreCoContraction:
+      asks.co_contraction_step = kCoContractionStep;
+      return true;
+    case KeyAction::BigType:
+      asks.big_type = true;
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// Of both sides of the joint, whatever told the muscles what to do before: from the level in force on.
+void ShownScene::add_co_contraction(double step) {
+  const messages::ControlState& now = scene_.state();
+  const double common = now.drive == Drive::Balance ? now.common : now.common_now;
+  scene_.push(messages::CoContract{std::clamp(common + step, 0.0, 1.0), now.difference});
+}
+
+void ShownScene::set_big_type(bool on) {
+  big_type_ = on;
+  if (!on) apply(settings);
+}
+
+double ShownScene::scale() const {
+  constexpr double kForAClass = 1.6;  // letters of 24 pixels on a projector of 720 or 800 lines
+  return big_type_ ? std::max(settings.scale, kForAClass) : settings.scale;
+}
+
+double ShownScene::share_of_force() const {
+  if (shown_ == nullptr) return 0.0;
+  double share = 0.0;
+  for (std::size_t t = 0; t < shown_->tools.size() && t < facts_.device_peaks_N.size(); ++t) {
+    const auto& [x, y, z] = shown_->tools[t].force_world_N;
+    share = std::max(share, std::hypot(x, y, z) / facts_.device_peaks_N[t]);
+  }
+  return share;
+}
+
+}  // namespace myotact::view
