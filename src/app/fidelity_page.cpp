@@ -76,8 +76,8 @@ std::string error_chart(const SceneFidelity& fidelity) {
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> error_N;
     for (std::size_t i = 0; i < fidelity.force.true_N.size(); ++i)
-      error_N.push_back(fidelity.force.judged[i] ? fidelity.force.commanded_N[i][axis] - fidelity.force.true_N[i][axis]
-                                                 : 0.0);
+      error_N.push_back(
+          fidelity.force.compared[i] ? fidelity.force.commanded_N[i][axis] - fidelity.force.true_N[i][axis] : 0.0);
     chart.series.push_back(thinned(kAxes[static_cast<std::size_t>(axis)], error_N, view::Stroke::Line));
   }
   return view::line_chart_svg(chart);
@@ -89,7 +89,7 @@ std::string scatter_chart(const SceneFidelity& fidelity) {
   double largest_N = 0.0;
   const std::size_t step = std::max<std::size_t>(1, fidelity.force.true_N.size() / kDots);
   for (std::size_t i = 0; i < fidelity.force.true_N.size(); i += step) {
-    if (!fidelity.force.judged[i]) continue;
+    if (!fidelity.force.compared[i]) continue;
     dots.x.push_back(fidelity.force.true_N[i].norm());
     dots.y.push_back(fidelity.force.commanded_N[i].norm());
     largest_N = std::max(largest_N, dots.x.back());

@@ -25,14 +25,14 @@ struct MadeRun {
   DeviceRun run;
   ForceSeries series;
 
-  haptics::HapticTick& add(const Vec3& place_m, const Vec3& commanded_N, const Vec3& true_N, bool judged = true) {
+  haptics::HapticTick& add(const Vec3& place_m, const Vec3& commanded_N, const Vec3& true_N, bool compared = true) {
     haptics::HapticTick& tick = run.ticks.emplace_back();
     tick.device.stylus_position_world_m = to_array(place_m);
     tick.gate = haptics::GateState::On;
     series.hand_m.push_back(place_m);
     series.commanded_N.push_back(commanded_N);
     series.true_N.push_back(true_N);
-    series.judged.push_back(judged);
+    series.compared.push_back(compared);
     return tick;
   }
 };
@@ -101,7 +101,7 @@ TEST(PressStiffness, LightTouchesStrokesAndWhatIsInHandAreNone) {
   EXPECT_EQ(found({Vec3::UnitZ(), 300.0, 300.0, 3e-3, 3.0}, nothing), 0u);   // a stroke
   EXPECT_EQ(found(sound, [](MadeRun& made, std::size_t i) { made.run.ticks[i].tool.grabbed_body = 1; }), 0u);
   EXPECT_EQ(found(sound, [](MadeRun& made, std::size_t i) { made.run.ticks[i].tool.grabbed_line = 0; }), 0u);
-  EXPECT_EQ(found(sound, [](MadeRun& made, std::size_t i) { made.series.judged[i] = false; }), 0u);
+  EXPECT_EQ(found(sound, [](MadeRun& made, std::size_t i) { made.series.compared[i] = false; }), 0u);
 }
 
 /// A scene of one flat skin of 40 mm, on which a tool can slide for a while.

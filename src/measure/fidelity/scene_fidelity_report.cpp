@@ -186,7 +186,7 @@ std::string scene_fidelity_csv(const SceneFidelity& fidelity) {
       "t_s,judged,commanded_x_N,commanded_y_N,commanded_z_N,true_x_N,true_y_N,true_z_N,error_x_N,error_y_N,error_z_N\n";
   const ForceSeries& force = fidelity.force;
   for (std::size_t i = 0; i < force.true_N.size(); ++i) {
-    csv += to_text(static_cast<double>(i) / 1e3) + (force.judged[i] ? ",1" : ",0");
+    csv += to_text(static_cast<double>(i) / 1e3) + (force.compared[i] ? ",1" : ",0");
     const Vec3 error_N = force.commanded_N[i] - force.true_N[i];
     for (const Vec3* vector : {&force.commanded_N[i], &force.true_N[i], &error_N})
       for (int k = 0; k < 3; ++k) csv += fmt::format(",{}", to_text((*vector)[k]));
