@@ -110,7 +110,7 @@ void grade_force(const ComparedForce& force, std::vector<GradedFigure>& figures)
   add("late or early by", "ms", 1e3 * std::abs(c.lag_s), 2.0, 30.0,
       "2 ms: the goal of a line in hand; 30 ms: of a joint in hand");
   // A force rotated by an angle differs by 2 sin(angle / 2) of itself: the same shares.
-  add("turned by", "degrees", kDegrees * c.rotation_angle_rad(), 1.7, 8.6, "3 and 15 % of the force, as above");
+  add("rotated by", "degrees", kDegrees * c.rotation_angle_rad(), 1.7, 8.6, "3 and 15 % of the force, as above");
   add("jitter over 20 Hz", "mN RMS", 1e3 * c.noise_rms_N, 10.0, 50.0,
       "10 mN: the goal of a press at rest; 50 mN: where a coupling counts as unstable");
 }

@@ -128,7 +128,7 @@ std::string scene_fidelity_text(const SceneFidelity& fidelity) {
     text += fmt::format("  {:<52} {:>9.3g} {:<8} {}  (good to {:g}, fair to {:g})\n", figure.name, figure.value,
                         figure.unit, grade_text(figure.grade()), figure.good, figure.fair);
   text += fmt::format("\n  {:<30} {:>7} {:>8} {:>8} {:>7} {:>8} {:>7} {:>8}\n", "", "N RMS", "% RMS", "% worst", "gain",
-                      "lag ms", "turn", "mN noise");
+                      "lag ms", "angle", "mN noise");
   for (const ComparedForce& one : fidelity.compared) text += comparison_text(one.name, one.found);
   if (fidelity.haptic_part) text += comparison_text("of it: felt on own steps", *fidelity.haptic_part);
   if (fidelity.step_part) text += comparison_text("of it: own steps on truth", *fidelity.step_part);
