@@ -30,7 +30,7 @@ install_missing() {
   fi
 }
 
-# phase NAME COMMAND...: runs it and tells how long it took.
+# phase NAME COMMAND...: runs it and prints how long it took.
 phase() {
   local name="$1" start=$SECONDS
   shift

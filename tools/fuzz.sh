@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Feeds made-up bytes to every reader of files, of the network and of devices, two at a time: for 30 s each, or SECONDS,
+# Feeds random bytes to every reader of files, of the network and of devices, two at a time: for 30 s each, or SECONDS,
 # or -runs=N inputs. Ends with 1 when one crashes, leaks, hangs or breaks its promise; the bytes that did it are left in
 # build/fuzz/findings/. A change gets some seconds; fuzz_long.sh is for a release.
 set -euo pipefail

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the Debian packages myotact and myotact-prepare and says where they are. Two builds of one commit by the same
+# Builds the Debian packages myotact and myotact-prepare and prints where they are. Two builds of one commit by the same
 # compiler give the same bytes.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"

@@ -12,7 +12,7 @@ struct LineRules {
   bool crosses_joint = true;   // its points are on more than one body
 };
 
-/// What makes one line of a specimen unusable, one sentence a defect, judged at the file pose; empty when all is well.
+/// What makes one line of a specimen unusable, one sentence a defect, checked at the file pose; empty when all is well.
 /// Its references must be valid.
 std::vector<std::string> find_line_defects(const MuscleLine& line, const Specimen& specimen, const LineRules& rules);
 

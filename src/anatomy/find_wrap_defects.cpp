@@ -56,7 +56,7 @@ std::string defect_of_way(const MuscleLine& line, const LineWrap& wrap) {
   }
   if (!geometry::wrap_path(surface, p, q).clears) {
     return fmt::format(
-        "the line goes more than half round it between points {} and {} and would slip off; turn its side "
+        "the line goes more than half round it between points {} and {} and would slip off; set its side "
         "to where the line passes, or make it smaller",
         after, after + 1);
   }

@@ -7,7 +7,7 @@
 
 namespace myotact::anatomy {
 
-/// What a textbook says of a bone or muscle, in English; what is not known is empty. Bones have synonyms and region
+/// What a textbook states of a bone or muscle, in English; what is not known is empty. Bones have synonyms and region
 /// alone.
 struct PartFacts {
   std::vector<std::string> synonyms;

@@ -10,7 +10,8 @@ namespace myotact::app {
 
 CameraDevice::CameraDevice(const std::string& name, device::DeviceSettings settings) {
   if (!name.starts_with("spacemouse")) {
-    throw Error(ExitStatus::Usage, "--camera " + name + ": only a spacemouse turns the view; --device gives it a tool");
+    throw Error(ExitStatus::Usage,
+                "--camera " + name + ": only a spacemouse rotates the view; --device gives it a tool");
   }
   settings.spacemouse.mode = device::spacemouse::MotionMode::Position;
   settings.spacemouse.full_offset_m = 1.0;  // the position is the push

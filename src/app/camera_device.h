@@ -9,7 +9,7 @@
 
 namespace myotact::app {
 
-/// A SpaceMouse that turns the view instead of moving a tool (--camera).
+/// A SpaceMouse that rotates the view instead of moving a tool (--camera).
 class CameraDevice {
  public:
   /// Opens it. Throws Error: Usage for an unknown device, Unavailable.

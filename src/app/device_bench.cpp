@@ -38,11 +38,11 @@ DeviceBench::DeviceBench(device::Device& device, device::HardwareDevice* on_tabl
 }
 
 bool DeviceBench::wait_until_ready(std::ostream& out) {
-  std::string told;
+  std::string shown;
   while (on_table_ != nullptr && on_table_->report().phase != device::DevicePhase::Ready) {
     const std::string hint = on_table_->report().hint;
-    if (hint != told && !hint.empty()) out << hint << '\n' << std::flush;
-    told = hint;
+    if (hint != shown && !hint.empty()) out << hint << '\n' << std::flush;
+    shown = hint;
     run(kPeriod);
     if (interruption() != 0) return false;
   }

@@ -23,11 +23,11 @@ class DeviceBench {
   /// Unavailable.
   DeviceBench(device::Device& device, device::HardwareDevice* on_table, realtime::Watchdog* watchdog, double most_N);
 
-  /// Tells the person what the device wants of them until it is ready. False: interruption() said so first.
+  /// Shows the person what the device needs until it is ready. False: interrupted first (interruption()).
   bool wait_until_ready(std::ostream& out);
-  /// For that long: pulls as told, and looks.
+  /// For that long: pulls as set, and measures.
   void run(std::chrono::milliseconds duration);
-  /// The line that the person enters; nothing: a signal came, or there is nobody.
+  /// The line that the person enters; nothing: a signal came, or the input has ended.
   std::optional<std::string> wait_for_line(LineInput& answers);
 
   /// From now on: with a spring to that point, or with that force wherever the hand goes.

@@ -19,7 +19,7 @@ struct Calibration {
   std::optional<double> scale;  // that was found
 };
 
-/// The guided calibration of one device ("myotact devices --calibrate"): the person is told what the device wants until
+/// The guided calibration of one device ("myotact devices --calibrate"): it shows what the device needs until
 /// it is ready, and then, where its force `scale` is a setting, weighs its pull with a spring balance. No scale:
 /// there is none to be found, the person did not want it or a signal came. Throws Error Unavailable.
 Calibration calibrate_device(device::HardwareDevice& device, const std::optional<ForceScale>& scale, LineInput& answers,

@@ -20,12 +20,12 @@ constexpr double kRadians = 3.14159265358979323846 / 180.0;
 /// Columns: the picture's right, up and towards the eye in the lateral view (world: x cranial, y left, z up).
 Mat3 world_from_lateral_view(bool left_limb) {
   const double way = left_limb ? 1.0 : -1.0;
-  Mat3 turn;
-  turn << Vec3(-way, 0.0, 0.0), Vec3(0.0, 0.0, 1.0), Vec3(0.0, way, 0.0);
-  return turn;
+  Mat3 rotation;
+  rotation << Vec3(-way, 0.0, 0.0), Vec3(0.0, 0.0, 1.0), Vec3(0.0, way, 0.0);
+  return rotation;
 }
 
-Mat3 turned(const Vec3& angles_deg) {
+Mat3 rotation_of(const Vec3& angles_deg) {
   const Vec3 angles_rad = kRadians * angles_deg;
   return (Eigen::AngleAxisd(angles_rad.z(), Vec3::UnitZ()) * Eigen::AngleAxisd(angles_rad.y(), Vec3::UnitY()) *
           Eigen::AngleAxisd(angles_rad.x(), Vec3::UnitX()))
@@ -88,15 +88,15 @@ Equipment::~Equipment() {
   for (const auto& [name, device] : devices_) device->close();
 }
 
-Mat3 Equipment::turn(const std::string& name) const {
-  return turned(placement_of(settings_, name).turn_deg);
+Mat3 Equipment::rotation(const std::string& name) const {
+  return rotation_of(placement_of(settings_, name).turn_deg);
 }
 
 std::unique_ptr<device::PlacedDevice> Equipment::place(const std::string& name, const scene::Scene& scene,
                                                        std::size_t tool) const {
   const device::TablePlacement on_table = placement_of(settings_, name);
   device::Placement placement;
-  placement.world_from_device = world_from_lateral_view(scene.specimen.side != "right") * turn(name);
+  placement.world_from_device = world_from_lateral_view(scene.specimen.side != "right") * rotation(name);
   placement.middle_world_m = scene::start_of_hand(scene, tool);
   placement.scale = on_table.scale;
   placement.bubble_radius_m = on_table.bubble_radius_m;

@@ -13,7 +13,7 @@
 
 namespace myotact::app {
 
-/// The device file with what --set says of devices. Throws Error BadData.
+/// The device file with the --set options of devices. Throws Error BadData.
 device::DeviceSettings device_settings_of(const Options& options);
 
 /// The device of that name, closed. Throws Error Unavailable: not known, or why it cannot be opened and what to do.
@@ -36,9 +36,9 @@ class Equipment {
   bool has(const std::string& name) const { return devices_.contains(name); }
   device::HardwareDevice& device(const std::string& name) const { return *devices_.at(name); }
   /// How it stands on the table: columns are its right, up and towards axes in the person's.
-  Mat3 turn(const std::string& name) const;
+  Mat3 rotation(const std::string& name) const;
   /// One of them in the world of this scene: the middle of its workspace where the tool's hand begins, its right, up
-  /// and towards the person as in the lateral view, and what the settings say of it. Not longer than this.
+  /// and towards the person as in the lateral view, and as the settings place it. Not longer than this.
   std::unique_ptr<device::PlacedDevice> place(const std::string& name, const scene::Scene& scene,
                                               std::size_t tool) const;
 
@@ -51,7 +51,7 @@ class Equipment {
 class HintLog {
  public:
   explicit HintLog(const Equipment& equipment) : equipment_(equipment) {}  // outlives this
-  /// Tells each new hint once.
+  /// Logs each new hint once.
   void look();
 
  private:

@@ -76,8 +76,8 @@ std::string error_chart(const SceneFidelity& fidelity) {
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> error_N;
     for (std::size_t i = 0; i < fidelity.force.true_N.size(); ++i)
-      error_N.push_back(fidelity.force.judged[i] ? fidelity.force.commanded_N[i][axis] - fidelity.force.true_N[i][axis]
-                                                 : 0.0);
+      error_N.push_back(
+          fidelity.force.compared[i] ? fidelity.force.commanded_N[i][axis] - fidelity.force.true_N[i][axis] : 0.0);
     chart.series.push_back(thinned(kAxes[static_cast<std::size_t>(axis)], error_N, view::Stroke::Line));
   }
   return view::line_chart_svg(chart);
@@ -89,7 +89,7 @@ std::string scatter_chart(const SceneFidelity& fidelity) {
   double largest_N = 0.0;
   const std::size_t step = std::max<std::size_t>(1, fidelity.force.true_N.size() / kDots);
   for (std::size_t i = 0; i < fidelity.force.true_N.size(); i += step) {
-    if (!fidelity.force.judged[i]) continue;
+    if (!fidelity.force.compared[i]) continue;
     dots.x.push_back(fidelity.force.true_N[i].norm());
     dots.y.push_back(fidelity.force.commanded_N[i].norm());
     largest_N = std::max(largest_N, dots.x.back());
@@ -110,7 +110,7 @@ std::string spectrum_chart(const SceneFidelity& fidelity) {
     series.y.push_back(1e3 * std::sqrt(density[bin]));
   }
   return view::line_chart_svg(
-      {"Spectrum of what strength, lag and turn do not explain", "frequency [Hz]", "density [mN/sqrt(Hz)]", {series}});
+      {"Spectrum of what gain, lag and rotation do not explain", "frequency [Hz]", "density [mN/sqrt(Hz)]", {series}});
 }
 
 std::string bar(double x_px, double y_px, double length_px, const char* colour, const std::string& text) {
@@ -156,7 +156,7 @@ std::string summary(const SceneFidelity& fidelity, const std::vector<GradedFigur
   html += fmt::format(
       "While the hand was in touch ({:.2f} s compared) the commanded force differed from the true one by {:.1f} % "
       "(root "
-      "mean square; at worst {:.2f} N of {:.2f} N). It was {:.1f} % too {}, {:.1f} ms {}, turned by {:.1f} degrees, "
+      "mean square; at worst {:.2f} N of {:.2f} N). It was {:.1f} % too {}, {:.1f} ms {}, rotated by {:.1f} degrees, "
       "and jittered by {:.0f} mN.</p>\n",
       1e-3 * static_cast<double>(whole.ticks), 100.0 * whole.error_rms_share, whole.error_worst_N, whole.true_peak_N,
       100.0 * std::abs(whole.gain - 1.0), whole.gain >= 1.0 ? "strong" : "weak", 1e3 * std::abs(whole.lag_s),
@@ -200,14 +200,14 @@ std::string comparison_row(const std::string& name, const measure::ForceComparis
 
 std::string comparison_table(const SceneFidelity& fidelity) {
   std::string html = "<h2>Parts of the force</h2>\n<table><tr><th></th>";
-  for (const char* head : {"N RMS", "% RMS", "% worst", "gain", "lag ms", "turn degrees", "noise mN"})
+  for (const char* head : {"N RMS", "% RMS", "% worst", "gain", "lag ms", "rotation degrees", "noise mN"})
     html += fmt::format(R"(<th class="number">{}</th>)", head);
   html += "</tr>\n";
   for (const measure::ComparedForce& one : fidelity.compared) html += comparison_row(one.name, one.found);
   if (fidelity.haptic_part) html += comparison_row("of it: felt, on the scene's own steps", *fidelity.haptic_part);
   if (fidelity.step_part) html += comparison_row("of it: own steps, on the truth", *fidelity.step_part);
   return html +
-         "</table>\n<p class=\"why\">Gain, lag and turn are fitted together; noise is what they do not explain, "
+         "</table>\n<p class=\"why\">Gain, lag and rotation are fitted together; noise is what they do not explain, "
          "over 20 Hz. Forces below 20 mN, which move no device, are not looked at.</p>\n";
 }
 

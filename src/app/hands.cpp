@@ -13,7 +13,7 @@ Hands::Hands(const scene::Scene& scene, std::size_t led, GuardedMotors& guarded,
     if (t == led) {
       devices_.push_back({&mouse_});
     } else if (equipment.has(name)) {
-      placed_.push_back({&equipment.device(name), equipment.place(name, scene, t), t, equipment.turn(name)});
+      placed_.push_back({&equipment.device(name), equipment.place(name, scene, t), t, equipment.rotation(name)});
       devices_.push_back({placed_.back().in_world.get()});
     } else {
       simulated_.push_back(std::make_unique<device::SimulatedDevice>(name, scene::start_of_hand(scene, t),

@@ -20,7 +20,7 @@ measure::StiffnessRow row_of(const scene::Scene& scene, const messages::SceneFra
   row.K_contact_Nm_rad = joint.contact_Nm_rad;
   row.net_torque_Nm = joint.torque_Nm;
   row.preview = joint.preview;
-  row.held = row.converged = true;  // what does not hold, the session's notice says
+  row.held = row.converged = true;  // what does not hold is in the session's notice
   for (std::size_t m = 0; m < joint.muscles.size(); ++m) {
     const messages::MuscleJointFrame& part = joint.muscles[m];
     row.K_muscle_Nm_rad += part.line_muscle_Nm_rad;

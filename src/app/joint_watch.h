@@ -11,7 +11,8 @@
 
 namespace myotact::app {
 
-/// What the window says about the stiffness of the co-contraction's joint, a few times a second. On the drawing thread.
+/// What the window shows about the stiffness of the co-contraction's joint, a few times a second. On the drawing
+/// thread.
 class JointWatch {
  public:
   explicit JointWatch(const scene::Scene& scene);

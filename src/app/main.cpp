@@ -1,4 +1,4 @@
-// The program myotact: reads the command line, calls one subcommand, turns every error into one line and a status.
+// The program myotact: reads the command line, calls one subcommand, reports every error as one line and a status.
 
 #include <exception>
 #include <functional>
@@ -152,7 +152,7 @@ CLI::App* add_serve(CLI::App& program, Options& options) {
   serve->add_option("--hands", options.hands, "how many hands the scene has; without: those of the scene")
       ->check(CLI::Range(std::size_t{1}, myotact::remote::kMostHands));
   serve->add_flag("--lockstep", options.lockstep,
-                  "virtual clock, one client at a time: a step whenever its hand has told its state; for tests");
+                  "virtual clock, one client at a time: a step whenever its hand has sent its state; for tests");
   return serve;
 }
 
@@ -178,7 +178,7 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
   view->add_option("--report-state", options.report_state,
                    "keep this JSON file up to date with what the window shows and where its controls are, for programs "
                    "that assist a person");
-  view->add_option("--camera", options.camera, "a device that turns the view instead of moving a tool: spacemouse");
+  view->add_option("--camera", options.camera, "a device that rotates the view instead of moving a tool: spacemouse");
   view->add_option("--replay", options.recording, "play this recording in the window; nothing goes to a device")
       ->excludes(view->get_option("--device"));
   auto* connect = view->add_option("--connect", options.connect,

@@ -8,8 +8,8 @@
 
 namespace myotact::app {
 
-/// The token in a variable of the environment, where no list of processes shows it. Throws Error Usage for a text that
-/// is none.
+/// The token in a variable of the environment, where no list of processes shows it. Throws Error Usage for an
+/// invalid token.
 std::optional<net::Token> token_of(const char* variable);
 
 /// --connect. Throws Error Usage when it is missing.

@@ -22,7 +22,7 @@ struct Options {
   std::filesystem::path out = "out";
   std::optional<std::filesystem::path> record;
   std::optional<std::filesystem::path> session;       // view: a saved work to begin with
-  std::optional<std::string> camera;                  // view: the device that turns it
+  std::optional<std::string> camera;                  // view: the device that rotates it
   std::optional<std::filesystem::path> report_state;  // view: what the window shows, as JSON, kept up to date
   bool json = false;
   std::string log_level = "info";
@@ -76,10 +76,10 @@ Overrides scene_overrides_of(const Options& options);
 
 /// One of --device: NAME, or HAND=NAME.
 struct NamedDevice {
-  std::string hand;  // "left" or "right"; empty: not said
+  std::string hand;  // "left" or "right"; empty: not given
   std::string name;
 };
-/// Throws Error Usage: a hand that nobody has.
+/// Throws Error Usage: an unknown hand.
 std::vector<NamedDevice> named_devices(const Options& options);
 
 /// --device for the tools of a scene. Throws Error: Unavailable for one that is not known, Usage for too many.

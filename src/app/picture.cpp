@@ -43,8 +43,8 @@ void write_picture(const scene::Scene& scene, const simulation::Simulation& simu
 int watched_joint(const scene::Scene& scene) {
   if (scene.co_contraction) return scene.co_contraction->joint;
   const auto& joints = scene.specimen.joints;
-  const auto turns = [](const anatomy::Joint& joint) { return !joint.axes.empty(); };
-  const auto found = std::find_if(joints.begin(), joints.end(), turns);
+  const auto rotates = [](const anatomy::Joint& joint) { return !joint.axes.empty(); };
+  const auto found = std::find_if(joints.begin(), joints.end(), rotates);
   return found == joints.end() ? 0 : static_cast<int>(found - joints.begin());
 }
 

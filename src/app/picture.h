@@ -28,7 +28,7 @@ void write_picture(const scene::Scene& scene, const simulation::Simulation& simu
                    const std::vector<messages::ToolFrame>& tools, const PictureWish& wish,
                    const std::filesystem::path& path);
 
-/// The joint that is watched: co-contracted, else the first that turns.
+/// The joint that is watched: co-contracted, else the first that rotates.
 int watched_joint(const scene::Scene& scene);
 
 }  // namespace myotact::app

@@ -4,7 +4,7 @@
 
 namespace myotact::app {
 
-/// Tells on standard error how far long work has come: a bar where that is a terminal, else a plain line every few
+/// Shows on standard error how far long work has come: a bar where that is a terminal, else a plain line every few
 /// seconds; nothing when the log level hides information. One thread at a time.
 class Progress {
  public:

@@ -65,7 +65,7 @@ PictureWish picture_of(const Options& options) {
   return {options.view, options.show, view::picture_size_of(options.size)};
 }
 
-/// A picture that nobody asked for is done without where there is no OpenGL.
+/// A picture that was not asked for is left out without OpenGL.
 void write_scene_picture(const Options& options, const scene::Scene& scene, const simulation::Simulation& simulation,
                          const std::vector<messages::ToolFrame>& tools, const PictureWish& wish) {
   try {

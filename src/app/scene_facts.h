@@ -5,7 +5,7 @@
 
 namespace myotact::app {
 
-/// What a window is told of a scene, whoever simulates it: name, title, note, joint, presets and what else can be
+/// What a window gets to know of a scene, whoever simulates it: name, title, note, joint, presets and what else can be
 /// opened.
 view::SceneFacts facts_of(const scene::Scene& scene);
 

@@ -18,7 +18,7 @@ namespace myotact::app {
 using Answers = std::map<std::size_t, std::vector<std::string>>;
 
 /// Plays a lesson without a window, on a virtual clock: clicks, touches with the scripted hand, presses within the
-/// band, pulls lines, raises the co-contraction. Judged by the LessonRun as a person at the window is.
+/// band, pulls lines, raises the co-contraction. Evaluated by the LessonRun as a person at the window is.
 class ScriptedStudent {
  public:
   /// The scene's script is empty; all outlive the student.
@@ -46,7 +46,7 @@ class ScriptedStudent {
 
   /// Until the muscle is touched, at one of its clearest places; false where none can be reached.
   bool touch(int muscle);
-  /// Until the lesson has seen the joint turn, or no place is left to take the line at.
+  /// Until the lesson has seen the joint rotate, or no place is left to take the line at.
   void pull(int muscle);
   void begin(const scene::Action& action, double duration_s);
   void let_go();

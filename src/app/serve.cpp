@@ -33,7 +33,7 @@ net::AccessPolicy access_policy_of(const Options& options) {
 }
 
 /// What clients need to know, one line each on standard output, where no log keeps it.
-void tell(const Options& options, std::uint16_t port, const net::AccessPolicy& access_policy) {
+void print_access(const Options& options, std::uint16_t port, const net::AccessPolicy& access_policy) {
   std::cout << "tcp " << options.bind << ':' << port << '\n';
   if (access_policy.token) std::cout << "token " << net::to_text(*access_policy.token) << '\n';
   if (access_policy.instructor_token)
@@ -57,7 +57,7 @@ nlohmann::json counters_json(const net::ServerCounters& counters) {
 
 int serve_lockstep(const Options& options, const scene::Scene& scene, const net::AccessPolicy& access_policy) {
   remote::LockstepServer server({options.bind, options.port}, scene, access_policy, options.seed);
-  tell(options, server.port(), access_policy);
+  print_access(options, server.port(), access_policy);
   server.serve([] { return interruption() != 0; });
   return interruption();
 }
@@ -76,7 +76,7 @@ int serve_free(const Options& options, const scene::Scene& scene, const net::Acc
     std::cout << "websocket " << options.bind << ':' << websocket->port() << '\n';
   }
   served.start();
-  tell(options, served.server().port(), access_policy);
+  print_access(options, served.server().port(), access_policy);
   while (interruption() == 0 && served.running() && served.time_s() < options.seconds.value_or(1e12)) {
     served.obey();
     std::this_thread::sleep_for(std::chrono::milliseconds(10));

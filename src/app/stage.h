@@ -40,7 +40,7 @@ class Stage {
   virtual std::string refused() const { return {}; }
 };
 
-/// A server's scene, a recording or a scene that is simulated here, as the options say; takes seconds, any thread.
+/// A server's scene, a recording or a scene that is simulated here, as the options choose; takes seconds, any thread.
 /// Throws Error. `guarded` and `equipment` outlive it.
 std::unique_ptr<Stage> make_stage(const Options& options, GuardedMotors& guarded, const Equipment& equipment);
 

@@ -9,7 +9,7 @@
 namespace myotact::app {
 
 /// Draws joint stiffness against co-contraction, by all three ways of finding it and with its uncertainty band; some
-/// six angles where there are more. The title says so when it is a preview. Throws Error InputOutput.
+/// six angles where there are more. The title states when it is a preview. Throws Error InputOutput.
 void write_stiffness_chart(const std::vector<measure::StiffnessRow>& rows, const std::string& title,
                            const std::filesystem::path& path);
 

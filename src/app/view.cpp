@@ -43,7 +43,7 @@ void replace_file(const std::filesystem::path& path, const std::string& text) {
   std::filesystem::rename(next, path);
 }
 
-/// Tells what the window shows, a few times a second, where a file was named for it.
+/// Writes what the window shows, a few times a second, where a file was named for it.
 class WindowReport {
  public:
   explicit WindowReport(std::optional<std::filesystem::path> path) : path_(std::move(path)) {}
@@ -125,7 +125,7 @@ class WindowApp {
     } catch (const Error& failure) {
       if (!shown_) throw;
       spdlog::warn("{}", failure.what());
-      window_.tell(failure.what());
+      window_.show_message(failure.what());
       return;
     }
     end_session();
@@ -149,9 +149,9 @@ class WindowApp {
     } catch (const Error& failure) {
       if (is_first || building_.devices.empty()) throw;
       session.stop();  // ends a recording, which begins anew
-      const std::string told = fmt::format("{}. The mouse leads until you open a scene again.", failure.what());
-      spdlog::warn("{}", told);
-      window_.tell(told);
+      const std::string message = fmt::format("{}. The mouse leads until you open a scene again.", failure.what());
+      spdlog::warn("{}", message);
+      window_.show_message(message);
       Options without = building_;
       without.devices.clear();
       next_ = build(without);
@@ -188,7 +188,8 @@ class WindowApp {
 
   void follow_camera() {
     window_.push_view(camera_->push());
-    if (const std::string hint = camera_->take_hint(); !hint.empty()) window_.tell(*options_.camera + ": " + hint);
+    if (const std::string hint = camera_->take_hint(); !hint.empty())
+      window_.show_message(*options_.camera + ": " + hint);
   }
 
   /// What the person asks for goes to the session and the hand; a stop before anything else.
@@ -197,7 +198,7 @@ class WindowApp {
     scene::Session& session = shown_->session();
     if (const auto on = window_.take_forces_on()) session.stop_forces(!*on);
     for (const messages::Command& command : window_.take_commands()) {
-      if (const std::string why_not = session.push(command); !why_not.empty()) window_.tell(why_not);
+      if (const std::string why_not = session.push(command); !why_not.empty()) window_.show_message(why_not);
     }
     shown_->lead(controls);
     constexpr std::chrono::seconds kPatience(5);  // between two tries, where this machine lacks the files
@@ -209,7 +210,7 @@ class WindowApp {
   /// Builds the scene that the person wants.
   void follow(const view::SceneWish& wish) {
     if (wish.recording && !shown_->simulates()) {
-      return window_.tell("a scene is recorded where it is simulated: start the server with --record FILE");
+      return window_.show_message("a scene is recorded where it is simulated: start the server with --record FILE");
     }
     work_ = wish.work;
     next_ = build(options_of(options_, wish));
@@ -218,7 +219,7 @@ class WindowApp {
   GuardedMotors guarded_;                // first: the watchdog is forked off before there are threads
   Options options_;                      // of the command line
   Equipment equipment_;                  // opened once; scenes come and go
-  std::optional<CameraDevice> camera_;   // that turns the view
+  std::optional<CameraDevice> camera_;   // that rotates the view
   Options building_;                     // of the newest stage
   std::optional<view::SavedWork> work_;  // that it is to begin with
   WindowReport report_;

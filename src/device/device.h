@@ -13,7 +13,7 @@ namespace myotact::device {
 /// (assets/devices/ names the source of each quantity).
 struct DeviceProfile {
   double peak_force_N = 3.3;
-  double continuous_force_N = 0.88;  // root mean square that the motors bear for ever without overheating
+  double continuous_force_N = 0.88;  // root mean square that the motors withstand continuously without overheating
   double max_stiffness_N_m = 1000.0;
   double inertia_kg = 0.07;  // felt at the stylus
   double viscous_Ns_m = 0.05;

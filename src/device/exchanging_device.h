@@ -83,7 +83,7 @@ class ExchangingDevice : public HardwareDevice {
   std::thread thread_;
 };
 
-/// Exchanges a second, told anew each second. Of the device's thread.
+/// Exchanges a second, updated each second. Of the device's thread.
 class ExchangeRate {
  public:
   explicit ExchangeRate(std::uint64_t now_ns) : since_ns_(now_ns) {}

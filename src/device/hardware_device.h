@@ -12,9 +12,9 @@ namespace myotact::device {
 using messages::DevicePhase;
 using messages::DeviceReport;
 
-/// A device on the table. What it says and is told is in its own frame: x to the right of the person who sits before
+/// A device on the table. What it reports and is sent is in its own frame: x to the right of the person who sits before
 /// it, y up, z towards that person, metres from the middle of its workspace. In phases other than Ready it takes no
-/// force, whatever is written, and says connected() == false.
+/// force, whatever is written, and connected() is false.
 class HardwareDevice : public Device {
  public:
   /// Any thread; never waits.
@@ -37,7 +37,7 @@ class Driver {
  public:
   virtual ~Driver() = default;
   virtual const std::string& name() const = 0;  // "falcon"
-  /// What is plugged in. One row that is not ready when nothing is, or nothing can be: it says why. Never throws for
+  /// What is plugged in. One row that is not ready when nothing is, or nothing can be: it states why. Never throws for
   /// what it meets.
   virtual std::vector<DeviceFinding> find() = 0;
   /// One of those found, closed. Throws Error Unavailable (cause and remedy).

@@ -29,8 +29,8 @@ void check(const Placement& placement) {
     throw std::invalid_argument(
         fmt::format("a bubble of {} m; must be in 0 .. {} m", placement.bubble_radius_m, kLargestBubble_m));
   }
-  const Mat3& turn = placement.world_from_device;
-  if (!((turn * turn.transpose() - Mat3::Identity()).norm() < 1e-9 && turn.determinant() > 0.0 &&
+  const Mat3& rotation = placement.world_from_device;
+  if (!((rotation * rotation.transpose() - Mat3::Identity()).norm() < 1e-9 && rotation.determinant() > 0.0 &&
         placement.middle_world_m.allFinite())) {
     throw std::invalid_argument("a device's placement must be a rotation matrix and a finite point");
   }
@@ -64,15 +64,15 @@ void PlacedDevice::open() {
 
 void PlacedDevice::follow_rotation(const Vec3& on_table_m) noexcept {
   rotations_.update();
-  if (feels_force_ || rotations_.front() == turn()) return;
+  if (feels_force_ || rotations_.front() == rotation()) return;
   const Vec3 tool_m = in_world(on_table_m);
   placement_.world_from_device = rotations_.front();
-  middle_m_ = tool_m - placement_.scale * (turn() * on_table_m);
+  middle_m_ = tool_m - placement_.scale * (rotation() * on_table_m);
 }
 
 void PlacedDevice::follow_clutch(bool clutched, const Vec3& on_table_m) noexcept {
   if (clutched && !is_clutched_) held_at_m_ = in_world(on_table_m);
-  if (clutched) middle_m_ = held_at_m_ - placement_.scale * (turn() * on_table_m);
+  if (clutched) middle_m_ = held_at_m_ - placement_.scale * (rotation() * on_table_m);
   is_clutched_ = clutched;
 }
 
@@ -82,7 +82,7 @@ void PlacedDevice::drive_bubble(const Vec3& on_table_m, double dt_s) noexcept {
   const double out = (way_m - radius_m) / (0.5 * radius_m);
   const double slower = std::min(1.0, placement_.scale);  // as the gate's cut-off is
   const double pace_m_s = slower * std::min(kFastestPace_m_s, kPaceHalfOut_m_s * out * out * out);
-  middle_m_ += (pace_m_s * dt_s / way_m) * (turn() * on_table_m);
+  middle_m_ += (pace_m_s * dt_s / way_m) * (rotation() * on_table_m);
 }
 
 messages::DeviceState PlacedDevice::read(std::uint64_t now_ns) noexcept {
@@ -96,7 +96,7 @@ messages::DeviceState PlacedDevice::read(std::uint64_t now_ns) noexcept {
   follow_clutch((state.buttons & messages::kClutchButton) != 0, on_table_m);
   if (device_.connected() && !is_clutched_)
     drive_bubble(on_table_m, dt_s);  // a place from before it was lost drives nothing
-  const Vec3 velocity_m_s = placement_.scale * (turn() * to_vec3(state.stylus_velocity_world_m_s));
+  const Vec3 velocity_m_s = placement_.scale * (rotation() * to_vec3(state.stylus_velocity_world_m_s));
   state.stylus_position_world_m = to_array(is_clutched_ ? held_at_m_ : in_world(on_table_m));
   state.stylus_velocity_world_m_s = to_array(is_clutched_ ? Vec3::Zero() : velocity_m_s);
   return state;
@@ -105,7 +105,7 @@ messages::DeviceState PlacedDevice::read(std::uint64_t now_ns) noexcept {
 void PlacedDevice::write(const messages::DeviceCommand& command) noexcept {
   const Vec3 force_N = to_vec3(command.force_world_N);
   feels_force_ = !(force_N.norm() < kFelt_N);
-  device_.write({to_array(turn().transpose() * force_N)});
+  device_.write({to_array(rotation().transpose() * force_N)});
 }
 
 }  // namespace myotact::device

@@ -21,19 +21,19 @@ struct Placement {
   double bubble_radius_m = 0.0;
 };
 
-/// A device on the table as one in the world: turned, scaled, moved on by clutch and bubble.
+/// A device on the table as one in the world: rotated, scaled, moved on by clutch and bubble.
 ///
-/// Turn (ask_rotation): the workspace turns about the tool, which stays where it is, as soon as no force is felt: one
-/// that turned under the hand would do work that no hand did.
+/// Rotation (ask_rotation): the workspace rotates about the tool, which stays where it is, as soon as no force is felt:
+/// one that rotated under the hand would do work that no hand did.
 ///
 /// Clutch (kClutchButton held): the tool stays, the hand goes back to where it has room. Bubble (Dominjon et al. 2005,
-/// after its idea): outside the radius the middle moves outwards with a speed that grows with the cube of the way out.
-/// The middle rests while a force is felt: it would do work on the tissue that no hand did.
+/// after its idea): outside the radius the middle moves outwards with a speed that grows with the cube of the distance
+/// beyond it. The middle rests while a force is felt: it would do work on the tissue that no hand did.
 ///
 /// The force on the table is the force in the world. A step on the table is `scale` steps in the world, so that what
-/// the world calls stiffness, damping and inertia of this device are its own divided by the scale: profile() says so,
-/// and every bound made from it holds on the table; the gate's own of speed and energy by motion_scale. A scale that
-/// stands keeps a passive force passive: both works differ by that factor.
+/// the world calls stiffness, damping and inertia of this device are its own divided by the scale: profile() returns
+/// these, and every bound made from it holds on the table; the gate's own of speed and energy by motion_scale. A
+/// constant scale keeps a passive force passive: both works differ by that factor.
 class PlacedDevice : public Device {
  public:
   /// `device` outlives this. Throws std::invalid_argument: a scale or radius out of its range, no rotation.
@@ -41,7 +41,7 @@ class PlacedDevice : public Device {
 
   const std::string& name() const override { return device_.name(); }
   const DeviceProfile& profile() const override { return profile_; }  // as the world sees it
-  void open() override;  // afterwards profile() has what the device told of itself
+  void open() override;  // afterwards profile() has what the device reported of itself
   void close() noexcept override { device_.close(); }
   bool connected() const noexcept override { return device_.connected(); }
   messages::DeviceState read(std::uint64_t now_ns) noexcept override;
@@ -50,7 +50,7 @@ class PlacedDevice : public Device {
   /// Any thread. Held: as if the device's own clutch button were down, for devices that have too few.
   void ask_clutch(bool held) noexcept { asked_clutch_ = held; }
   /// One thread, any: from then on the hand's right, up and towards the person are these columns of a rotation, as of a
-  /// view that was turned.
+  /// view that was rotated.
   void ask_rotation(const Mat3& world_from_device) noexcept { rotations_.publish(world_from_device); }
   /// Any thread: whether the last read() found it held, here or on the device.
   bool is_clutched() const noexcept { return is_clutched_; }
@@ -59,8 +59,8 @@ class PlacedDevice : public Device {
   void follow_rotation(const Vec3& on_table_m) noexcept;
   void follow_clutch(bool clutched, const Vec3& on_table_m) noexcept;
   void drive_bubble(const Vec3& on_table_m, double dt_s) noexcept;
-  Vec3 in_world(const Vec3& on_table_m) const { return middle_m_ + placement_.scale * (turn() * on_table_m); }
-  const Mat3& turn() const { return placement_.world_from_device; }
+  Vec3 in_world(const Vec3& on_table_m) const { return middle_m_ + placement_.scale * (rotation() * on_table_m); }
+  const Mat3& rotation() const { return placement_.world_from_device; }
 
   HardwareDevice& device_;
   Placement placement_;

@@ -26,7 +26,7 @@ struct HandTarget {
   std::array<double, 3> position_world_m{};
   std::array<double, 3> velocity_world_m_s{};  // the target runs on with it; the next target comes within 50 ms
   std::uint32_t buttons = 0;
-  std::array<double, 3> push_world_N{};  // on top of the springs: a weight, a finger on a stylus that nobody holds
+  std::array<double, 3> push_world_N{};  // on top of the springs: a weight, a finger on a stylus that is not held
 };
 
 /// A hand on a device, without hardware:

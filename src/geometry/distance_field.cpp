@@ -18,7 +18,7 @@ constexpr double kMostSamples = 1e6;
 constexpr int kPadding = 3;
 /// Farther outside than this a sample holds a lower bound: no place that may be inside has it among its 64.
 constexpr double kFarCells = 6.0;
-/// A barycentric coordinate below this counts as zero when a place is told apart as face, edge or corner.
+/// A barycentric coordinate below this counts as zero when a place is classified as face, edge or corner.
 constexpr double kOnEdge = 1e-9;
 
 std::size_t index(int i) {

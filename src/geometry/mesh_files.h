@@ -16,9 +16,9 @@ struct SurfaceFile {
   std::vector<std::string> notes;
 };
 
-/// A surface in the file's own unit, told by the extension: .stl, .obj, .ply, .off, .vtk (legacy: PolyData, or the
-/// boundary of an unstructured grid of tets), .mesh (Medit), .node and .ele (boundary of the tets); capitals are the
-/// same. Polygons are cut into triangles; faces are kept as they are, also degenerate ones; only STL's corners are
+/// A surface in the file's own unit; the format is by the extension: .stl, .obj, .ply, .off, .vtk (legacy: PolyData, or
+/// the boundary of an unstructured grid of tets), .mesh (Medit), .node and .ele (boundary of the tets); capitals are
+/// the same. Polygons are cut into triangles; faces are kept as they are, also degenerate ones; only STL's corners are
 /// welded, exactly. Throws Error NoInput, BadData (file, line or byte, value), InputOutput.
 SurfaceFile read_surface(const std::filesystem::path& path);
 
@@ -27,7 +27,7 @@ TriangleMesh read_ply(const std::filesystem::path& path);
 /// Binary little-endian with double positions.
 void write_ply(const TriangleMesh& mesh, const std::filesystem::path& path);
 
-/// ASCII or binary STL; the kind is told from the size, not from "solid". Equal corners are welded exactly. Since it
+/// ASCII or binary STL; the kind is detected by the size, not by "solid". Equal corners are welded exactly. Since it
 /// returns no notes, it refuses a file whose header and size differ, which read_surface() reads where it can.
 TriangleMesh read_stl(const std::filesystem::path& path);
 
@@ -58,7 +58,7 @@ TetFile read_tetgen(const std::filesystem::path& path);
 /// Medit's .mesh in text form: Vertices, and Tetrahedra with their references as regions; other sections are read over.
 TetFile read_medit(const std::filesystem::path& path);
 
-/// Any of these, told by the extension: .vtk, .mesh, .node or .ele.
+/// Any of these, by the extension: .vtk, .mesh, .node or .ele.
 TetFile read_tet_mesh(const std::filesystem::path& path);
 
 }  // namespace myotact::geometry

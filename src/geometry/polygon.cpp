@@ -53,25 +53,25 @@ void PolygonCutter::place(std::span<const int> corners, const TriangleMesh& mesh
   }
 }
 
-/// Sets the turn at a corner, and whether nothing of the polygon lies in its triangle.
+/// Sets the orientation at a corner, and whether nothing of the polygon lies in its triangle.
 void PolygonCutter::classify(std::size_t index) {
   const Corner& a = corners_[before(index)];
   const Corner& c = corners_[after(index)];
   Corner& b = corners_[index];
-  b.turn = side(a, b, c);
-  b.ear = b.turn > 0;
+  b.orientation = side(a, b, c);
+  b.ear = b.orientation > 0;
   if (!b.ear) return;
   const auto same_place = [](const Corner& p, const Corner& q) { return p.x == q.x && p.y == q.y; };
   b.ear = std::none_of(corners_.begin(), corners_.end(), [&](const Corner& p) {
     // A corner to the left lies in the triangle only when one that is not does too.
-    if (p.turn > 0 || same_place(p, a) || same_place(p, b) || same_place(p, c)) return false;
+    if (p.orientation > 0 || same_place(p, a) || same_place(p, b) || same_place(p, c)) return false;
     return side(a, b, p) >= 0 && side(b, c, p) >= 0 && side(c, a, p) >= 0;
   });
 }
 
 void PolygonCutter::classify_all() {
   for (std::size_t i = 0; i < corners_.size(); ++i)
-    corners_[i].turn = side(corners_[before(i)], corners_[i], corners_[after(i)]);
+    corners_[i].orientation = side(corners_[before(i)], corners_[i], corners_[after(i)]);
   for (std::size_t i = 0; i < corners_.size(); ++i) classify(i);
 }
 
@@ -94,8 +94,8 @@ std::size_t PolygonCutter::choose() {
     index = first(is_ear);
     if (index == corners_.size()) fresh_starts_ = 0;
   }
-  if (index == corners_.size()) index = first([](const Corner& corner) { return corner.turn == 0; });
-  if (index == corners_.size()) index = first([](const Corner& corner) { return corner.turn > 0; });
+  if (index == corners_.size()) index = first([](const Corner& corner) { return corner.orientation == 0; });
+  if (index == corners_.size()) index = first([](const Corner& corner) { return corner.orientation > 0; });
   return index % corners_.size();
 }
 
@@ -117,10 +117,10 @@ bool PolygonCutter::cut(std::span<const int> corners, TriangleMesh& mesh) {
   bool simple = true;
   while (corners_.size() > 3) {
     const std::size_t index = choose();
-    simple = simple && (corners_[index].ear || corners_[index].turn == 0);
+    simple = simple && (corners_[index].ear || corners_[index].orientation == 0);
     take_off(index, mesh);
   }
-  simple = simple && corners_[1].turn >= 0;
+  simple = simple && corners_[1].orientation >= 0;
   take_off(1, mesh);
   return simple;
 }

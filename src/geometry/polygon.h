@@ -22,7 +22,7 @@ class PolygonCutter {
   struct Corner {
     int vertex = 0;
     double x = 0.0, y = 0.0;  // in the plane
-    int turn = 0;             // 1 to the left, 0 straight on, -1 to the right
+    int orientation = 0;      // 1 to the left, 0 straight on, -1 to the right
     bool ear = false;
   };
 

@@ -21,7 +21,8 @@ bool is_finite(const std::array<double, 3>& v) {
   return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
 }
 
-constexpr double kTold_J = 0.1e-3;  // what a port may lack before it is called a fault: a count of an encoder at 5 N
+/// What a port may lack before it is called a fault: a count of an encoder at 5 N.
+constexpr double kReportedEnergy_J = 0.1e-3;
 
 std::uint32_t of_clamp(std::uint32_t buttons) {
   const bool line = (buttons & messages::kGrabButton) != 0;
@@ -29,7 +30,7 @@ std::uint32_t of_clamp(std::uint32_t buttons) {
 }
 
 /// The settings as this loop's device supports them.
-HapticSettings bearable(HapticSettings settings, const device::DeviceProfile& profile) {
+HapticSettings limited_to_device(HapticSettings settings, const device::DeviceProfile& profile) {
   settings.bone.force_scale = settings.force_scale;
   if (!settings.limit_stiffness) return settings;
   const double most_N_m = stiffness_bound(profile).smallest_N_m();
@@ -42,7 +43,7 @@ HapticSettings bearable(HapticSettings settings, const device::DeviceProfile& pr
 
 HapticLoop::HapticLoop(device::Device& device, const HapticSettings& settings)
     : device_(device),
-      settings_(bearable(settings, device.profile())),
+      settings_(limited_to_device(settings, device.profile())),
       ticks_(kTicksKept),
       effects_(settings_, device.profile()),
       ports_(device.profile()),
@@ -80,7 +81,7 @@ void HapticLoop::tick(std::uint64_t now_ns) noexcept {
   forces_.sent_N = gate_and_write(felt_N, state);
   ports_.book(forces_.sent_N);
   forces_.gate_damping_N = gate_.damping_N();
-  tell(state);
+  report(state);
 }
 
 void HapticLoop::advance_clock(std::uint64_t now_ns) noexcept {
@@ -143,7 +144,7 @@ Vec3 HapticLoop::felt_force_N(const HandTick& hand) noexcept {
   }
   const Vec3 felt_N = ports_.admit(ports, {hand.hand.position_m, hand.dt_s});
   forces_.ports_change_N = felt_N - wanted_N;
-  if (ports_.missing_J() > kTold_J) faults_ |= bit(Fault::EnergyInjected);
+  if (ports_.missing_J() > kReportedEnergy_J) faults_ |= bit(Fault::EnergyInjected);
   return felt_N;
 }
 
@@ -168,7 +169,7 @@ Vec3 HapticLoop::gate_and_write(const Vec3& wanted_N, const messages::DeviceStat
 }
 
 /// To simulation, recorder and drawing.
-void HapticLoop::tell(const messages::DeviceState& state) noexcept {
+void HapticLoop::report(const messages::DeviceState& state) noexcept {
   messages::ToolState& tool = last_.tool;
   ++tool.sequence;
   tool.time_ns = last_ns_;
@@ -177,7 +178,7 @@ void HapticLoop::tell(const messages::DeviceState& state) noexcept {
   tool.force_world_N = to_array(forces_.sent_N);
   tool.buttons = state.buttons;
   tool.faults = faults_;
-  effects_.tell(tool);
+  effects_.report(tool);
   if (!device_is_sound_) {  // what was touched before is not touched now
     tool.contact = {};
     tool.touched_world_m = {};

@@ -76,7 +76,7 @@ class HapticLoop {
   HandTick hand_tick(const messages::DeviceState& state, bool is_new) const noexcept;
   Vec3 felt_force_N(const HandTick& hand) noexcept;
   Vec3 gate_and_write(const Vec3& wanted_N, const messages::DeviceState& state) noexcept;
-  void tell(const messages::DeviceState& state) noexcept;
+  void report(const messages::DeviceState& state) noexcept;
   double model_age_s() const noexcept;
 
   device::Device& device_;

@@ -41,7 +41,7 @@ void HapticThread::stop() noexcept {
   stopping_.store(true, std::memory_order_relaxed);
   if (servo_ != nullptr) servo_->stop();
   if (thread_.joinable()) thread_.join();
-  // Nobody else ticks any more: this thread may send the last, empty commands.
+  // No other thread ticks any more: this thread may send the last, empty commands.
   stop_forces(loops_, true);
   tick_all(loops_, realtime::steady_now_ns());
   if (watchdog_ != nullptr) watchdog_->rest();

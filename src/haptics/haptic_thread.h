@@ -22,7 +22,7 @@ namespace myotact::haptics {
 class HapticThread {
  public:
   /// The loops outlive the thread and are prepared before start(). At least one.
-  /// `watchdog`, which outlives the thread, is told of every round; null: none. It guards all devices of the group.
+  /// `watchdog`, which outlives the thread, is notified of every round; null: none. It guards all devices of the group.
   /// `servo`, which outlives it too: whose ticks these are; null: those of a thread of its own.
   explicit HapticThread(std::span<HapticLoop* const> loops, realtime::Watchdog* watchdog = nullptr,
                         device::ServoClock* servo = nullptr);

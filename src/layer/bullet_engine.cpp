@@ -51,7 +51,7 @@ class BulletEngine final : public Engine {
   BulletWorld world_;
   BulletTissue tissue_;
   EngineSurfaces surfaces_;
-  /// Angles and rates as Bullet has them, in the form from which our own simulation says how a body in hand moves.
+  /// Angles and rates as Bullet has them, in the form from which our own simulation computes how a body in hand moves.
   simulation::Limb limb_;
   simulation::SkeletonLoads joints_alone_;              // without gravity and motion
   std::vector<std::unique_ptr<btConvexShape>> shapes_;  // one a tool
@@ -72,8 +72,8 @@ BulletEngine::BulletEngine(const anatomy::Specimen& specimen, const BulletSettin
   simulation::read_out(limb_);
 }
 
-/// The force at the end of the substep, as far as the point's velocity says where it is then. No stiffer than brings
-/// the body, taken for itself, to the target in one substep: beyond twice that the motion would grow.
+/// The force at the end of the substep, as far as the point's velocity predicts where it is then. No stiffer than
+/// brings the body, taken for itself, to the target in one substep: beyond twice that the motion would grow.
 void BulletEngine::push_spring(const simulation::ToolSpring& spring, double h_s, Vec3& force_N) {
   const Vec3 p_W = world_.body_pose(spring.body) * spring.body_rest_m;
   const Vec3 pull_m = spring.target_W_m - p_W - h_s * world_.point_velocity_m_s(spring.body, p_W);
@@ -114,7 +114,7 @@ void BulletEngine::advance() {
 }
 
 /// Spring, damper and end of range of the joints as our own simulation has them, so that both engines hold one
-/// mechanics and the grip is told what there is: the torque at rest, and a damper, implicit as if the rest of the limb
+/// mechanics and the grip is given these: the torque at rest, and a damper, implicit as if the rest of the limb
 /// were stiff, that also takes the spring's motion within the substep.
 void BulletEngine::push_joints(double h_s) {
   const Eigen::VectorXd still = Eigen::VectorXd::Zero(limb_.skeleton.joint_count());
@@ -124,7 +124,7 @@ void BulletEngine::push_joints(double h_s) {
     if (!limb_.skeleton.moves(j)) continue;
     const double damping_Nms_rad = joints_alone_.damping_Nms_rad[j] + h_s * joints_alone_.passive_Nm_rad[j];
     const double share = 1.0 + h_s * damping_Nms_rad / limb_.skeleton.inertia_kg_m2(j);
-    world_.turn(j, joints_alone_.force_Nm[j] - damping_Nms_rad / share * limb_.now.velocity_rad_s[j]);
+    world_.apply_torque(j, joints_alone_.force_Nm[j] - damping_Nms_rad / share * limb_.now.velocity_rad_s[j]);
   }
 }
 
@@ -170,7 +170,7 @@ void BulletEngine::write_surface(int tool, messages::LocalModel& model) const {
   model.grip = simulation::local_grip(limb_, specimen_, surfaces_.patch(), {state, tool});
   if (model.grip.body < 0) return;
   const int joints = limb_.skeleton.joint_count();
-  const Eigen::MatrixXd no_damping = Eigen::MatrixXd::Zero(joints, joints);  // of muscles: there are none
+  const Eigen::MatrixXd no_damping = Eigen::MatrixXd::Zero(joints, joints);  // no muscles
   write_grip_motion(limb_, {no_damping, tool, settings_.step_s}, model.grip);
 }
 

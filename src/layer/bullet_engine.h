@@ -19,7 +19,7 @@ struct ToolBody {
 struct BulletSettings {
   /// 60 Hz, at which games and their engines run: what the layer is for.
   double step_s = 1.0 / 60.0;
-  /// Of a step. Bullet takes the springs of a hand explicitly: at 240 Hz one of 800 N/m turns a plate of 87 g by 0.4
+  /// Of a step. Bullet takes the springs of a hand explicitly: at 240 Hz one of 800 N/m rotates a plate of 87 g by 0.4
   /// rad of its swing, at 60 Hz by 1.6, where 2 is the end of what is stable.
   int substeps = 4;
   Vec3 gravity_m_s2 = Vec3::Zero();
@@ -39,13 +39,13 @@ bool has_bullet();
 /// of the substep as far as the velocity predicts it; stiffer than what brings the point home in one substep they are
 /// not.
 ///
-/// Bullet rounds its shapes by collision margins, 40 mm unless told, more than our tools are wide. Here they are zero
+/// Bullet rounds its shapes by collision margins, 40 mm unless set, more than our tools are wide. Here they are zero
 /// for hulls and meshes: a sphere on a face is then reported exactly (1e-9 m), while a box, which Bullet tests by
 /// supporting points, is taken with the margin of its own that its maker needs, inside of its faces.
 ///
 /// Muscles are deformable bodies on the specimen's own tets, one implicit step a step with the springs inside of it;
 /// they have the matrix of ours but for its volume, no fibres, and hang on bodies that stand still. Their skins are
-/// triangle meshes to the collision detection. What a press yields (LocalContact) is not told.
+/// triangle meshes to the collision detection. The compliance under a press (LocalContact) is not reported.
 ///
 /// Reads `specimen` when called only; throws Error BadData for what it cannot hold (joints other than hinges and welds,
 /// muscles on bodies that a joint moves), Unavailable (69) when built without Bullet. Same calls, same bits.

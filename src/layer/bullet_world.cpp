@@ -13,7 +13,7 @@
 namespace myotact::layer {
 namespace {
 
-/// Bullet adds its margin of 40 mm around hulls and meshes unless told otherwise: more than a tool is wide.
+/// Bullet adds its margin of 40 mm around hulls and meshes unless set otherwise: more than a tool is wide.
 constexpr double kMargin_m = 0.0;
 /// Of the constraints in a substep; ten are Bullet's own choice, five times that keeps a chain of hinges together.
 constexpr int kSolverIterations = 50;
@@ -132,13 +132,13 @@ btTransform BulletWorld::frame_in_body(int body, const btTransform& X_LJ) const 
 void BulletWorld::add_joint(const anatomy::Joint& joint) {
   Hinge hinge;
   hinge.joint = &joint;
-  hinge.turns = joint.type == anatomy::JointType::Hinge;
+  hinge.rotates = joint.type == anatomy::JointType::Hinge;
   if (moves(joint.child)) {
     btRigidBody& child = *bodies_[index(joint.child)].rigid;
     btRigidBody& parent = moves(joint.parent) ? *bodies_[index(joint.parent)].rigid : ground_;
     const btTransform frame = joint_frame(joint);
     const btTransform in_child = frame_in_body(joint.child, frame), in_parent = frame_in_body(joint.parent, frame);
-    if (hinge.turns) {
+    if (hinge.rotates) {
       hinge.constraint = std::make_unique<btHingeConstraint>(child, parent, in_child, in_parent);
     } else {
       hinge.constraint = std::make_unique<btFixedConstraint>(parent, child, in_parent, in_child);
@@ -173,24 +173,24 @@ void BulletWorld::push(int body, const Vec3& p_W, const Vec3& force_N) {
 
 double BulletWorld::angle_rad(int joint) const {
   const Hinge& hinge = hinges_[index(joint)];
-  if (!hinge.turns) return 0.0;
-  const Mat3 turned = body_pose(hinge.joint->parent).rotation.transpose() * body_pose(hinge.joint->child).rotation;
-  const Eigen::Quaterniond q(turned);
+  if (!hinge.rotates) return 0.0;
+  const Mat3 relative = body_pose(hinge.joint->parent).rotation.transpose() * body_pose(hinge.joint->child).rotation;
+  const Eigen::Quaterniond q(relative);
   return 2.0 * std::atan2(q.vec().dot(hinge.joint->axes[0]), q.w());
 }
 
 double BulletWorld::velocity_rad_s(int joint) const {
   const Hinge& hinge = hinges_[index(joint)];
-  if (!hinge.turns) return 0.0;
+  if (!hinge.rotates) return 0.0;
   Vec3 velocity_rad_s = from_bullet(bodies_[index(hinge.joint->child)].rigid->getAngularVelocity());
   const Body& parent = bodies_[index(hinge.joint->parent)];
   if (parent.rigid) velocity_rad_s -= from_bullet(parent.rigid->getAngularVelocity());
   return velocity_rad_s.dot(body_pose(hinge.joint->parent).rotation * hinge.joint->axes[0]);
 }
 
-void BulletWorld::turn(int joint, double torque_Nm) {
+void BulletWorld::apply_torque(int joint, double torque_Nm) {
   const Hinge& hinge = hinges_[index(joint)];
-  if (!hinge.turns) return;
+  if (!hinge.rotates) return;
   const btVector3 torque = to_bullet(torque_Nm * (body_pose(hinge.joint->parent).rotation * hinge.joint->axes[0]));
   bodies_[index(hinge.joint->child)].rigid->applyTorque(torque);
   if (moves(hinge.joint->parent)) bodies_[index(hinge.joint->parent)].rigid->applyTorque(-torque);

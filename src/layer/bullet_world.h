@@ -35,9 +35,9 @@ class BulletWorld {
   /// How fast a unit force on the point along `direction` speeds it up, the body taken for itself [1/kg].
   double mobility_1_kg(int body, const Vec3& p_W, const Vec3& direction) const;
   void push(int body, const Vec3& p_W, const Vec3& force_N);
-  void turn(int joint, double torque_Nm);  // child against parent, about the axis
+  void apply_torque(int joint, double torque_Nm);  // child against parent, about the axis
 
-  /// Right-hand rotation of the child about the joint's axis; 0 where nothing turns.
+  /// Right-hand rotation of the child about the joint's axis; 0 for a joint that does not rotate.
   double angle_rad(int joint) const;
   double velocity_rad_s(int joint) const;
 
@@ -53,7 +53,7 @@ class BulletWorld {
   };
   struct Hinge {
     std::unique_ptr<btTypedConstraint> constraint;  // null: a weld between bodies that stand still
-    bool turns = false;
+    bool rotates = false;
     const anatomy::Joint* joint = nullptr;
   };
 

@@ -23,7 +23,7 @@ class Engine {
   /// well as pulled would act twice.
   virtual void move_tool(int tool, const messages::ToolState& state) = 0;
   virtual void advance() = 0;
-  /// What the engine's collision detection says of the tool now; may hold nonsense, which the layer takes out.
+  /// What the engine's collision detection reports of the tool now; may be invalid, which the layer takes out.
   virtual void report_contacts(int tool, messages::ReportedContacts& reported) const = 0;
   /// X_WL of the body of a surface: maps its place at the start to now. Identity for what has no pose (tissue).
   virtual Pose body_pose(int surface) const = 0;

@@ -54,10 +54,10 @@ void ForceLayer::publish(std::uint64_t now_ns) {
     group_[i]->models().publish();
   }
   published_at_ns_.store(now_ns, std::memory_order_relaxed);
-  tell_news();
+  report_news();
 }
 
-void ForceLayer::tell_news() {
+void ForceLayer::report_news() {
   for (const std::string& line : check_.take_news()) spdlog::warn("{}", line);
 }
 

@@ -61,7 +61,7 @@ class ForceLayer {
   haptics::HapticLoop& loop(int tool) noexcept { return *group_[static_cast<std::size_t>(tool)]; }
 
  private:
-  void tell_news();
+  void report_news();
 
   Engine& engine_;
   std::uint64_t step_ns_;

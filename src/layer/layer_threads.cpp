@@ -11,10 +11,10 @@ namespace myotact::layer {
 
 namespace {
 
-/// Steps by which simulated time may lag and still be made up for: single long steps do not slow it, steady overload
+/// Steps by which simulated time may lag and still be caught up: single long steps do not slow it, steady overload
 /// does. Three at 60 Hz are 50 ms.
 constexpr std::uint64_t kStepsToCatchUp = 3;
-constexpr std::chrono::milliseconds kLook(50);  // a quarter of the silence that is told
+constexpr std::chrono::milliseconds kLook(50);  // a quarter of the silence that is reported
 
 }  // namespace
 
@@ -69,16 +69,16 @@ void LayerThreads::run_engine() {
 
 void LayerThreads::watch_engine() {
   std::unique_lock lock(watch_mutex_);
-  bool told = false;
+  bool reported = false;
   while (running_.load(std::memory_order_relaxed)) {
     wake_watch_.wait_for(lock, kLook);
     const std::uint64_t now_ns = realtime::steady_now_ns();
     const auto since_ns = layer_.silent_since_ns(now_ns);
-    if (since_ns && !told) {
+    if (since_ns && !reported) {
       spdlog::warn("{} has reported nothing for {:.2f} s: forces have faded until it does", layer_.engine().name(),
                    1e-9 * static_cast<double>(now_ns - *since_ns));
     }
-    told = since_ns.has_value();
+    reported = since_ns.has_value();
   }
 }
 

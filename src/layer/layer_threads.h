@@ -19,7 +19,7 @@ namespace myotact::layer {
 /// its own step slows simulated time.
 class LayerThreads {
  public:
-  /// `watchdog`: of the devices, told of every tick; null: none. All arguments outlive this.
+  /// `watchdog`: of the devices, notified of every tick; null: none. All arguments outlive this.
   explicit LayerThreads(ForceLayer& layer, realtime::Watchdog* watchdog = nullptr);
   ~LayerThreads();
   LayerThreads(const LayerThreads&) = delete;

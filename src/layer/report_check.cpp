@@ -48,7 +48,7 @@ std::span<const ReportDefectText> report_defect_texts() {
   return kTexts;
 }
 
-/// Counts it; the first of its kind is told. Always false.
+/// Counts it; the first of its kind is reported. Always false.
 bool ReportCheck::find(ReportDefect defect, const std::string& detail) {
   const auto kind = static_cast<std::size_t>(defect);
   if (counts_[kind].fetch_add(1, std::memory_order_relaxed) == 0) {

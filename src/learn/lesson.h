@@ -38,11 +38,11 @@ struct PressTask {  // keep the force on the hand within a band
   double low_N = 0.0, high_N = 0.0;
   double hold_s = 1.0;
 };
-struct PredictTask {  // say what the muscle does to the joint, then pull its line and see
+struct PredictTask {  // answer what the muscle does to the joint, then pull its line and see
   int muscle = -1;
   int joint = -1;
   Motion motion = Motion::Flexion;
-  double turn_rad = 0.0;  // by so much the pull turns the joint at least
+  double turn_rad = 0.0;  // the pull rotates the joint at least by this
 };
 struct StiffenTask {  // by co-contraction, without moving the joint
   int joint = -1;
@@ -81,7 +81,7 @@ struct Step {
   Show show;
   Setting set;
   Task task;
-  std::vector<std::string> hints;  // told one by one
+  std::vector<std::string> hints;  // shown one by one
   double points = 0.0;
 };
 

@@ -40,7 +40,7 @@ std::string results_csv(const LessonRun& run) {
 }
 
 std::string results_file_name(const std::string& student, const std::string& lesson_key) {
-  constexpr std::size_t kLongest = 80;  // bytes; file systems bear 255
+  constexpr std::size_t kLongest = 80;  // bytes; file systems support 255
   std::string name;
   for (const char c : student.substr(0, kLongest)) {
     const auto byte = static_cast<unsigned char>(c);

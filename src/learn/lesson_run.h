@@ -20,7 +20,7 @@ class LessonRun {
 
   void observe(const Observation& seen);
 
-  // What the student says; ignored where the task is of another kind, or done.
+  // The student's answers; ignored where the task is of another kind, or done.
   void choose(std::size_t option);     // of name and identify
   void type(const std::string& name);  // of name
   void predict(Motion motion);         // before pulling

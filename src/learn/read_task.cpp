@@ -36,10 +36,10 @@ std::vector<std::string> joint_keys(const anatomy::Specimen& specimen) {
   return keys;
 }
 
-/// One that turns.
+/// One that rotates.
 int require_joint(const JsonValue& name, const anatomy::Specimen& specimen) {
   const std::vector<std::string> keys = joint_keys(specimen);
-  const std::string& key = keys[static_cast<std::size_t>(require_key(name, keys, "joint that turns"))];
+  const std::string& key = keys[static_cast<std::size_t>(require_key(name, keys, "joint that rotates"))];
   return anatomy::find_joint(specimen, key);
 }
 
@@ -86,7 +86,7 @@ Task read_press(JsonObject& task, const anatomy::Specimen& specimen) {
 }
 
 Task read_predict(JsonObject& task, const anatomy::Specimen& specimen) {
-  // A fifth of a degree: a pull of 3 mm turns a relaxed elbow by more, noise by a tenth of it.
+  // A fifth of a degree: a pull of 3 mm rotates a relaxed elbow by more, noise by a tenth of it.
   constexpr double kTurn_rad = 0.0035, kLeast_rad = 1e-4, kMost_rad = 0.5;
   PredictTask predict;
   predict.muscle = require_muscle(task.at("muscle"), specimen);
@@ -99,7 +99,7 @@ Task read_predict(JsonObject& task, const anatomy::Specimen& specimen) {
 }
 
 Task read_stiffen(JsonObject& task, const anatomy::Specimen& specimen) {
-  constexpr double kWithin_rad = 0.0349;  // 2 degrees, which nobody sees on a drawn limb
+  constexpr double kWithin_rad = 0.0349;  // 2 degrees, which is not visible on a drawn limb
   StiffenTask stiffen;
   const JsonValue joint = task.at("joint");
   stiffen.joint = require_joint(joint, specimen);

@@ -24,7 +24,7 @@ const messages::JointFrame* joint_of(const messages::SceneFrame& frame, int join
   return joint >= 0 && place < frame.joints.size() ? &frame.joints[place] : nullptr;
 }
 
-/// The tool that touches the part, or null. Bones of one body cannot be told apart by touch: they count as one.
+/// The tool that touches the part, or null. Bones of one body cannot be distinguished by touch: they count as one.
 const messages::ToolFrame* tool_on(const Part& part, const Observation& seen) {
   const int body = part.bone < 0 ? -1 : seen.specimen.bones[static_cast<std::size_t>(part.bone)].body;
   const auto touches = [&](const messages::ToolFrame& tool) {

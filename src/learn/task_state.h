@@ -16,7 +16,7 @@ struct Observation {
   Part selected;         // what was clicked last
 };
 
-/// What a student is told of the last answer.
+/// What is shown to a student about the last answer.
 enum class Feedback { None, Right, Wrong, TouchFirst, PullNow };
 
 /// Where a student stands in one step.
@@ -40,7 +40,7 @@ struct TaskState {
   double turned_rad = 0.0;    // since the line was taken, positive flexed; or since the step began
   double stiffness_Nm_rad = 0.0, lowest_Nm_rad = 0.0;
 
-  // To tell what is new.
+  // To detect what is new.
   bool begun = false;
   double frame_s = 0.0;    // of the last picture
   double age_s = 0.0;      // simulated, since the step began

@@ -7,14 +7,14 @@
 
 namespace myotact::measure {
 
-/// Where a case says what its mesh is.
+/// Where a case defines its mesh.
 struct MeshKeys {
   JsonValue mesh;
   std::optional<JsonValue> fibre;
   Element element = Element::T10;
 };
 
-/// The mesh named by a case, or its box, turned into what the element needs; every tet has a positive volume.
+/// The mesh named by a case, or its box, converted to what the element needs; every tet has a positive volume.
 CaseMesh read_case_mesh(const MeshKeys& keys);
 
 }  // namespace myotact::measure

@@ -31,7 +31,7 @@ double diagonal_m(const CaseMesh& mesh) {
   return (highest - lowest).norm();
 }
 
-/// Nodes whose distance from a shape is at most `reach_m`. Throws when there are none, telling how far the nearest is.
+/// Nodes whose distance from a shape is at most `reach_m`. Throws when there are none, stating how far the nearest is.
 template <class Distance>
 std::vector<int> nodes_within(const JsonValue& value, const CaseMesh& mesh, double reach_m, Distance&& distance_m) {
   std::vector<int> nodes;

@@ -61,7 +61,7 @@ double balanced_line_stiffness_Nm_rad(const LineLimb& limb, std::span<const doub
     const auto force = simulation::line_force(muscle, pose.elongation_m[line], 0.0, activation);
     return simulation::line_joint_terms(pose.geometry[line], force, limb.set.joint);
   };
-  // A line's torque is linear in its activation, so that two levels tell all.
+  // A line's torque is linear in its activation, so that two levels are enough.
   scene::TorqueTable table{{0.0, 1.0},
                            std::vector<std::vector<double>>(limb.specimen.muscles.size(), std::vector<double>(2, 0.0))};
   for (std::size_t line = 0; line < pose.geometry.size(); ++line) {

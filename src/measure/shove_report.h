@@ -7,7 +7,7 @@
 
 namespace myotact::measure {
 
-/// What a shove test says of a joint, measured beside what its stiffness, damping and inertia predict.
+/// What a shove test shows of a joint, measured beside what its stiffness, damping and inertia predict.
 struct ShoveReport {
   double pushed_stiffness_Nm_rad = 0.0;  // torque of the slow push over the angle it gave
   double read_stiffness_Nm_rad = 0.0;    // as the joint was read out before, gravity and passive joint included

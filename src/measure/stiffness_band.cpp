@@ -33,8 +33,8 @@ std::vector<Cause> causes_of(const LineLimb& limb) {
       joint_of(changed).centre_m += sign * joint_of(changed).centre_uncertainty_m * direction;
     });
     causes[1].changes.push_back([direction](LineLimb& changed, double sign) {
-      anatomy::Joint& turned = joint_of(changed);
-      turned.axes[0] = Eigen::AngleAxisd(sign * turned.axis_uncertainty_rad, direction) * turned.axes[0];
+      anatomy::Joint& rotated = joint_of(changed);
+      rotated.axes[0] = Eigen::AngleAxisd(sign * rotated.axis_uncertainty_rad, direction) * rotated.axes[0];
     });
   }
   causes[2].changes.push_back([](LineLimb& changed, double sign) {

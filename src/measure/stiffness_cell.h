@@ -34,7 +34,7 @@ scene::TorqueTable torques_at(const scene::Scene& scene, simulation::Simulation&
 
 /// One row: balances the joint on really settled torques, then measures stiffness and its parts. Starts from the file
 /// pose, so that it does not depend on what the simulation did before. Never throws for tissue that does not settle:
-/// `converged` and `held` tell.
+/// `converged` and `held` report it.
 StiffnessRow measure_cell(const CellPlace& place, simulation::Simulation& simulation);
 
 }  // namespace myotact::measure

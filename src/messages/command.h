@@ -8,7 +8,7 @@
 namespace myotact::messages {
 
 // What can be asked of a scene that runs, by its script, a window, a lesson or over the network alike. Levels are
-// activations, 0 .. 1. The emergency stop is none of these: it goes beside every queue, at once.
+// activations, 0 .. 1. The emergency stop is not one of these: it bypasses every queue, at once.
 
 struct SetLevels {  // of both sides of the co-contraction, which lead from now on
   double flexors = 0.0;

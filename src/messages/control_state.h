@@ -5,7 +5,7 @@
 
 namespace myotact::messages {
 
-/// Who says a command.
+/// Who gives a command.
 enum class Commander : std::uint8_t { Script, Window, Lesson, Network };
 
 /// Which of the controls drives the muscles of a co-contraction.

@@ -12,7 +12,7 @@ enum class DevicePhase : std::uint8_t { Closed, Opening, NeedsCalibration, Ready
 struct DeviceReport {
   DevicePhase phase = DevicePhase::Closed;
   double rate_Hz = 0.0;   // exchanges with the device in the last second
-  double warmth = -1.0;   // of the hottest motor, 0 cold .. 1 as hot as it may get; below 0: the device does not tell
+  double warmth = -1.0;   // of the hottest motor, 0 cold .. 1 as hot as it may get; below 0: not reported
   const char* hint = "";  // what the person is to do now, a sentence of static text; empty: nothing
 };
 

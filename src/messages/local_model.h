@@ -43,7 +43,7 @@ struct ReportedContact {
   double penetration_m = 0.0;             // of the tool's surface below that body's, >= 0
 };
 
-/// What an engine's collision detection said of the tool after a step: for the force methods that go by it.
+/// What an engine's collision detection reported of the tool after a step: for the force methods that go by it.
 struct ReportedContacts {
   std::array<double, 3> tool_world_m{};  // where the tool's middle was then
   std::int32_t count = 0;                // the deepest first

@@ -14,7 +14,7 @@ struct HandForce {
   std::array<double, 3> force_world_N{};
 };
 
-/// The same state of a hand that touches and holds nothing, and that nobody moves.
+/// The same state of a hand that touches and holds nothing and does not move.
 inline ToolState let_go(ToolState state) noexcept {
   state.sequence = 0;
   state.contact = {};

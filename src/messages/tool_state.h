@@ -20,7 +20,7 @@ struct ToolContact {
 
 /// What the haptic loop hands to the simulation, newest wins. The simulation adds the springs implicitly to its solve.
 struct ToolState {
-  std::uint64_t sequence = 0;  // 0: nobody has the tool in hand
+  std::uint64_t sequence = 0;  // 0: the tool is not in a hand
   std::uint64_t time_ns = 0;
   std::uint64_t model_sequence = 0;                // LocalModel in use when this was written
   std::array<double, 3> tool_position_world_m{};   // device

@@ -51,7 +51,7 @@ struct LoopChannels {
 ///   haptic loop --states--> [send thread, 1 kHz] --> server --> [receive thread] --models--> haptic loop
 ///                                                                  |--> newest scene frame
 ///
-/// Times of models are told by this machine's clock. Neither thread ever makes the haptic loop wait.
+/// Times of models are by this machine's clock. Neither thread ever makes the haptic loop wait.
 class Client {
  public:
   /// `loop`: none for a client without a hand. Its channels outlive the client and have no other user on these ends.
@@ -62,9 +62,9 @@ class Client {
 
   /// Before start(): what the receiving thread calls when somebody stopped all forces.
   void on_stop(std::function<void()> call) { on_stop_ = std::move(call); }
-  /// Connects for the first time, so that a wrong address, port or token is told at once. Throws Error Unavailable.
+  /// Connects for the first time, so that a wrong address, port or token is reported at once. Throws Error Unavailable.
   void start();
-  /// Says good-bye; threads joined. Any number of times.
+  /// Sends Bye; threads joined. Any number of times.
   void stop() noexcept;
 
   // ---- any thread but a haptic one

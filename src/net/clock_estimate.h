@@ -11,7 +11,7 @@ struct PingTimes {
   std::uint64_t left_here = 0, arrived_there = 0, left_there = 0, arrived_here = 0;
 };
 
-/// How the other side's steady clock stands to ours. Of the last few seconds of pings the one with the shortest round
+/// Offset of the other side's steady clock from ours. Of the last few seconds of pings the one with the shortest round
 /// trip counts (as in NTP, RFC 5905): what delays a packet only ever makes it look later. The error is at most half of
 /// that round trip. One thread.
 class ClockEstimate {

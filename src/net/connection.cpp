@@ -161,8 +161,8 @@ bool Connection::take_hand(HandWish wish, std::uint64_t former_id, std::uint64_t
     if (former_id != 0) refuse(ByeReason::NoHand, "no hand of the scene is free yet; come again");
     return former_id == 0;
   }
-  // A stop while it was away is told it now. Its former hand is another's, perhaps: one too many does no harm.
-  if (former_id != 0) stops_ = taken.stops_told.value_or(0);
+  // A stop while it was away is sent to it now. Another client may have its former hand: one stop too many is harmless.
+  if (former_id != 0) stops_ = taken.stops_sent.value_or(0);
   HandChannels& channels = server_.hands.channels(hand_);
   channels.forces.update();
   first_step_ = channels.forces.front().step + 2;  // the step under way may still be the former owner's

@@ -34,7 +34,7 @@ class Connection {
   bool finished() const { return finished_; }
   bool is_waiting() const { return !admitted_; }  // for its Hello
   std::uint32_t id() const { return id_; }
-  /// Tells the client, soon, why something that it asked for is not done.
+  /// Sends the client, soon, why something that it asked for is not done.
   void refuse_wish(const std::string& why);
   /// The last word of a server that has no more time for it.
   void dismiss(ByeReason reason, const std::string& why);
@@ -76,9 +76,9 @@ class Connection {
   Wants wants_;
   int hand_ = -1;
   std::uint64_t first_step_ = 0;  // whose force is of this client's hand
-  std::uint32_t stops_ = 0;       // told so far
+  std::uint32_t stops_ = 0;       // sent so far
   std::mutex refusing_;
-  std::deque<std::string> refusals_;  // of wishes, to be told
+  std::deque<std::string> refusals_;  // of wishes, to be sent
   Bytes model_bytes_;
   std::shared_ptr<const EncodedScene> shown_;  // sent last
   std::mutex writing_;

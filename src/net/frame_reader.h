@@ -15,7 +15,7 @@ class FrameReader {
   /// From now on longer payloads are refused before any of them came; at first: whatever their type ever has.
   void set_most_payload(std::size_t bytes) { most_payload_ = bytes; }
 
-  /// Where the next bytes go; never empty. Frames told before are void.
+  /// Where the next bytes go; never empty. Frames returned before are invalid.
   std::span<std::uint8_t> room();
   void filled(std::size_t count) { end_ += count; }
 
@@ -25,7 +25,7 @@ class FrameReader {
 
  private:
   Bytes buffer_;
-  std::size_t begin_ = 0, end_ = 0;  // of what came and was not told yet
+  std::size_t begin_ = 0, end_ = 0;  // of what came and was not returned yet
   std::size_t most_payload_ = kMostPayload;
   std::uint32_t sequence_ = 0;  // of the next frame
   WireFault fault_ = WireFault::None;

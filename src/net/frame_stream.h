@@ -27,7 +27,7 @@ class FrameStream {
   }
   bool write_text(const std::string& text, std::uint64_t time_ns);  // as a Control
 
-  /// The next frame, valid until the next call; nothing: why() says.
+  /// The next frame, valid until the next call; nothing: why() states the reason.
   std::optional<Frame> read();
   const std::string& why() const { return why_; }
 

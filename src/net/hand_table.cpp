@@ -37,16 +37,16 @@ HandTable::Taken HandTable::take(HandWish wish, std::uint64_t resume_id, std::fu
   best->leave_now = std::move(leave_now);
   best->resume_id = resume_id;
   Taken taken{static_cast<int>(best - places_.data()), false, {}};
-  if (best_rank == kOwn) taken.stops_told = best->stops_told;
+  if (best_rank == kOwn) taken.stops_sent = best->stops_sent;
   return taken;
 }
 
-void HandTable::leave(int hand, std::uint32_t stops_told) {
+void HandTable::leave(int hand, std::uint32_t stops_sent) {
   const std::lock_guard lock(mutex_);
   Place& place = places_[static_cast<std::size_t>(hand)];
   place.hand.channels->states.publish({});
   place.leave_now = nullptr;
-  place.stops_told = stops_told;
+  place.stops_sent = stops_sent;
   place.kept_until = std::chrono::steady_clock::now() + kKept;
 }
 

@@ -36,15 +36,15 @@ class HandTable {
 
   struct Taken {
     int hand = -1;
-    bool comes_free = false;                  // its own hand is still another connection's, which was told to leave
-    std::optional<std::uint32_t> stops_told;  // to its owner, who has come back to it, before the break
+    bool comes_free = false;                  // its own hand is still another connection's, which was asked to leave
+    std::optional<std::uint32_t> stops_sent;  // to its owner, who has come back to it, before the break
   };
   /// A free hand for a client, if there is one. One that left a moment ago gets its own hand again; until then others
   /// get it only when there is no other. `leave_now` is called, under a lock, when the client comes back by another
   /// connection while this one, which broke without a word, still has the hand.
   Taken take(HandWish wish, std::uint64_t resume_id, std::function<void()> leave_now);
-  /// Nobody has the hand from now on: it lets go of everything. Its owner was told of so many emergency stops.
-  void leave(int hand, std::uint32_t stops_told);
+  /// The hand is free from now on: it lets go of everything. `stops_sent`: emergency stops that were sent to its owner.
+  void leave(int hand, std::uint32_t stops_sent);
 
   HandChannels& channels(int hand) { return *places_[static_cast<std::size_t>(hand)].hand.channels; }
 
@@ -53,7 +53,7 @@ class HandTable {
     HandPlace hand;
     std::function<void()> leave_now;  // empty: the hand is free
     std::uint64_t resume_id = 0;      // of its owner, or its last one
-    std::uint32_t stops_told = 0;     // to its last owner
+    std::uint32_t stops_sent = 0;     // to its last owner
     std::chrono::steady_clock::time_point kept_until;
   };
 

@@ -32,7 +32,7 @@ class Server {
   /// The hands' models and forces are new.
   void ring() { state_.bell.ring(); }
   std::optional<ControlRequest> take_request() { return state_.take_request(); }
-  /// Tells a client why what it asked for is not done.
+  /// Sends a client why what it asked for is not done.
   void refuse(std::uint32_t client, const std::string& why);
   std::uint32_t stops() const { return state_.stops; }  // emergency stops that clients asked for so far
   void stop_forces();                                   // of all hands, asked for by this machine's person

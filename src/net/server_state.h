@@ -21,8 +21,8 @@
 namespace myotact::net {
 
 struct ServerSettings {
-  std::string scene_json;     // told every client after its Welcome
-  std::vector<Bytes> meshes;  // payloads of Mesh frames, told after it to clients that want them
+  std::string scene_json;     // sent to every client after its Welcome
+  std::vector<Bytes> meshes;  // payloads of Mesh frames, sent after it to clients that want them
   std::uint64_t step_ns = 0;  // of the simulation
   AccessPolicy access_policy;
   std::size_t most_connections = 64;  // a class, its instructors and some mirrors

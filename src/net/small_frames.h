@@ -23,7 +23,7 @@ struct Wants {
   bool frames = false;    // skins and bones
   bool readings = false;  // all other numbers of the scene
   bool meshes = false;    // once: triangles of skins and bones, for clients that have no files of them
-  bool in_force = false;  // what the muscles are told, and by whom
+  bool in_force = false;  // the commands in force of the muscles, and who gave them
 };
 
 struct Hello {

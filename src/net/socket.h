@@ -33,7 +33,7 @@ struct Endpoint {
   std::string host;
   std::uint16_t port = 0;
 };
-/// Throws Error Usage that says what is wrong with the text.
+/// Throws Error Usage that states what is wrong with the text.
 Endpoint parse_endpoint(const std::string& text, std::uint16_t default_port);
 
 /// Whether a numeric address or name means this machine alone.

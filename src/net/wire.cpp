@@ -96,9 +96,9 @@ WireFault parse_header(std::span<const std::uint8_t, kHeaderBytes> bytes, FrameH
 }
 
 bool has_right_crc(std::span<const std::uint8_t, kHeaderBytes> header, std::span<const std::uint8_t> payload) noexcept {
-  std::uint32_t told = 0;
-  std::memcpy(&told, header.data() + kCrcAt, sizeof told);
-  return told == crc_of(header, payload);
+  std::uint32_t received = 0;
+  std::memcpy(&received, header.data() + kCrcAt, sizeof received);
+  return received == crc_of(header, payload);
 }
 
 bool is_utf8(std::span<const std::uint8_t> text) noexcept {

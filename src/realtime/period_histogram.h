@@ -22,7 +22,7 @@ class PeriodHistogram {
   void add(std::uint64_t duration_ns) noexcept;
   /// Percentiles are the upper edge of their bin, at most 3.2 % above the truth, and never above the largest value.
   DurationSummary summary() const noexcept;
-  /// Only while nobody adds.
+  /// Only while no thread adds.
   void clear() noexcept;
 
  private:

@@ -24,8 +24,8 @@ class ForceCutout {
 ///            <-- tripped() ---------------------------------------------------'
 ///
 /// 60 ms and a look every 5 ms: zero force within 100 ms, also on a machine that is busy. A program that only hung goes
-/// on, told by tripped(), from zero force. The watchdog is a fork without exec: nothing can be missing at run time. It
-/// is in a session of its own, so that neither Ctrl-C nor Ctrl-Z reaches it, and ends with the program.
+/// on, notified by tripped(), from zero force. The watchdog is a fork without exec: nothing can be missing at run time.
+/// It is in a session of its own, so that neither Ctrl-C nor Ctrl-Z reaches it, and ends with the program.
 class Watchdog {
  public:
   /// Forks, and returns when the watchdog stands on its own: before this process has other threads. `cutout` is used by

@@ -46,7 +46,7 @@ void DelayedSession::tick(const device::HandTarget& hand) {
   take_arrivals();
   device_.set_hand_target(hand);
   loop_.tick(clock_ns_);
-  for (haptics::HapticTick tick; loop_.ticks().pop(tick);) {  // nobody else empties the queue here
+  for (haptics::HapticTick tick; loop_.ticks().pop(tick);) {  // the only reader of the queue
   }
   up_.send(clock_ns_, loop_.tool_state());
   if (const messages::ToolState* state = up_.receive(clock_ns_)) arrived_ = *state;

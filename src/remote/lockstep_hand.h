@@ -23,7 +23,7 @@ class LockstepHand {
   double time_s() const;  // of the next tick
 
  private:
-  /// Tells the state of the hand, and waits for the model that answers it.
+  /// Sends the state of the hand, and waits for the model that answers it.
   void exchange();
 
   net::Endpoint server_;

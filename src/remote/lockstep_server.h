@@ -18,8 +18,8 @@ namespace myotact::remote {
 ///
 ///   client: state of its hand --> server: one step --> model, force and scene frame of the step's end
 ///
-/// The first state only says where the hand is: it is answered by the scene at rest. Every client finds the scene at
-/// its beginning. It has the scene's first tool; other tools are nobody's.
+/// The first state only reports where the hand is: it is answered by the scene at rest. Every client finds the scene at
+/// its beginning. It has the scene's first tool; other tools have no hand.
 class LockstepServer {
  public:
   /// Listens from now on. Throws Error.

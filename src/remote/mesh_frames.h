@@ -8,7 +8,7 @@
 namespace myotact::remote {
 
 /// Payloads of the Mesh frames of a specimen: all skins, then all bones. One that is too large for a frame is left out
-/// and told in the log.
+/// and reported in the log.
 std::vector<net::Bytes> mesh_frames(const anatomy::Specimen& specimen);
 
 }  // namespace myotact::remote

@@ -17,7 +17,7 @@ class Mirror {
   Mirror(net::Client& client, const scene::Scene& scene) : client_(&client), scene_(&scene) {}
 
   /// The newest frame that fits the scene. While there is no connection, or the frames do not fit, the last one that
-  /// did, whose notice says why. False: nothing new.
+  /// did, whose notice states why. False: nothing new.
   bool fetch_frame(messages::SceneFrame& frame);
   /// Asks the server for it. False: it did not go out, for it is not an instructor's, or not to be asked from
   /// elsewhere.

@@ -50,7 +50,7 @@ std::string scene_message(const scene::Scene& scene, std::uint64_t seed) {
   std::string message = nlohmann::json{{"scene", body}}.dump();
   if (message.size() > net::kMostControl) {
     throw Error(ExitStatus::BadData,
-                fmt::format("{}: what clients are told of the scene is {} bytes; at most {}; shorten its file",
+                fmt::format("{}: the description of the scene for clients is {} bytes; at most {}; shorten its file",
                             scene.name, message.size(), net::kMostControl));
   }
   return message;

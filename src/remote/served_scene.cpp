@@ -36,7 +36,7 @@ std::vector<scene::ToolDevice> remote_tools(const std::vector<std::unique_ptr<ne
   return tools;
 }
 
-/// A skin that fits into no frame would be seen by nobody, ever.
+/// A skin that fits into no frame would never be seen.
 void check_skins(const anatomy::Specimen& specimen) {
   for (const anatomy::Muscle& muscle : specimen.muscles) {
     const std::size_t count = muscle.skin.positions_m.size();

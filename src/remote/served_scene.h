@@ -24,7 +24,7 @@ struct ServeSettings {
   std::uint64_t seed = 1;
 };
 
-/// The scene with `hands` tools: those of the file, again and again, right and left hands in turn.
+/// The scene with `hands` tools: those of the file, repeated, right and left hands alternating.
 scene::Scene with_hands(scene::Scene scene, std::size_t hands);
 
 /// A scene on the wall clock whose hands are clients of a server; nothing is felt here.

@@ -13,14 +13,14 @@ namespace myotact::scene {
 
 namespace {
 
-/// Denser towards 0, where the joint is soft: an error of 0.02 N m turns the canine stifle by 2 degrees there.
+/// Denser towards 0, where the joint is soft: an error of 0.02 N m rotates the canine stifle by 2 degrees there.
 const std::vector<double> kLevels = {0.0, 0.02, 0.04, 0.06, 0.08, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.65, 0.8, 1.0};
 
 /// What is left over is trimmed away at this rate and, so that the lag of activation and tissue (some 0.05 s together)
 /// does not make that swing, by this share at once. Twice as much sets finite elements swinging where they are soft.
 constexpr double kTrimRate_1_s = 10.0;
 constexpr double kTrimShare = 0.5;
-/// Farther from the held angle the present stiffness says nothing about the torque there. What is left over is then
+/// Farther from the held angle the present stiffness does not determine the torque there. What is left over is then
 /// taken from the angle alone, more slowly: this far away such a trim counts as stiffness.
 constexpr double kTrimReach_rad = 0.05;
 constexpr double kFarTrimRate_1_s = 2.0;
@@ -77,7 +77,7 @@ CoContraction co_contraction_of(const Scene& scene, const std::string& joint_key
     return set;
   }
   const std::string problem = joint < 0 ? "the specimen has no such joint"
-                                        : "this joint does not turn or lacks flexors or extensors in the specimen";
+                                        : "this joint does not rotate or lacks flexors or extensors in the specimen";
   throw Error(ExitStatus::Usage,
               fmt::format("--joint {}: {}; joints of {} whose stiffness can be measured: {} (nearest: {})", joint_key,
                           problem, specimen.name, join(keys), nearest_word(joint_key, keys)));

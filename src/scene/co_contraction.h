@@ -27,9 +27,9 @@ struct TorqueTable {
 /// groups of the joint, balanced. Throws Error Usage that names what `joint_key` may be.
 CoContraction co_contraction_of(const Scene& scene, const std::string& joint_key);
 
-/// Settles the simulation with the co-contraction's muscles at each level in turn, all others as the scene says. Leaves
-/// it settled at the scene's own activations. Where the tissue finds no equilibrium, the torques are those of its best
-/// state.
+/// Settles the simulation with the co-contraction's muscles at each level in order, all others as the scene states.
+/// Leaves it settled at the scene's own activations. Where the tissue finds no equilibrium, the torques are those of
+/// its best state.
 TorqueTable measure_torques(const Scene& scene, simulation::Simulation& simulation, std::span<const double> angles_rad);
 
 struct Balance {
@@ -49,8 +49,9 @@ Balance balance(const TorqueTable& table, const CoContraction& set, std::span<co
 std::vector<double> driven_activations(const CoContraction& set, const Balance& levels,
                                        std::vector<double> activations);
 
-/// Trims a balance until nothing is left over at the held angle. That is told from the present torques and the joint's
-/// stiffness, so that who pushes the joint aside feels its stiffness and no more: what a push balances is not trimmed.
+/// Trims a balance until nothing is left over at the held angle. It is computed from the present torques and the
+/// joint's stiffness, so that who pushes the joint aside feels its stiffness and no more: what a push balances is not
+/// trimmed.
 class PostureTrim {
  public:
   void restart(const simulation::JointReadout& joint);

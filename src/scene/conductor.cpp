@@ -333,7 +333,7 @@ std::string Conductor::notice() const {
     return "the line of " + scene_->specimen.muscles[static_cast<std::size_t>(muscle)].key +
            " cannot clear its wrap surface in this posture: its end lies inside it, so that its moment arm is not to "
            "be "
-           "trusted; turn the joint back, or move the wrap or the end in the specimen";
+           "trusted; rotate the joint back, or move the wrap or the end in the specimen";
   }
   if (balanced_ || !co_contracting_) return "";
   const std::string& joint = scene_->specimen.joints[static_cast<std::size_t>(scene_->co_contraction->joint)].key;

@@ -16,12 +16,12 @@
 
 namespace myotact::scene {
 
-/// Carries out the scene's script, and what people ask for, step by step: decides what the muscles and joints are
-/// told and where the hand wants to be. Lives on the simulation's thread.
+/// Carries out the scene's script, and what people ask for, step by step: decides the inputs of muscles and joints
+/// and where the hand wants to be. Lives on the simulation's thread.
 class Conductor {
  public:
   /// Puts the simulation at rest in the scene's posture; measures the torque table when the scene co-contracts.
-  /// Where there is no complete equilibrium the motion starts from what comes nearest, and notice() says so.
+  /// Where there is no complete equilibrium the motion starts from what comes nearest, and notice() reports it.
   Conductor(const Scene& scene, simulation::Simulation& simulation);
 
   /// Fills excitations, torques and gravity of the step that starts at `simulated_s`. Starts the script's due actions.
@@ -117,7 +117,7 @@ class Conductor {
 /// on the left of a person who looks at the limb from its lateral side. On a tether, where nothing pulls.
 Vec3 start_of_hand(const Scene& scene, std::size_t tool);
 
-/// Tells the simulation what a step's record says.
+/// Sets the inputs of the simulation from a step's record.
 void apply(const StepRecord& input, simulation::Simulation& simulation);
 
 }  // namespace myotact::scene

@@ -14,11 +14,11 @@ constexpr std::uint32_t kMinor =
 }  // namespace
 
 void FaultNotice::add(std::uint32_t faults, std::uint64_t now_ns) {
-  const std::uint32_t told = faults & ~kMinor;
+  const std::uint32_t reported = faults & ~kMinor;
   const std::uint32_t stopped = haptics::bit(haptics::Fault::Stopped);
   if (now_ns > seen_ns_ + kShown_ns) faults_ = 0;
-  faults_ = (faults_ & ~stopped) | told;  // a stop is told as long as it lasts, and no longer
-  if (told != 0) seen_ns_ = now_ns;
+  faults_ = (faults_ & ~stopped) | reported;  // a stop is shown as long as it lasts, and no longer
+  if (reported != 0) seen_ns_ = now_ns;
 }
 
 std::string FaultNotice::text(std::uint64_t now_ns) const {

@@ -5,7 +5,7 @@
 
 namespace myotact::scene {
 
-/// What the person at the window is told of the haptic loop's faults: the gravest one of the last 3 s with its remedy.
+/// What the window shows of the haptic loop's faults: the gravest one of the last 3 s with its remedy.
 /// Single late ticks, a proxy that stopped short and a store of energy that ran empty mend themselves: they are left to
 /// the summary of the run. One tool, one thread.
 class FaultNotice {

@@ -21,7 +21,7 @@ namespace myotact::scene {
 
 namespace {
 
-/// Steps by which simulated time may lag and still be made up for: single long steps do not slow it, steady overload
+/// Steps by which simulated time may lag and still be caught up: single long steps do not slow it, steady overload
 /// does. 30 ms at 100 Hz is less than two frames of the window.
 constexpr std::uint64_t kStepsToCatchUp = 3;
 

@@ -55,7 +55,7 @@ struct ToolDevice {
 
 /// Who watches the ticks of a session, and who makes them.
 struct Ticking {
-  realtime::Watchdog* watchdog = nullptr;  // of all devices, told of every tick; null: none
+  realtime::Watchdog* watchdog = nullptr;  // of all devices, notified of every tick; null: none
   device::ServoClock* servo = nullptr;     // null: the session's own thread
 };
 
@@ -86,11 +86,12 @@ class FreeSession final : public Session {
   void stop_forces(bool stopped) noexcept override { haptics::stop_forces(loops_, stopped); }
 
   // ---- the drawing thread
-  /// Obeyed in order, before the next step. Dropped, and told, where the queue is full. One thread.
+  /// Obeyed in order, before the next step. With a full queue it is dropped and the reason returned. One
+  /// thread.
   [[nodiscard]] std::string push(const messages::Command& command) override;
   bool fetch_frame(messages::SceneFrame& frame) override;
-  /// Whether a recording is being written. One that cannot be written any more ends, and the notice says why; what was
-  /// written stays readable, and the session goes on.
+  /// Whether a recording is being written. One that cannot be written any more ends, and the notice states why; what
+  /// was written stays readable, and the session goes on.
   bool recording() const { return recording_.load(std::memory_order_relaxed); }
   /// After stop(): why the recording could not be written to its end; empty when it was, or when there was none.
   const std::string& recording_fault() const { return recording_fault_; }
@@ -104,7 +105,7 @@ class FreeSession final : public Session {
     device::SimulatedDevice* scripted;
     std::unique_ptr<haptics::HapticLoop> loop;  // none: it runs elsewhere
     RemoteHand hand;                            // the channels of either
-    messages::ToolState newest;                 // that its loop told, or that a remote hand is heeded for
+    messages::ToolState newest;                 // from its loop, or the accepted one of a remote hand
     std::uint64_t heard_ns = 0;                 // when that came
     std::uint64_t model_sequence = 0;
     FaultNotice faults;

@@ -59,7 +59,7 @@ void LockstepHaptics::tick() {
   haptics::tick_all(loops_, clock_ns_);
   clock_ns_ += haptics::kTickPeriod_ns;
   for (haptics::HapticLoop* loop : loops_) {
-    for (haptics::HapticTick tick; loop->ticks().pop(tick);) {  // nobody else empties the queue here
+    for (haptics::HapticTick tick; loop->ticks().pop(tick);) {  // the only reader of the queue
     }
   }
 }

@@ -22,7 +22,7 @@ struct ModelRequest {
 double report_radius_m(const ToolSettings& tool);
 
 /// Fills `model` with what the simulation shows of itself to a tool: the surface played over a step from the record's
-/// time on, or standing where the record says that it holds still.
+/// time on, or standing where the record states that it holds still.
 void write_model(const simulation::Simulation& simulation, const ModelRequest& request, messages::LocalModel& model);
 
 }  // namespace myotact::scene

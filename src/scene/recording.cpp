@@ -47,7 +47,7 @@ void append(std::string& bytes, const std::vector<double>& values) {
   for (const double value : values) append(bytes, value);
 }
 
-/// Takes values off the front of a payload; `ok` turns false when it is too short.
+/// Takes values off the front of a payload; `ok` becomes false when it is too short.
 struct Cursor {
   std::string_view rest;
   bool ok = true;

@@ -19,7 +19,7 @@ namespace myotact::scene {
 // payload}, little-endian. After a crash it is readable up to the last whole chunk. Files of the first version, which
 // knew one tool, are read as well.
 
-/// What the simulation was told before a step, and the state that followed.
+/// The inputs of the simulation before a step, and the state that followed.
 struct StepRecord {
   std::vector<double> excitations;       // one a muscle
   std::vector<double> joint_torques_Nm;  // one a joint
@@ -44,7 +44,7 @@ struct ModelRecord {
   std::uint64_t published_at_ns = 0;
   bool holds_still = false;                       // the simulation paused
   std::array<double, 3> tool_position_world_m{};  // of the tool state for which it was written
-  std::size_t step = 0;  // how many steps went before; told by the place in the file, not written
+  std::size_t step = 0;                           // steps before this one; by the place in the file
 };
 
 /// What one tool's device and loop went through.

@@ -22,11 +22,11 @@ bool is_below(std::int32_t index, std::size_t count) {
 
 }  // namespace
 
-messages::ToolState heeded(const messages::ToolState& said, const anatomy::Specimen& specimen) {
-  const bool fits = is_below(said.contact.surface, specimen.muscles.size() + specimen.bones.size()) &&
-                    is_below(said.grabbed_line, specimen.muscles.size()) &&
-                    is_below(said.grabbed_body, specimen.bodies.size());
-  return fits && said.sequence > 0 ? said : messages::let_go(said);
+messages::ToolState heeded(const messages::ToolState& received, const anatomy::Specimen& specimen) {
+  const bool fits = is_below(received.contact.surface, specimen.muscles.size() + specimen.bones.size()) &&
+                    is_below(received.grabbed_line, specimen.muscles.size()) &&
+                    is_below(received.grabbed_body, specimen.bodies.size());
+  return fits && received.sequence > 0 ? received : messages::let_go(received);
 }
 
 std::array<double, 3> force_on_hand_N(const messages::LocalModel& model, const messages::ToolState& tool) {

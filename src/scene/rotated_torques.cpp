@@ -11,9 +11,9 @@ namespace {
 using simulation::LineGeometry;
 using simulation::Skeleton;
 
-/// Torque about `joint` of one muscle's line at an activation, in the pose of `turned`; `file_pose` is the same
+/// Torque about `joint` of one muscle's line at an activation, in the pose of `rotated`; `file_pose` is the same
 /// skeleton at rest. Positive flexes.
-using LineTorque = std::function<double(const Skeleton& turned, double activation)>;
+using LineTorque = std::function<double(const Skeleton& rotated, double activation)>;
 
 LineTorque line_torque(const Scene& scene, std::size_t muscle, const Skeleton& file_pose, int joint) {
   const anatomy::Muscle& given = scene.specimen.muscles[muscle];
@@ -23,16 +23,16 @@ LineTorque line_torque(const Scene& scene, std::size_t muscle, const Skeleton& f
   const bool soft = scene.settings.tissue[muscle] != simulation::TissueModel::Line;
   if (!soft) {
     const auto tissue = simulation::make_line_tissue(given, line, file_pose, scene.settings.tendon);
-    return [tissue, joint](const Skeleton& turned, double activation) {
+    return [tissue, joint](const Skeleton& rotated, double activation) {
       simulation::LineTissue at_rest = tissue;
-      return -simulation::evaluate_line_tissue(turned, simulation::TimeRule{}, activation, at_rest).residual_Nm[joint];
+      return -simulation::evaluate_line_tissue(rotated, simulation::TimeRule{}, activation, at_rest).residual_Nm[joint];
     };
   }
   LineGeometry rest;
   simulation::measure_line(line, file_pose, rest);
-  return [&given, &line, rest_m = rest.length_m, joint](const Skeleton& turned, double activation) {
+  return [&given, &line, rest_m = rest.length_m, joint](const Skeleton& rotated, double activation) {
     LineGeometry now;
-    simulation::measure_line(line, turned, now);
+    simulation::measure_line(line, rotated, now);
     return -now.slope_m_rad[joint] * simulation::line_force(given, now.length_m - rest_m, 0.0, activation).force_N;
   };
 }
@@ -46,7 +46,7 @@ TorqueTable rotated_torques(const TorqueTable& table, const Scene& scene, std::s
   Skeleton measured = file_pose, wanted = file_pose;
   measured.set_pose(measured_rad);
   wanted.set_pose(wanted_rad);
-  TorqueTable turned = table;
+  TorqueTable rotated = table;
   for (std::size_t m = 0; m < table.torque_Nm.size(); ++m) {
     if (scene.settings.tissue[m] == simulation::TissueModel::Rigid) continue;
     const int muscle = static_cast<int>(m);
@@ -57,10 +57,10 @@ TorqueTable rotated_torques(const TorqueTable& table, const Scene& scene, std::s
     const LineTorque torque = line_torque(scene, m, file_pose, set.joint);
     for (std::size_t i = 0; i < table.levels.size(); ++i) {
       const double activation = driven ? table.levels[i] : scene.activations[m];
-      turned.torque_Nm[m][i] += torque(wanted, activation) - torque(measured, activation);
+      rotated.torque_Nm[m][i] += torque(wanted, activation) - torque(measured, activation);
     }
   }
-  return turned;
+  return rotated;
 }
 
 }  // namespace myotact::scene

@@ -187,7 +187,7 @@ CoContraction read_co_contraction(const JsonValue& value, const Scene& scene) {
                                   [&](const anatomy::MuscleGroup& candidate) { return candidate.joint == set.joint; });
   if (group == scene.specimen.groups.end()) throw joint.error("the specimen has no muscle group for this joint");
   if (scene.specimen.joints[static_cast<std::size_t>(set.joint)].axes.empty()) {
-    throw joint.error("this joint does not turn; name one that does");
+    throw joint.error("this joint does not rotate; name one that does");
   }
   set.flexors = read_side(fields, "flexors", group->flexors, scene.specimen);
   set.extensors = read_side(fields, "extensors", group->extensors, scene.specimen);

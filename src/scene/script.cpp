@@ -123,7 +123,7 @@ ScriptAction read_action(const JsonValue& value, const anatomy::Specimen& specim
   return action;
 }
 
-/// A hand that is told two things at once would silently do only the later one.
+/// A hand with two commands at once would silently obey only the later one.
 void require_free_hand(const JsonValue& element, const std::vector<ScriptAction>& script, std::size_t hand_count) {
   constexpr double kSameTime_s = 1e-9;  // of sums of decimal fractions
   const ScriptAction& action = script.back();

@@ -12,8 +12,8 @@
 
 namespace myotact::scene {
 
-// What a script can ask for; assets/scenes/README.md lists the same with examples. Positions in the world frame W. What
-// muscles and joints are told is asked for by the same orders as in a window.
+// What a script can ask for; assets/scenes/README.md lists the same with examples. Positions in the world frame W.
+// Muscles and joints are controlled by the same commands as in a window.
 
 using messages::Activate, messages::CoContract, messages::HoldPosture, messages::Shove, messages::TestShove;
 

@@ -14,7 +14,7 @@ constexpr double kStrokeFrom_s = 3.0, kStrokeEnd_s = 3.05, kSwingEnd_s = 4.05;
 constexpr double kWantedTurn_rad = std::numbers::pi / 180.0;
 /// A limp or unstable joint gets the torque of this stiffness [N m/rad].
 constexpr double kLeastStiffness_Nm_rad = 0.2;
-/// The stroke is shorter than the joint's answer: it takes this many times the push to turn it as far.
+/// The stroke is shorter than the joint's answer: it takes this many times the push to rotate it as far.
 constexpr double kStrokeOverPush = 3.0;
 
 double push_share(double t_s) {

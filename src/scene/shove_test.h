@@ -38,7 +38,7 @@ class ShoveTest {
   /// `dt_s` of a step.
   explicit ShoveTest(double dt_s) : dt_s_(dt_s) {}
 
-  /// Begins anew. The push is sized to turn the joint by a degree.
+  /// Begins anew. The push is sized to rotate the joint by a degree.
   void start(int joint, const simulation::Simulation& simulation);
   bool under_way() const { return step_ >= 0; }
   int joint() const { return record_.joint; }

@@ -39,7 +39,7 @@ struct JointReadout {
   double stiffness_Nm_rad = 0.0;  // Schur complement of the quasi-static system, passive joint included
   double line_muscle_Nm_rad = 0.0;    // sum r^2 k of the muscle lines
   double line_geometry_Nm_rad = 0.0;  // -sum (dr/dq) F of the muscle lines
-  double contact_Nm_rad = 0.0;  // of the stiffness: lost if contact forces stayed as they are while the joint turns
+  double contact_Nm_rad = 0.0;  // of the stiffness: lost if contact forces stayed as they are while the joint rotates
   double passive_Nm_rad = 0.0;  // the joint's own
   double inertia_kg_m2 = 0.0;   // of all bones distal to the joint, about its axis; muscles not included
   double joint_damping_Nms_rad = 0.0;  // the joint's own
@@ -128,7 +128,7 @@ class Simulation {
 
   /// The surface near the tool, its compliance at the contact, the line and the bone nearest to (or in) the hand, the
   /// joint. `index`: the tool's place among those of the last step; what the others hold and press is part of what
-  /// this one feels. The joint is the first that may turn. With a tether everything but the tether is empty. Leaves
+  /// this one feels. The joint is the first that may rotate. With a tether everything but the tether is empty. Leaves
   /// `reported` as it is.
   void write_local_model(const messages::ToolState& tool, messages::LocalModel& model, int index = 0) const;
   /// Fills in place; the order is that of the specimen.

@@ -91,7 +91,7 @@ def drive(server, states, wants):
         for i in range(states):
             angle = 0.05 * i
             hand = (0.03 * math.cos(angle), 0.03 * math.sin(angle), 0.0)
-            client.tell(mc.ToolState(hand, sequence=i), time_ns=1_000_000 * i)
+            client.send_state(mc.ToolState(hand, sequence=i), time_ns=1_000_000 * i)
             client.read_until(mc.LOCAL_MODEL)
         return b"".join(client.received)
 
@@ -109,7 +109,7 @@ class Lockstep(unittest.TestCase):
             k = json.loads(json.loads(client.scene_json)["scene"]["text"])["original"]["spring"]["stiffness_N_m"]
             for i in range(20):
                 hand = (0.001 * i, -0.002 * i, 0.0005 * i)
-                client.tell(mc.ToolState(hand, sequence=i))
+                client.send_state(mc.ToolState(hand, sequence=i))
                 force = mc.decode_force(client.read_until(mc.FORCE).payload)
                 self.assertEqual(force.tool_sequence, i)
                 self.assertLess(math.dist(force.force_world_N, [-k * x for x in hand]), 1e-9)
@@ -121,7 +121,7 @@ class OnTheWallClock(unittest.TestCase):
             hand = (0.02, 0.01, 0.0)
             forces = []
             for i in range(2000):
-                client.tell(mc.ToolState(hand, sequence=i + 1))
+                client.send_state(mc.ToolState(hand, sequence=i + 1))
                 forces.append(mc.decode_force(client.read_until(mc.FORCE).payload).force_world_N)
                 if math.dist(forces[-1], (-0.6, -0.3, 0.0)) < 1e-9:
                     break

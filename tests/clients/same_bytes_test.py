@@ -36,7 +36,7 @@ def drive_python():
             state = mc.ToolState(hand, hand, sequence=i)
             if LINE >= 0 and i >= 10:
                 state.grip = mc.Grip(LINE, -1, 0.5, 100.0)
-            client.tell(state, time_ns=1_000_000 * i)
+            client.send_state(state, time_ns=1_000_000 * i)
             client.read_until(mc.LOCAL_MODEL)
         return client.received
 

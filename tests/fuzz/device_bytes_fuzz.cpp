@@ -35,7 +35,7 @@ void read_spacemouse(std::span<const std::uint8_t> bytes) {
     spacemouse::apply_report(bytes.subspan(1, size), cap);
     bytes = bytes.subspan(1 + size);
     for (const int counts : cap.push) testing::require(std::abs(counts) <= spacemouse::kFullDeflection);
-    for (const int counts : cap.turn) testing::require(std::abs(counts) <= spacemouse::kFullDeflection);
+    for (const int counts : cap.rotation) testing::require(std::abs(counts) <= spacemouse::kFullDeflection);
     testing::require(cap.battery_percent <= 100);
   }
 }

@@ -41,7 +41,7 @@ TEST(ShippedLessons, AreFiveAndNameTheirSources) {
   }
 }
 
-TEST(ShippedLessons, EveryPredictedMotionIsTheSignOfTheSimulatedLever) {
+TEST(ShippedLessons, EveryPredictedMotionIsTheSignOfTheSimulatedMomentArm) {
   int predictions = 0;
   for (const Shipped& one : shipped()) {
     simulation::Simulation simulation(one.scene.specimen, one.scene.settings);
@@ -76,7 +76,7 @@ TEST(ShippedLessons, WhatIsToBeFoundIsDrawn) {
 }
 
 /// The figures that the texts quote [mm].
-TEST(ShippedLessons, QuotedLeversAreTheSimulatedOnes) {
+TEST(ShippedLessons, QuotedMomentArmsAreTheSimulatedOnes) {
   const std::map<std::string, std::map<std::string, double>> quoted_mm = {
       {"2_pull_a_line", {{"biceps_brachii", 11.0}, {"brachialis", 11.0}, {"triceps_brachii_long", -32.0}}},
       {"5_hock", {{"gastrocnemius", -35.0}, {"tibialis_cranialis", 11.0}}}};
@@ -85,10 +85,10 @@ TEST(ShippedLessons, QuotedLeversAreTheSimulatedOnes) {
     if (quoted == quoted_mm.end()) continue;
     simulation::Simulation simulation(one.scene.specimen, one.scene.settings);
     simulation.settle(std::vector<double>(one.scene.joints.size(), 0.0), one.scene.activations);
-    for (const auto& [key, lever_mm] : quoted->second) {
+    for (const auto& [key, moment_arm_mm] : quoted->second) {
       const int muscle = anatomy::find_muscle(one.scene.specimen, key);
       const double simulated_m = simulation.muscle_at_joint(muscle, one.scene.co_contraction->joint).moment_arm_m;
-      EXPECT_NEAR(1e3 * simulated_m, lever_mm, 1.0) << key;
+      EXPECT_NEAR(1e3 * simulated_m, moment_arm_mm, 1.0) << key;
     }
   }
 }

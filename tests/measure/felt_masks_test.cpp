@@ -26,16 +26,16 @@ TEST(ComparedTicks, AreThoseWithAnOpenGateAStillHandAndAForceWithinTheLimit) {
     if (i >= 500 && i < 620) tick.tool.grabbed_body = 1;  // from the line to a bone, and from that to the air
   }
   const ComparedTicks found = compared_ticks(scene, run, profile, true_N);
-  ASSERT_EQ(found.judged.size(), 1000u);
+  ASSERT_EQ(found.compared.size(), 1000u);
   for (std::size_t i = 0; i < 1000; ++i) {
     const bool expected = i >= 50 && !(i >= 299 && i < 420) && !(i >= 499 && i < 740) && !(i >= 750 && i < 760);
-    EXPECT_EQ(found.judged[i], expected) << i;
+    EXPECT_EQ(found.compared[i], expected) << i;
   }
   EXPECT_EQ(found.gate, 60u);
   EXPECT_EQ(found.hand, 350u);  // three changes of 120 ticks, less where the gate was shut
   EXPECT_EQ(found.at_limit, 10u);
   true_N.resize(200);  // a truth that is shorter than the run
-  EXPECT_EQ(compared_ticks(scene, run, profile, true_N).judged.size(), 200u);
+  EXPECT_EQ(compared_ticks(scene, run, profile, true_N).compared.size(), 200u);
 }
 
 }  // namespace

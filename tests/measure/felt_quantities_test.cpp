@@ -1,4 +1,4 @@
-// Stiffness, friction and a joint's K out of runs whose forces are made up: what was planted must be found, and where
+// Stiffness, friction and a joint's K out of runs whose forces are synthetic: what was planted must be found, and where
 // nothing can be said nothing is.
 
 #include "measure/fidelity/felt_quantities.h"
@@ -25,14 +25,14 @@ struct MadeRun {
   DeviceRun run;
   ForceSeries series;
 
-  haptics::HapticTick& add(const Vec3& place_m, const Vec3& commanded_N, const Vec3& true_N, bool judged = true) {
+  haptics::HapticTick& add(const Vec3& place_m, const Vec3& commanded_N, const Vec3& true_N, bool compared = true) {
     haptics::HapticTick& tick = run.ticks.emplace_back();
     tick.device.stylus_position_world_m = to_array(place_m);
     tick.gate = haptics::GateState::On;
     series.hand_m.push_back(place_m);
     series.commanded_N.push_back(commanded_N);
     series.true_N.push_back(true_N);
-    series.judged.push_back(judged);
+    series.compared.push_back(compared);
     return tick;
   }
 };
@@ -101,7 +101,7 @@ TEST(PressStiffness, LightTouchesStrokesAndWhatIsInHandAreNone) {
   EXPECT_EQ(found({Vec3::UnitZ(), 300.0, 300.0, 3e-3, 3.0}, nothing), 0u);   // a stroke
   EXPECT_EQ(found(sound, [](MadeRun& made, std::size_t i) { made.run.ticks[i].tool.grabbed_body = 1; }), 0u);
   EXPECT_EQ(found(sound, [](MadeRun& made, std::size_t i) { made.run.ticks[i].tool.grabbed_line = 0; }), 0u);
-  EXPECT_EQ(found(sound, [](MadeRun& made, std::size_t i) { made.series.judged[i] = false; }), 0u);
+  EXPECT_EQ(found(sound, [](MadeRun& made, std::size_t i) { made.series.compared[i] = false; }), 0u);
 }
 
 /// A scene of one flat skin of 40 mm, on which a tool can slide for a while.
@@ -179,7 +179,7 @@ struct MadeJoint {
   double K_wanders = 0.0;  // share of the K that is read, either way
 };
 
-/// A bone in hand swings a joint of any axis, 10 ticks a step; the force has a part along the lever that turns nothing.
+/// A bone in hand swings a joint of any axis, 10 ticks a step; the force has a part along the arm that rotates nothing.
 std::optional<JointInHand> found_joint(const MadeJoint& joint, unsigned seed, bool in_hand = true) {
   std::mt19937 random(seed);
   scene::Scene scene;
@@ -191,7 +191,7 @@ std::optional<JointInHand> found_joint(const MadeJoint& joint, unsigned seed, bo
   scene.specimen.joints[0].axes = {any_direction(random)};
   scene.specimen.joints[0].centre_m = 0.1 * any_direction(random);
   const Vec3& axis = scene.specimen.joints[0].axes[0];
-  const Vec3 lever_m = 0.15 * any_direction(random), sideways = axis.cross(lever_m);
+  const Vec3 arm_m = 0.15 * any_direction(random), sideways = axis.cross(arm_m);
   MadeRun made;
   for (std::size_t i = 0; i < 3000; ++i) {
     const std::size_t step = i / 10;
@@ -204,8 +204,8 @@ std::optional<JointInHand> found_joint(const MadeJoint& joint, unsigned seed, bo
     made.run.step_of_tick.push_back(step);
     const double torque_Nm =
         joint.K_Nm_rad * readout.angle_rad + joint.B_Nms_rad * readout.velocity_rad_s + joint.constant_Nm;
-    const Vec3 hand_N = 1.7 * torque_Nm * sideways / sideways.squaredNorm() + 2.0 * lever_m;
-    made.add(scene.specimen.joints[0].centre_m + lever_m, -hand_N, -hand_N).tool.grabbed_body = in_hand ? 1 : -1;
+    const Vec3 hand_N = 1.7 * torque_Nm * sideways / sideways.squaredNorm() + 2.0 * arm_m;
+    made.add(scene.specimen.joints[0].centre_m + arm_m, -hand_N, -hand_N).tool.grabbed_body = in_hand ? 1 : -1;
   }
   return joint_in_hand(scene, made.run, made.series);
 }

@@ -129,12 +129,12 @@ TEST(ForceComparison, ASpringThatAnswersLateGivesTheEnergyOfItsLoop) {
 
 TEST(ForceComparison, TicksThatAreNotJudgedChangeNothing) {
   std::vector<Vec3> commanded_N = presses(4200);
-  std::vector<bool> judged(4200, true);
+  std::vector<bool> compared(4200, true);
   for (std::size_t i = 100; i < 300; ++i) {
     commanded_N[i] *= 0.2;  // a gate that opens
-    judged[i] = false;
+    compared[i] = false;
   }
-  const ForceComparison found = compare_forces({commanded_N, presses(4200), {}, judged});
+  const ForceComparison found = compare_forces({commanded_N, presses(4200), {}, compared});
   EXPECT_NEAR(found.error_rms_N, 0.0, 1e-12);
   EXPECT_NEAR(found.gain, 1.0, 1e-6);
 }

@@ -52,7 +52,7 @@ TEST(WrappedPath, StraightPathIsATriangleSide) {
   EXPECT_NEAR(measure_path(path, 0.0).length_m, 0.23, 1e-15);  // 5-12-13
 }
 
-TEST(WrappedPath, WrappedPathHasTheCylindersLever) {
+TEST(WrappedPath, WrappedPathHasTheCylindersMomentArm) {
   WrappedPath path = kPath;
   path.offset_m = 0.0;
   const PathGeometry wrapped = measure_path(path, 0.0);

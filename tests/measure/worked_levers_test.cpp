@@ -19,7 +19,7 @@ namespace {
 /// dog's authors put a marker, the worked paths in the middle of a contact or of markers.
 constexpr double kMomentArm_m = 1.5e-3;
 /// Such a difference of moment arms, made within 30 degrees.
-constexpr double kLeverSlope_m_rad = 3e-3;
+constexpr double kMomentArmSlope_m_rad = 3e-3;
 
 struct Worked {
   const char* model;
@@ -27,8 +27,8 @@ struct Worked {
   const char* joint;
 };
 
-class WorkedLevers : public ::testing::TestWithParam<Worked> {};
-INSTANTIATE_TEST_SUITE_P(Canine, WorkedLevers,
+class WorkedMomentArms : public ::testing::TestWithParam<Worked> {};
+INSTANTIATE_TEST_SUITE_P(Canine, WorkedMomentArms,
                          ::testing::Values(Worked{"line_elbow", "canine_elbow", "elbow"},
                                            Worked{"line_stifle", "canine_hindlimb", "stifle"},
                                            Worked{"line_hock", "canine_hindlimb", "tarsus"}));
@@ -43,7 +43,7 @@ std::string key_of(const std::string& worked) {
   return known == kKeys.end() ? worked : known->second;
 }
 
-TEST_P(WorkedLevers, AreThoseOfTheEmbeddedLines) {
+TEST_P(WorkedMomentArms, AreThoseOfTheEmbeddedLines) {
   const LineModel model = load_line_model(data_folder() / "assets/cases" / (std::string(GetParam().model) + ".json"));
   const auto specimen = anatomy::load_specimen(data_folder() / "meshes" / GetParam().specimen);
   simulation::Skeleton skeleton(specimen);
@@ -52,7 +52,7 @@ TEST_P(WorkedLevers, AreThoseOfTheEmbeddedLines) {
   std::vector<double> angles(static_cast<std::size_t>(skeleton.joint_count()), 0.0);
   angles[static_cast<std::size_t>(joint)] = q_rad;
   skeleton.set_pose(angles);
-  fmt::print("lever [mm] and its slope [mm/rad], of the line / of the worked model, at {:.2f} rad\n", q_rad);
+  fmt::print("moment arm [mm] and its slope [mm/rad], of the line / of the worked model, at {:.2f} rad\n", q_rad);
   for (const LineMuscle& muscle : model.joint.muscles) {
     const int index = anatomy::find_muscle(specimen, key_of(muscle.key));
     const auto line = std::find_if(specimen.lines.begin(), specimen.lines.end(),
@@ -65,7 +65,7 @@ TEST_P(WorkedLevers, AreThoseOfTheEmbeddedLines) {
     fmt::print("{:32} {:6.2f} / {:6.2f}  {:6.2f} / {:6.2f}\n", muscle.key, 1e3 * moment_arm_m, 1e3 * worked.arm_m,
                1e3 * slope_m_rad, 1e3 * worked.arm_slope_m_rad);
     EXPECT_NEAR(moment_arm_m, worked.arm_m, kMomentArm_m) << muscle.key;
-    EXPECT_NEAR(slope_m_rad, worked.arm_slope_m_rad, kLeverSlope_m_rad) << muscle.key;
+    EXPECT_NEAR(slope_m_rad, worked.arm_slope_m_rad, kMomentArmSlope_m_rad) << muscle.key;
   }
 }
 

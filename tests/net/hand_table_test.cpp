@@ -48,12 +48,12 @@ TEST_F(HandTableTest, AnOwnerGetsItsOwnHandBackAndWhatItWasTold) {
   table_.leave(1, 5);
   const HandTable::Taken back = take(HandWish::Any, 1);
   EXPECT_EQ(back.hand, 1) << "though the first one is free";
-  EXPECT_EQ(back.stops_told, 5u);
+  EXPECT_EQ(back.stops_sent, 5u);
   table_.leave(1, 6);
-  ASSERT_EQ(take(HandWish::Left, 2).stops_told, std::nullopt) << "a new owner was told nothing";
+  ASSERT_EQ(take(HandWish::Left, 2).stops_sent, std::nullopt) << "a new owner was told nothing";
   const HandTable::Taken late = take(HandWish::Any, 1);
   EXPECT_EQ(late.hand, 0);
-  EXPECT_EQ(late.stops_told, std::nullopt);
+  EXPECT_EQ(late.stops_sent, std::nullopt);
 }
 
 TEST_F(HandTableTest, TheConnectionThatBrokeIsToldToLeaveAndNoOther) {
@@ -72,7 +72,7 @@ TEST_F(HandTableTest, ClientsWithoutAnIdAreNotTakenForEachOther) {
   EXPECT_EQ(take(HandWish::Any, 0).hand, 1);
   table_.leave(0, 3);
   table_.leave(1, 4);
-  EXPECT_EQ(take(HandWish::Any, 0).stops_told, std::nullopt);
+  EXPECT_EQ(take(HandWish::Any, 0).stops_sent, std::nullopt);
   EXPECT_TRUE(told_to_leave_.empty());
 }
 

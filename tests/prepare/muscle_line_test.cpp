@@ -153,7 +153,7 @@ WrapData cylinder(const Line& l, double radius_m) {
   return data;
 }
 
-TEST(AddWraps, LieOnTheCrossingSegmentAndGiveTheirRadiusAsLever) {
+TEST(AddWraps, LieOnTheCrossingSegmentAndGiveTheirRadiusAsMomentArm) {
   Line l;
   add_wraps("rod", {cylinder(l, 0.0205)}, l.bones, l.line);
   ASSERT_EQ(l.line.wraps.size(), 1u);

@@ -30,8 +30,8 @@ TEST(PrepareLimb, MakesAMuscleThatHangsOnBothBodiesAndFlexes) {
   EXPECT_GE(std::count(rod.attachments.begin(), rod.attachments.end(), 1), 4);
   EXPECT_EQ(specimen.groups.at(0).flexors, std::vector<int>{0});
   const SurfaceReport& report = limb.muscles[0].report;
-  ASSERT_EQ(report.levers_m.size(), 1u);
-  EXPECT_NEAR(report.levers_m[0].second, 0.02, 0.003);
+  ASSERT_EQ(report.moment_arms_m.size(), 1u);
+  EXPECT_NEAR(report.moment_arms_m[0].second, 0.02, 0.003);
   EXPECT_NEAR(geometry::total_volume_m3(rod.tets), report.volume_m3, 0.01 * report.volume_m3);
   EXPECT_NEAR(report.volume_m3 + report.parted_loss_m3, geometry::enclosed_volume_m3(testing::rod_surface({})), 1e-9);
 }

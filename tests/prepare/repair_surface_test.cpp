@@ -72,7 +72,7 @@ TEST(RepairSurface, TurnsSingleTrianglesBack) {
   std::swap(mesh.triangles[7][0], mesh.triangles[7][1]);
   const RepairResult result = repair_surface("belly", mesh);
   EXPECT_NEAR(geometry::enclosed_volume_m3(result.mesh), 8e-6, 1e-12);
-  EXPECT_EQ(count_of(result, "triangles turned to their neighbours' side"), 2);
+  EXPECT_EQ(count_of(result, "triangles flipped to their neighbours' side"), 2);
 }
 
 TEST(RepairSurface, DropsCopiesNeedlesAndSpecks) {

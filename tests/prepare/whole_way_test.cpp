@@ -21,21 +21,21 @@ namespace {
 /// biceps is the radius of the fitted humeral condyle, round which the recipe leads its line: the centreline (7.5 mm)
 /// runs through the bone; the table gives 9.4 mm for the published model's sites and 11.0 mm about the model's own
 /// joint.
-const std::map<std::string, double> kLevers_m = {{"biceps_brachii", 11.35e-3},
-                                                 {"brachialis", 11.3e-3},
-                                                 {"triceps_brachii_long", -32.1e-3},
-                                                 {"triceps_brachii_lateral", -21.6e-3},
-                                                 {"triceps_brachii_medial", -22.9e-3},
-                                                 {"triceps_brachii_accessory", -30.9e-3},
-                                                 {"anconeus", -16.2e-3}};
+const std::map<std::string, double> kMomentArms_m = {{"biceps_brachii", 11.35e-3},
+                                                     {"brachialis", 11.3e-3},
+                                                     {"triceps_brachii_long", -32.1e-3},
+                                                     {"triceps_brachii_lateral", -21.6e-3},
+                                                     {"triceps_brachii_medial", -22.9e-3},
+                                                     {"triceps_brachii_accessory", -30.9e-3},
+                                                     {"anconeus", -16.2e-3}};
 /// The uncertainty of the axis.
-constexpr double kLeverTolerance_m = 3e-3;
+constexpr double kMomentArmTolerance_m = 3e-3;
 
 void check_reports(const LimbWork& limb) {
   for (const MuscleWork& muscle : limb.muscles) {
     const SurfaceReport& report = muscle.report;
-    ASSERT_EQ(report.levers_m.size(), 1u) << report.key;
-    EXPECT_NEAR(report.levers_m[0].second, kLevers_m.at(report.key), kLeverTolerance_m) << report.key;
+    ASSERT_EQ(report.moment_arms_m.size(), 1u) << report.key;
+    EXPECT_NEAR(report.moment_arms_m[0].second, kMomentArms_m.at(report.key), kMomentArmTolerance_m) << report.key;
     EXPECT_LT(std::abs(report.cage_volume_error), 0.01) << report.key;
     EXPECT_GT(report.tets.smallest_dihedral_deg, 5.0) << report.key;
     EXPECT_LE(report.skin_triangles, 2500) << report.key;
@@ -49,13 +49,13 @@ PrepareSettings two_threads() {
   return settings;
 }
 
-TEST(FullScan, BecomesASpecimenWithThePublishedLevers) {
+TEST(FullScan, BecomesASpecimenWithThePublishedMomentArms) {
   const char* folder = std::getenv("MYOTACT_CANINE_DIR");
   if (!folder) GTEST_SKIP() << "MYOTACT_CANINE_DIR is not set: the full canine meshes are not there";
   const AnatomyData recipe = read_recipe(data_folder() / "assets" / "canine" / "elbow.json");
   const Scan scan = read_scan({std::filesystem::path(folder) / "forelimb_left"}, recipe);
   LimbWork limb = make_limb(recipe, scan.bones, scan.muscles, two_threads());
-  EXPECT_EQ(prepare_limb(limb).muscles.size(), kLevers_m.size());
+  EXPECT_EQ(prepare_limb(limb).muscles.size(), kMomentArms_m.size());
   check_reports(limb);
 }
 
@@ -65,9 +65,9 @@ LimbWork lofted_limb() {
                    loft_muscles(folder / "forelimb.json"), two_threads());
 }
 
-TEST(Loft, BecomesASpecimenWithThePublishedLevers) {
+TEST(Loft, BecomesASpecimenWithThePublishedMomentArms) {
   LimbWork limb = lofted_limb();
-  EXPECT_EQ(prepare_limb(limb).muscles.size(), kLevers_m.size());
+  EXPECT_EQ(prepare_limb(limb).muscles.size(), kMomentArms_m.size());
   check_reports(limb);
 }
 

@@ -145,7 +145,7 @@ void swing(HeldDevice& device, Limb& limb, const Vec3& amplitude_m, double frequ
 
 //   axis o-------------o paw      F moment arm = torque, F across the moment arm
 //                      hand
-TEST(BoneGrab, AHandThatHoldsThePawFeelsTheJointsTorqueOverTheLever) {
+TEST(BoneGrab, AHandThatHoldsThePawFeelsTheJointsTorqueOverTheMomentArm) {
   anatomy::Specimen specimen = testing::antagonist_hinge();
   testing::BarShape coarse;
   coarse.cells = {4, 1, 1};
@@ -166,7 +166,7 @@ TEST(BoneGrab, AHandThatHoldsThePawFeelsTheJointsTorqueOverTheLever) {
     ASSERT_GT(wanted_N, 0.2 * scale);
     EXPECT_NEAR(limb.force_N().dot(across), wanted_N, 0.02 * wanted_N) << scale;
     EXPECT_LT((limb.force_N() - limb.force_N().dot(across) * across).norm(), 0.02 * wanted_N) << scale;
-    std::printf("scale %g: hand %.4f N, torque over lever %.4f N\n", scale, limb.force_N().dot(across), wanted_N);
+    std::printf("scale %g: hand %.4f N, torque over moment arm %.4f N\n", scale, limb.force_N().dot(across), wanted_N);
   }
 }
 
@@ -236,11 +236,11 @@ TEST(BoneGrab, AFreeLimbDoesNotFeelAsIfInOil) {
       along_x -= limb.force_N().z() * std::sin(w * t_s) * kTick_s;
     });
     const double damping_Ns_m = along_v / (amplitude_m * w), inertia_kg = -along_x / (amplitude_m * w * w);
-    const double lever_m2 = 0.2 * 0.2;
+    const double arm_m2 = 0.2 * 0.2;
     std::printf("late %d: felt damping %.2f N s/m (joint %.2f), inertia %.4f kg (rod %.4f)\n", late, damping_Ns_m,
-                kRodDamping_Nms_rad / lever_m2, inertia_kg, 0.2 / 3.0);
-    EXPECT_NEAR(damping_Ns_m, kRodDamping_Nms_rad / lever_m2, 1.0);  // a point played 10 ms late would add 8
-    EXPECT_NEAR(inertia_kg, 0.2 / 3.0, 0.05 * 0.2 / 3.0);            // m L^2 / 3 at the end of a thin rod
+                kRodDamping_Nms_rad / arm_m2, inertia_kg, 0.2 / 3.0);
+    EXPECT_NEAR(damping_Ns_m, kRodDamping_Nms_rad / arm_m2, 1.0);  // a point played 10 ms late would add 8
+    EXPECT_NEAR(inertia_kg, 0.2 / 3.0, 0.05 * 0.2 / 3.0);          // m L^2 / 3 at the end of a thin rod
   }
 }
 

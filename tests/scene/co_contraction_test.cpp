@@ -94,7 +94,7 @@ TEST(CoContractionOf, RefusesJointsThatCannotBeBalanced) {
   EXPECT_THAT(complaint("elbo"), ::testing::HasSubstr("nearest: elbow"));
   EXPECT_THAT(complaint("carpus"), ::testing::HasSubstr("lacks flexors or extensors"));
   scene.specimen.joints[0].type = anatomy::JointType::Weld;
-  EXPECT_THAT(complaint("elbow"), ::testing::HasSubstr("does not turn"));
+  EXPECT_THAT(complaint("elbow"), ::testing::HasSubstr("does not rotate"));
 }
 
 TEST(DrivenActivations, ReplaceThoseOfTheTwoSidesAlone) {

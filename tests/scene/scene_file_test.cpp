@@ -179,7 +179,7 @@ TEST_F(SceneFile, AWeldCannotBeCoContracted) {
     parse(R"(, "co_contraction": {"joint": "elbow"})", {{"specimen", "fused"}});
     FAIL() << "no error";
   } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("/co_contraction/joint: this joint does not turn"));
+    EXPECT_THAT(error.what(), HasSubstr("/co_contraction/joint: this joint does not rotate"));
   }
 }
 

@@ -93,7 +93,7 @@ anatomy::MuscleLine line_of(const PlanarPath& path) {
   return line;
 }
 
-TEST(LineWrap, LeversOfTheCanineMusclesAreThoseOfTheClosedForm) {
+TEST(LineWrap, MomentArmsOfTheCanineMusclesAreThoseOfTheClosedForm) {
   Skeleton skeleton(single_hinge());
   for (const PlanarPath& path : kPaths) {
     const LineGeometry geometry = measured(line_of(path), skeleton, std::array{path.demo_q_deg * kDegree});

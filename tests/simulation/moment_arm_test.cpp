@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::array kAngles_deg = {-10.0, 0.0, 20.0, 40.0, 60.0};
 /// A moment arm below the uncertainty of the fitted axes (3 mm) has no sign to speak of.
-constexpr double kNoLever_m = 3e-3;
+constexpr double kNoMomentArm_m = 3e-3;
 
 struct Limb {
   const char* name;
@@ -85,7 +85,7 @@ TEST_P(MomentArms, HaveTheSignOfThePublishedModels) {
   const auto specimen = anatomy::load_specimen(std::string(MYOTACT_SOURCE_DIR "/meshes/") + GetParam().name);
   Skeleton skeleton(specimen);
   int compared = 0;
-  fmt::print("lever of the line / of the published sites [mm] at {} degrees\n", fmt::join(kAngles_deg, ", "));
+  fmt::print("moment arm of the line / of the published sites [mm] at {} degrees\n", fmt::join(kAngles_deg, ", "));
   for (const anatomy::MuscleLine& line : specimen.lines) {
     const std::string& key = specimen.muscles[static_cast<std::size_t>(line.muscle)].key;
     const std::string name = key.find('.') == std::string::npos ? GetParam().prefix + key : key;
@@ -99,7 +99,7 @@ TEST_P(MomentArms, HaveTheSignOfThePublishedModels) {
         const double ours = moment_arm_m(line, skeleton, j, angle_rad);
         const double theirs = moment_arm_m(published, skeleton, j, angle_rad);
         row += fmt::format(" {:6.1f}/{:6.1f}", 1e3 * ours, 1e3 * theirs);
-        if (std::min(std::abs(ours), std::abs(theirs)) < kNoLever_m) continue;
+        if (std::min(std::abs(ours), std::abs(theirs)) < kNoMomentArm_m) continue;
         EXPECT_GT(ours * theirs, 0.0) << key << " at " << angle_deg << " degrees";
         ++compared;
       }

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kTurn_rad = 0.5 * 3.14159265358979323846 / 180.0;
 constexpr double kAgreement = 0.05;
-/// With less leverage a joint's turn hardly changes the length, and rounding would be divided by it.
-constexpr double kLeastLever_m = 2e-3;
+/// With a smaller moment arm a joint's rotation hardly changes the length, and rounding would be divided by it.
+constexpr double kLeastMomentArm_m = 2e-3;
 constexpr double kActivation = 0.5;
 
 class WholeLimb : public ::testing::TestWithParam<const char*> {
@@ -33,12 +33,12 @@ class WholeLimb : public ::testing::TestWithParam<const char*> {
   }
 
   /// The hinge that changes a muscle's length most, with its moment arm; none when the muscle crosses no hinge.
-  std::pair<int, double> best_lever_m(std::size_t muscle) const {
+  std::pair<int, double> best_moment_arm_m(std::size_t muscle) const {
     LineGeometry geometry;
     for (const anatomy::MuscleLine& line : specimen_.lines) {
       if (line.muscle == static_cast<int>(muscle)) measure_line(line, Skeleton(specimen_), geometry);
     }
-    std::pair<int, double> best{-1, kLeastLever_m};
+    std::pair<int, double> best{-1, kLeastMomentArm_m};
     for (int j = 0; j < static_cast<int>(specimen_.joints.size()); ++j) {
       if (std::abs(geometry.slope_m_rad[j]) > std::abs(best.second)) best = {j, geometry.slope_m_rad[j]};
     }
@@ -68,9 +68,9 @@ TEST_P(WholeLimb, ForcesChangeWithLengthAsTheLinesDo) {
     ASSERT_EQ(flexed.size(), specimen_.muscles.size());
     ASSERT_EQ(extended.size(), specimen_.muscles.size());
     for (std::size_t m = 0; m < flexed.size(); ++m) {
-      const auto [joint, lever] = best_lever_m(m);
+      const auto [joint, moment_arm_m] = best_moment_arm_m(m);
       if (joint != j) continue;
-      const double stiffness = (flexed[m] - extended[m]) / (2.0 * kTurn_rad * lever);
+      const double stiffness = (flexed[m] - extended[m]) / (2.0 * kTurn_rad * moment_arm_m);
       const LineForce line = line_force(specimen_.muscles[m], 0.0, 0.0, kActivation);
       EXPECT_NEAR(stiffness / line.stiffness_N_m, 1.0, kAgreement)
           << specimen_.muscles[m].key << " across " << specimen_.joints[static_cast<std::size_t>(j)].key;

@@ -8,7 +8,7 @@
 #include "simulation/simulation.h"
 #include "support/wrapped_specimen.h"
 
-// Muscles of finite elements that lie on a cylinder of bone about the hinge: nobody gives them their moment arm,
+// Muscles of finite elements that lie on a cylinder of bone about the hinge: their moment arm is not given,
 // contact makes it. Closed forms: torque r F, stiffness sum r^2 k, with r the cylinder's radius and half the muscle's
 // thickness.
 
@@ -25,7 +25,7 @@ double torque(Simulation& simulation, double q_rad, double activation) {
 
 }  // namespace
 
-TEST(WrappedMuscle, LeverEmergesAndStaysThroughTheRange) {
+TEST(WrappedMuscle, MomentArmEmergesAndStaysThroughTheRange) {
   const testing::WrappedBar bar;
   const anatomy::Specimen specimen = testing::wrapped_hinge(bar, false);
   Simulation simulation(specimen, {});
@@ -34,7 +34,7 @@ TEST(WrappedMuscle, LeverEmergesAndStaysThroughTheRange) {
     const double torque_Nm = torque(simulation, degrees * kDegree_rad, 0.3);
     const double moment_arm_m = torque_Nm / simulation.muscle_force_N(0);
     const LineForce line = line_force(specimen.muscles[0], -bar.moment_arm_m() * degrees * kDegree_rad, 0.0, 0.3);
-    fmt::print("q {:5.1f} deg: force {:.3f} N of {:.3f}, lever {:.3f} mm of {:.3f}, deepest {:.3f} mm\n", degrees,
+    fmt::print("q {:5.1f} deg: force {:.3f} N of {:.3f}, moment arm {:.3f} mm of {:.3f}, deepest {:.3f} mm\n", degrees,
                simulation.muscle_force_N(0), line.force_N, 1e3 * moment_arm_m, 1e3 * bar.moment_arm_m(),
                1e3 * simulation.contact_depth_m(0));
     EXPECT_NEAR(moment_arm_m, bar.moment_arm_m(), 0.03 * bar.moment_arm_m());
@@ -44,7 +44,7 @@ TEST(WrappedMuscle, LeverEmergesAndStaysThroughTheRange) {
 }
 
 // Fibres alone would give sum r^2 k of the lines. Beside them lies the matrix, a bar of E = 3 mu that the lines do not
-// have; half activation is where calibration makes up for it, so the fibres' share is what it leaves there. What
+// have; half activation is where calibration compensates it, so the fibres' share is what it leaves there. What
 // remains of the 10 % is the moment arm: the pressure of the wrapped belly thins it.
 TEST(WrappedMuscle, StiffnessOfAnEqualPairIsTheClosedForm) {
   const testing::WrappedBar bar;

@@ -114,7 +114,7 @@ void add_table(anatomy::Specimen& specimen) {
   add_box(specimen, {"table", {0.16, 0.16, 0.004}, {0.0, 0.0, -0.06}, 1.0});  // fixed: its mass is without effect
 }
 
-/// The scene says where cube and particle are, and what the particle's mass is.
+/// The scene states where cube and particle are, and what the particle's mass is.
 anatomy::Specimen particle() {
   constexpr double kRadius_m = 5e-3, kMass_kg = 0.2;
   anatomy::Specimen specimen = empty_specimen("particle");

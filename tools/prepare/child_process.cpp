@@ -31,7 +31,7 @@ void write_all(int pipe, std::string_view bytes) {
 
 void set_limits(int limit_s) {
   const auto cpu_s = static_cast<rlim_t>(limit_s);
-  const rlimit cpu{cpu_s, cpu_s + 1};  // equal limits would end it by a signal that does not tell why
+  const rlimit cpu{cpu_s, cpu_s + 1};  // equal limits would end it by a signal that does not show why
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CPU, &cpu);
   ::setrlimit(RLIMIT_CORE, &no_core);

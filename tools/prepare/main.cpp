@@ -1,4 +1,4 @@
-// The program myotact-prepare: reads the command line, turns every error into one line and a status.
+// The program myotact-prepare: reads the command line, reports every error as one line and a status.
 
 #include <exception>
 #include <new>

@@ -33,7 +33,7 @@ anatomy::Specimen mirrored(anatomy::Specimen specimen) {
   }
   for (anatomy::Joint& joint : specimen.joints) {
     flip(joint.centre_m);
-    for (Vec3& axis : joint.axes) axis = Vec3(-axis.x(), axis.y(), -axis.z());  // axial: the sense of turning stays
+    for (Vec3& axis : joint.axes) axis = Vec3(-axis.x(), axis.y(), -axis.z());  // axial: the sense of rotation stays
   }
   for (anatomy::Muscle& muscle : specimen.muscles) {
     flip(muscle.tets);

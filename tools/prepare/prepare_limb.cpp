@@ -105,16 +105,16 @@ void run_stages(LimbWork& limb, const std::string& last, const OnProgress& on_pr
     std::mutex mutex;
     Progress progress{stage.name, 0, static_cast<int>(limb.muscles.size()), before};
     if (stage.with_bones) progress.parts += static_cast<int>(limb.bones.size());
-    const auto tell = [&] {
+    const auto report = [&] {
       if (on_progress) on_progress(progress);
     };
-    tell();
+    report();
     const auto start = std::chrono::steady_clock::now();
     stage.run(limb, [&] {
       const std::lock_guard lock(mutex);
       ++progress.done;
       progress.whole = before + stage.share * std::min(1.0, static_cast<double>(progress.done) / progress.parts);
-      tell();
+      report();
     });
     limb.stage_seconds.emplace_back(stage.name,
                                     std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());

@@ -20,7 +20,7 @@ namespace {
 constexpr int kSchema = 1;
 constexpr std::array kSections = {"falcon", "force_dimension", "inverse3", "placement", "spacemouse", "touch"};
 
-/// A vector whose numbers are within the limit, so that no turn or place beyond sense reaches the loop.
+/// A vector whose numbers are within the limit, so that no invalid rotation or place reaches the loop.
 Vec3 vector_within(const JsonValue& value, double limit) {
   const Vec3 vector = value.vec3();
   if (vector.cwiseAbs().maxCoeff() <= limit) return vector;
@@ -112,7 +112,7 @@ TablePlacement read_placement(const JsonValue& value) {
   return placement;
 }
 
-/// What cannot even be looked at is: reading it says why.
+/// A file whose status cannot be read counts as there: reading it reports why.
 bool is_there(const std::filesystem::path& file) {
   std::error_code problem;
   return !file.empty() && std::filesystem::status(file, problem).type() != std::filesystem::file_type::not_found;

@@ -13,7 +13,7 @@ double angle_from_side(const Vec3& side, const Vec3& p) {
 }
 
 /// Rotation of the unit vector `side` about z, seen along z.
-Vec3 turned(const Vec3& side, double angle_rad) {
+Vec3 rotated(const Vec3& side, double angle_rad) {
   const double c = std::cos(angle_rad), s = std::sin(angle_rad);
   return Vec3(c * side.x() - s * side.y(), s * side.x() + c * side.y(), 0.0);
 }
@@ -37,8 +37,8 @@ std::optional<Geodesic> geodesic_on_cylinder(const WrapSurface& surface, const V
   const double rise_m = q_m.z() - p_m.z();
   const double whole_m = std::hypot(planar_m, rise_m);
   Geodesic way;
-  way.start_normal = turned(side, p_rad + sense * to_start_rad);
-  way.end_normal = turned(side, q_rad - sense * to_end_rad);
+  way.start_normal = rotated(side, p_rad + sense * to_start_rad);
+  way.end_normal = rotated(side, q_rad - sense * to_end_rad);
   way.start_m = radius_m * way.start_normal;
   way.end_m = radius_m * way.end_normal;
   way.start_m.z() = p_m.z() + rise_m * p_tangent_m / planar_m;

@@ -19,7 +19,7 @@ constexpr int kStages = 16;
 constexpr double kMiss = 1e-13;
 /// A way that ran past q is cut back so far behind it [of its distance to q].
 constexpr double kBackUp = 0.5;
-/// The search turns and lengthens the way by no more than this in a round [rad; largest radii].
+/// The search rotates and lengthens the way by no more than this in a round [rad; largest radii].
 constexpr double kLargestRotation_rad = 0.4, kLargestStep = 0.5;
 
 /// A point that follows a geodesic, with the fields of its neighbours (Geodesic).
@@ -94,7 +94,7 @@ class Ellipsoid {
 struct Contour {
   Vec3 radii, middle, first, second;  // the last three in the space of the sphere
 
-  /// At turn 0 through `touch`, a point of the unit sphere.
+  /// At angle_rad 0 through `touch`, a point of the unit sphere.
   Contour(const Vec3& radii_m, const Vec3& p_m, const Vec3& touch) : radii(radii_m) {
     const Vec3 p = p_m.cwiseQuotient(radii_m);
     middle = p / p.squaredNorm();
@@ -102,8 +102,12 @@ struct Contour {
     second = p.normalized().cross(first);
   }
 
-  Vec3 at(double turn) const { return radii.cwiseProduct(middle + std::cos(turn) * first + std::sin(turn) * second); }
-  Vec3 slope(double turn) const { return radii.cwiseProduct(std::cos(turn) * second - std::sin(turn) * first); }
+  Vec3 at(double angle_rad) const {
+    return radii.cwiseProduct(middle + std::cos(angle_rad) * first + std::sin(angle_rad) * second);
+  }
+  Vec3 slope(double angle_rad) const {
+    return radii.cwiseProduct(std::cos(angle_rad) * second - std::sin(angle_rad) * first);
+  }
 };
 
 struct Ends {
@@ -136,11 +140,11 @@ Geodesic shoot(const Ellipsoid& ellipsoid, const Ends& ends, const Vec3& touch, 
 
 /// What a round of the search changes.
 struct Correction {
-  double turn = 0.0, arc = 0.0, miss = 0.0;
+  double angle_rad = 0.0, arc = 0.0, miss = 0.0;
 };
 
-/// Newton's step towards a string that hits q: sideways by turning the start on its contour, up and down by leaving the
-/// surface later.
+/// Newton's step towards a string that hits q: sideways by rotating the start on its contour, up and down by leaving
+/// the surface later.
 Correction correction(const Ellipsoid& ellipsoid, const Ends& ends, const Geodesic& way, const Vec3& start_slope) {
   const Vec3 start_side = way.start_normal.cross(way.start_direction);
   const Vec3 side = way.end_normal.cross(way.end_direction);
@@ -156,8 +160,8 @@ Correction correction(const Ellipsoid& ellipsoid, const Ends& ends, const Geodes
   Correction c;
   const double up = left.dot(way.end_normal), sideways = left.dot(side);
   c.miss = std::hypot(up, sideways);
-  c.turn = sideways / (end_shift + ahead * end_swing);
-  c.arc = -up / (bend * ahead) - (way.start_direction.dot(start_slope) + twist * end_shift / bend) * c.turn;
+  c.angle_rad = sideways / (end_shift + ahead * end_swing);
+  c.arc = -up / (bend * ahead) - (way.start_direction.dot(start_slope) + twist * end_shift / bend) * c.angle_rad;
   return c;
 }
 
@@ -176,7 +180,7 @@ double first_time(const Ellipsoid& ellipsoid, const Vec3& radii, const Geodesic&
 
 /// The search's unknowns.
 struct Course {
-  double turn = 0.0, time = 0.0;
+  double angle_rad = 0.0, time = 0.0;
 };
 
 Geodesic search(const Vec3& radii, const Vec3& p_scaled, const Vec3& q_scaled, const Vec3& touch_scaled,
@@ -189,11 +193,11 @@ Geodesic search(const Vec3& radii, const Vec3& p_scaled, const Vec3& q_scaled, c
   double best_miss = 1e300;
   Course now = course;
   for (int round = 0; round < kMostRounds && !(best_miss <= close); ++round) {
-    const Geodesic way = shoot(ellipsoid, ends, contour.at(now.turn), now.time);
-    const Correction c = correction(ellipsoid, ends, way, contour.slope(now.turn));
+    const Geodesic way = shoot(ellipsoid, ends, contour.at(now.angle_rad), now.time);
+    const Correction c = correction(ellipsoid, ends, way, contour.slope(now.angle_rad));
     if (c.miss < best_miss) best_miss = c.miss, best = way, course = now;
-    if (!std::isfinite(c.turn) || !std::isfinite(c.arc)) break;
-    now.turn += std::clamp(c.turn, -kLargestRotation_rad, kLargestRotation_rad);
+    if (!std::isfinite(c.angle_rad) || !std::isfinite(c.arc)) break;
+    now.angle_rad += std::clamp(c.angle_rad, -kLargestRotation_rad, kLargestRotation_rad);
     now.time = std::max(0.0, now.time + std::clamp(c.arc, -largest_step, largest_step) / ellipsoid.pace(way.end_m));
   }
   best.holds = best_miss <= 1e4 * close;

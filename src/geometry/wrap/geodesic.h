@@ -15,8 +15,8 @@ struct Geodesic {
   Vec3 start_direction = Vec3::Zero(), end_direction = Vec3::Zero();  // unit, along the string from p to q
   Vec3 start_normal = Vec3::Zero(), end_normal = Vec3::Zero();        // unit, outward
   double length_m = 0.0;
-  /// How neighbouring geodesics part (Jacobi fields): a start shifted sideways by a and turned by b ends up shifted by
-  /// a spread + b reach_m and turned by a spread_rate_1_m + b reach_rate.
+  /// How neighbouring geodesics part (Jacobi fields): a start shifted sideways by a and rotated by b ends up shifted by
+  /// a spread + b reach_m and rotated by a spread_rate_1_m + b reach_rate.
   double spread = 1.0, spread_rate_1_m = 0.0, reach_m = 0.0, reach_rate = 1.0;
   double time = 0.0;  // of an ellipsoid: what the way takes, as its source counts time
   bool holds = true;  // false: more than half round, or the search did not converge and this is the best so far

@@ -12,13 +12,13 @@ namespace {
 /// Below this sine of the angle between p and q their plane is lost in rounding.
 constexpr double kLeastSine = 1e-12;
 
-/// The plane in which the string runs: a turn by angle_rad about the normal takes the direction of p to that of q.
-struct Turn {
+/// The plane in which the string runs: a rotation by angle_rad about the normal takes the direction of p to that of q.
+struct Rotation {
   Vec3 normal = Vec3::UnitZ();
   double angle_rad = 0.0;  // 0 .. 2 pi
 };
 
-Turn turn_on_side(const Vec3& side, const Vec3& p, const Vec3& q) {
+Rotation rotation_on_side(const Vec3& side, const Vec3& p, const Vec3& q) {
   const Vec3 across = p.cross(q);
   const double sine = across.norm(), cosine = p.dot(q);
   if (sine <= kLeastSine) {
@@ -41,24 +41,24 @@ std::optional<Geodesic> geodesic_on_sphere(const WrapSurface& surface, const Vec
   const double radius_m = surface.radii_m[0];
   const double a_m = p_m.norm(), b_m = q_m.norm();
   const Vec3 p = p_m / a_m, q = q_m / b_m;
-  const Turn turn = turn_on_side(surface.side, p, q);
+  const Rotation rotation = rotation_on_side(surface.side, p, q);
   const double to_start_rad = std::acos(std::min(1.0, radius_m / a_m));
   const double to_end_rad = std::acos(std::min(1.0, radius_m / b_m));
-  const double arc_rad = turn.angle_rad - to_start_rad - to_end_rad;
+  const double arc_rad = rotation.angle_rad - to_start_rad - to_end_rad;
   if (!(arc_rad > 0.0)) return std::nullopt;
 
   Geodesic way;
-  way.start_normal = std::cos(to_start_rad) * p + std::sin(to_start_rad) * turn.normal.cross(p);
-  way.end_normal = std::cos(to_end_rad) * q - std::sin(to_end_rad) * turn.normal.cross(q);
+  way.start_normal = std::cos(to_start_rad) * p + std::sin(to_start_rad) * rotation.normal.cross(p);
+  way.end_normal = std::cos(to_end_rad) * q - std::sin(to_end_rad) * rotation.normal.cross(q);
   way.start_m = radius_m * way.start_normal;
   way.end_m = radius_m * way.end_normal;
-  way.start_direction = turn.normal.cross(way.start_normal);
-  way.end_direction = turn.normal.cross(way.end_normal);
+  way.start_direction = rotation.normal.cross(way.start_normal);
+  way.end_direction = rotation.normal.cross(way.end_normal);
   way.length_m = radius_m * arc_rad;
   way.spread = way.reach_rate = std::cos(arc_rad);
   way.spread_rate_1_m = -std::sin(arc_rad) / radius_m;
   way.reach_m = radius_m * std::sin(arc_rad);
-  way.holds = turn.angle_rad <= std::numbers::pi;
+  way.holds = rotation.angle_rad <= std::numbers::pi;
   return way;
 }
 

@@ -80,10 +80,10 @@ WrapPath straight_path(const Vec3& p_m, const Vec3& q_m) {
   return path;
 }
 
-// A small move of an end across the string turns its straight part: in the direction of the normal about the point
-// where it touches; sideways, so that the neighbouring string (start shifted by a, turned by (a - move)/l_P) still
+// A small move of an end across the string rotates its straight part: in the direction of the normal about the point
+// where it touches; sideways, so that the neighbouring string (start shifted by a, rotated by (a - move)/l_P) still
 // meets the other end. With the fields C, C' (spread) and D, D' (reach) of Geodesic and the straight lengths l_P and
-// l_Q, that other end would be missed by G = D + l_Q D' + l_P C + l_P l_Q C' for a turn by 1 at p, hence the terms
+// l_Q, that other end would be missed by G = D + l_Q D' + l_P C + l_P l_Q C' for a rotation by 1 at p, hence the terms
 // below; they are symmetric since C D' - C' D = 1.
 WrapPath bent_path(const Geodesic& way, const Vec3& p_m, const Vec3& q_m) {
   WrapPath path;

@@ -41,7 +41,7 @@ struct WrapPath {
 /// straight; length and slope go over smoothly, the second derivatives jump. Spheres and ellipsoids: the same in the
 /// plane of p, q and the centre. They hold a string while both ends are less than 90 degrees from the side, seen from
 /// the centre; one that goes more than half round is balanced and not shortest, would slip off in nature, does so here
-/// when an end leaves the plane of the others, and says that it does not clear. An end inside counts as if it lay on
+/// when an end leaves the plane of the others, and reports that it does not clear. An end inside counts as if it lay on
 /// the surface, straight out from the centre: the length stays continuous. Cylinder and sphere in closed form; of an
 /// ellipsoid the geodesic is integrated, good to 1e-9 of its length.
 WrapPath wrap_path(const WrapSurface& surface, const Vec3& p_m, const Vec3& q_m);

@@ -18,7 +18,7 @@ double spectral_density_1_Hz(std::span<const double> reflection, double frequenc
 /// Share of the power at and above a frequency, 0 .. 1.
 double power_above(std::span<const double> reflection, double frequency_Hz, double rate_Hz);
 
-/// Runs a process in the normalised lattice (Gray and Markel 1975): every stage turns a pair of numbers,
+/// Runs a process in the normalised lattice (Gray and Markel 1975): every stage rotates a pair of numbers,
 ///
 ///   | f_(m-1) |   | c  -k | | f_m           |      k the reflection coefficient, c = sqrt(1 - k^2)
 ///   | g_m     | = | k   c | | g_(m-1), late |

@@ -30,9 +30,9 @@ struct BoneDragSettings {
 ///                                                    it spread over a step
 ///
 /// Half and a tenth were found by trying: point masses of 5 g to 1.5 kg on 0 to 1000 N/m, grips of 300 to 1000 N/m and
-/// models 0 or 1 step late all stay calm in a hand; whole corrections do not, because limb and model take turns to
-/// overshoot. Force rises over 100 ms after the grab and dies out over 100 ms after the release, in the simulation too.
-/// Real-time safe; one thread.
+/// models 0 or 1 step late all stay calm in a hand; whole corrections do not, because limb and model overshoot
+/// alternately. Force rises over 100 ms after the grab and dies out over 100 ms after the release, in the simulation
+/// too. Real-time safe; one thread.
 class BoneDrag {
  public:
   explicit BoneDrag(const BoneDragSettings& settings);

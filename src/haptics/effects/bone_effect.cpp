@@ -62,7 +62,7 @@ PortTick BoneEffect::port(const HandTick& hand, const Vec3& force_N) noexcept {
   return port;
 }
 
-void BoneEffect::tell(messages::ToolState& tool) const noexcept {
+void BoneEffect::report(messages::ToolState& tool) const noexcept {
   tool.grabbed_body = held_.body;
   tool.body_point_rest_m = held_.point_rest_m;
   tool.body_target_world_m = to_array(held_.target_m);

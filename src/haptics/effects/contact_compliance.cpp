@@ -9,7 +9,7 @@ namespace {
 /// Stiffest coupling, where the tissue gives way enough for the device: tissue of 1000 N/m then reads 3 % soft. Twice
 /// that makes the encoder's 20 um felt on stiff tissue (measured: 30 instead of 20 mN), half of it doubles the error.
 constexpr double kLargestCoupling_N_m = 3e4;
-/// No tissue gives way more in a step: 5 N would move it by half a metre. A model that says so is broken.
+/// No tissue gives way more in a step: 5 N would move it by half a metre. A model with more is invalid.
 constexpr double kLargestCompliance_m_N = 0.1;
 
 /// Part of the way to the model's numbers that a tick goes: all of them are reached when the model is played.
@@ -25,7 +25,7 @@ double along(const Vec3& normal, const std::array<double, 9>& rows) {
   return std::clamp(normal.dot(compliance * normal), 0.0, kLargestCompliance_m_N);
 }
 
-/// Stands for none, so that nothing is divided by 0: a millimetre gives 1 uN.
+/// Used in place of 0, so that nothing is divided by 0: a millimetre gives 1 uN.
 constexpr double kLeastStiffness_N_m = 1e-3;
 
 }  // namespace
@@ -51,7 +51,7 @@ void ContactCompliance::tick(const messages::LocalModel& model, const ProxyConta
   used_N_ += share * (used_N - used_N_);
 }
 
-void ContactCompliance::bear(double stiffness_N_m) noexcept {
+void ContactCompliance::limit_stiffness(double stiffness_N_m) noexcept {
   stiffness_N_m_ = std::max(stiffness_N_m, kLeastStiffness_N_m);
 }
 

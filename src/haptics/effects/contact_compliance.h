@@ -24,7 +24,7 @@ namespace myotact::haptics {
 class ContactCompliance {
  public:
   /// What the device supports from now on [N/m]; next to nothing where it is 0.
-  void bear(double stiffness_N_m) noexcept;
+  void limit_stiffness(double stiffness_N_m) noexcept;
   /// Plays the model's contact on to `now_ns`. `touching`: what the proxy touched at the end of the last tick. `dt_s`
   /// > 0, of the tick.
   void tick(const messages::LocalModel& model, const ProxyContact& touching, std::uint64_t now_ns,

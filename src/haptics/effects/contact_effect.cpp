@@ -33,7 +33,7 @@ ContactEffect::ContactEffect(const HapticSettings& settings, const device::Devic
 EffectTick ContactEffect::tick(const HandTick& hand, EffectNotes& notes) noexcept {
   EffectTick tick;
   tick.faults = soften(hand);
-  // A hand that holds the bone does not also press on it: two springs would be stiffer than the device stands.
+  // A hand that holds the bone does not also press on it: two springs would be stiffer than the device supports.
   share_ = (1.0 - notes.bone_gain) * age_share_ * buzz_.stiffness_share();
   const TouchTick felt = std::visit([&](auto& method) { return method.tick(hand, share_); }, method_);
   force_N_ = felt.force_N;
@@ -54,16 +54,16 @@ std::uint32_t ContactEffect::soften(const HandTick& hand) noexcept {
   if (buzz_.tick(hand.hand.position_m, hand.sent_N > kFelt_N, hand.dt_s)) faults |= bit(Fault::Buzz);
   if (hand.model == nullptr || !limit_stiffness_) return faults;
   const double age_s = std::max(1e-3, hand.model_age_s);
-  const double bears = std::min(1.0, stiffness_by_age_N_m(age_s) / stiffness_N_m_);
-  age_share_ += std::min(1.0, hand.dt_s / (bears < age_share_ ? kSoften_s : kStiffen_s)) * (bears - age_share_);
-  if (bears < 1.0) faults |= bit(Fault::StiffnessLowered);
+  const double allowed = std::min(1.0, stiffness_by_age_N_m(age_s) / stiffness_N_m_);
+  age_share_ += std::min(1.0, hand.dt_s / (allowed < age_share_ ? kSoften_s : kStiffen_s)) * (allowed - age_share_);
+  if (allowed < 1.0) faults |= bit(Fault::StiffnessLowered);
   return faults;
 }
 
-void ContactEffect::tell(messages::ToolState& tool) const noexcept {
+void ContactEffect::report(messages::ToolState& tool) const noexcept {
   tool.contact = {};
   tool.touched_world_m = {};
-  std::visit([&](const auto& method) { method.tell(force_N_, share_, tool); }, method_);
+  std::visit([&](const auto& method) { method.report(force_N_, share_, tool); }, method_);
 }
 
 }  // namespace myotact::haptics

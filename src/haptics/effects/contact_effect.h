@@ -20,7 +20,7 @@ class ContactEffect {
 
   EffectTick tick(const HandTick& hand, EffectNotes& notes) noexcept;
   /// The proxy's place, and the contact with the spring that the simulation adds to its solve.
-  void tell(messages::ToolState& tool) const noexcept;
+  void report(messages::ToolState& tool) const noexcept;
 
  private:
   std::uint32_t soften(const HandTick& hand) noexcept;

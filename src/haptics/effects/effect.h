@@ -40,8 +40,8 @@ struct Touch {
   bool presses = false;                    // its spring is stretched or may be
 };
 
-/// What effects tell each other. It outlives the tick: an effect finds what those before it (effects.h) told in this
-/// tick, and what those after it told in the last one.
+/// What effects pass to each other. It outlives the tick: an effect finds what those before it (effects.h) wrote in
+/// this tick, and what those after it wrote in the last one.
 struct EffectNotes {
   bool holds_bone = false;             // BoneEffect: in hand or just let go
   double bone_gain = 0.0;              // how far the hand has closed on it, 0 .. 1

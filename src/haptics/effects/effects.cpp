@@ -24,8 +24,8 @@ const EffectTicks& Effects::tick(const HandTick& hand) noexcept {
   return ticks_;
 }
 
-void Effects::tell(messages::ToolState& tool) const noexcept {
-  std::apply([&](const auto&... effects) { (effects.tell(tool), ...); }, effects_);
+void Effects::report(messages::ToolState& tool) const noexcept {
+  std::apply([&](const auto&... effects) { (effects.report(tool), ...); }, effects_);
 }
 
 }  // namespace myotact::haptics

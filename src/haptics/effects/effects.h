@@ -49,8 +49,8 @@ class Effects {
   /// Once a tick in which the device's numbers are finite.
   const EffectTicks& tick(const HandTick& hand) noexcept;
   /// Writes what the simulation must know of the last tick into `tool`, whose other members stay.
-  void tell(messages::ToolState& tool) const noexcept;
-  /// What the effects told each other in the last tick.
+  void report(messages::ToolState& tool) const noexcept;
+  /// What the effects passed to each other in the last tick.
   const EffectNotes& notes() const noexcept { return notes_; }
 
  private:

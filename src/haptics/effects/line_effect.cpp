@@ -55,7 +55,7 @@ PortTick LineEffect::port(const HandTick& hand, const Vec3& force_N) noexcept {
   const double held_N2 = force_N_.squaredNorm();
   if (same) {
     port.spring_gave_J = stored_J_ - gain_ * before_J;
-    port.tells_potential = true;
+    port.reports_potential = true;
   }
   if (same && held_N2 > kNoForce_N * kNoForce_N) {
     port.environment_moved_m = force_N_ * (gain * (now_J - before_J) / held_N2);
@@ -67,7 +67,7 @@ PortTick LineEffect::port(const HandTick& hand, const Vec3& force_N) noexcept {
   return port;
 }
 
-void LineEffect::tell(messages::ToolState& tool) const noexcept {
+void LineEffect::report(messages::ToolState& tool) const noexcept {
   tool.grabbed_line = line_.muscle();
   tool.grab_fraction = line_.fraction();
   tool.line_stiffness_N_m = line_.muscle() >= 0 ? line_.grab_stiffness_N_m() : 0.0;

@@ -14,7 +14,7 @@ class LineEffect {
   LineEffect(const HapticSettings& settings, const device::DeviceProfile& profile);
 
   EffectTick tick(const HandTick& hand, EffectNotes& notes) noexcept;
-  void tell(messages::ToolState& tool) const noexcept;
+  void report(messages::ToolState& tool) const noexcept;
 
  private:
   PortTick port(const HandTick& hand, const Vec3& force_N) noexcept;

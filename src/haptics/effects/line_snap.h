@@ -17,8 +17,8 @@ struct LineSnapSettings {
 ///
 ///   U = -D (1 - (r/R)^2)^2 for r < R, else 0       |dU/dr| <= 1.54 D/R = force_N
 ///
-/// so that what a line gives on the way in it takes on the way out. Another line is taken up only after the last one
-/// has faded out (30 ms each). Real-time safe; one thread.
+/// so that what a line gives as the tool approaches it takes as the tool leaves. Another line is taken up only after
+/// the last one has faded out (30 ms each). Real-time safe; one thread.
 class LineSnap {
  public:
   explicit LineSnap(const LineSnapSettings& settings) : settings_(settings) {}

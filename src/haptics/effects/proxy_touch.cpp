@@ -42,7 +42,7 @@ Vec3 ProxyTouch::force_N(const HandTick& hand, double share) noexcept {
     return Vec3::Zero();
   }
   const Vec3 unloaded_m = -compliance_.shift_m();
-  compliance_.bear(share * settings_.stiffness_N_m);
+  compliance_.limit_stiffness(share * settings_.stiffness_N_m);
   compliance_.tick(*model, proxy_.contact(), hand.now_ns, hand.dt_s);
   unloaded_moved_m_ = -compliance_.shift_m() - unloaded_m;
   ContactSettings felt = settings_;
@@ -63,7 +63,7 @@ std::uint32_t ProxyTouch::new_faults() noexcept {
   return faults;
 }
 
-void ProxyTouch::tell(const Vec3& force_N, double share, messages::ToolState& tool) const noexcept {
+void ProxyTouch::report(const Vec3& force_N, double share, messages::ToolState& tool) const noexcept {
   const Vec3 tissue_shift_m = compliance_.tissue_shift_m(force_N);  // from the played surface
   tool.proxy_position_world_m = to_array(proxy_.position_m() + tissue_shift_m);
   const ProxyContact& contact = proxy_.contact();

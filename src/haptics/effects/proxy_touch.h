@@ -26,7 +26,7 @@ class ProxyTouch {
   /// Writes the proxy's place and, if `share` > 0, the contact. The spring pulls the touched point with the opposite of
   /// what the hand feels (`force_N`, before the force scale), as long as the tissue is where it is believed to be; its
   /// rest place follows the device.
-  void tell(const Vec3& force_N, double share, messages::ToolState& tool) const noexcept;
+  void report(const Vec3& force_N, double share, messages::ToolState& tool) const noexcept;
 
  private:
   Vec3 force_N(const HandTick& hand, double share) noexcept;

@@ -17,7 +17,7 @@ struct PullingSettings {
 ///
 /// S is the point of the body that was at the tool when the hand closed: the nearest point that the engine knows
 /// (LocalGrip), and from there as far as it was to the tool. Its place is the newest one that the engine published,
-/// held until the next: nothing is foretold, so the hand drags the age of the model behind it like oil. The engine gets
+/// held until the next: nothing is extrapolated, so the age of the model feels like viscous drag. The engine gets
 /// the same spring, as from BoneDrag. No damping, no ramp. Real-time safe; one thread.
 class PullingMethod {
  public:

@@ -10,7 +10,7 @@ namespace myotact::haptics {
 
 /// What of a report is pressed on: the published methods know one contact a body, so it is the deepest of each body (of
 /// two equal ones the first). Collision detection on a mesh reports the edges of neighbouring triangles besides, with
-/// tilted normals, which are no walls.
+/// tilted normals; these are ignored.
 struct PressedContact {
   Vec3 normal_W = Vec3::UnitZ();  // unit, out of the touched body
   double depth_m = 0.0;           // of the tool along it; < 0: apart
@@ -54,7 +54,7 @@ class PressedContacts {
 ///
 /// e is kept while it is negative, so that contact comes back where it was left. A report puts e back to what the
 /// engine found, although the tool has moved since the engine looked: the force jumps by k n . (motion since), in every
-/// report while the tool moves. That is the method; it is not mended here. Real-time safe; one thread.
+/// report while the tool moves. That is the method; it is not corrected here. Real-time safe; one thread.
 class PenetrationMethod {
  public:
   /// The tool's middle in this tick.

@@ -32,7 +32,7 @@ TouchTick ReportedTouch::tick(const HandTick& hand, double share) noexcept {
   return tick;
 }
 
-void ReportedTouch::tell(const Vec3& force_N, double share, messages::ToolState& tool) const noexcept {
+void ReportedTouch::report(const Vec3& force_N, double share, messages::ToolState& tool) const noexcept {
   tool.proxy_position_world_m = to_array(tool_m_ + depenetration_.way_m);
   if (depenetration_.bearing < 0 || !(share > 0.0)) return;
   const Vec3 normal_W = to_vec3(bearing_.normal_world);

@@ -22,7 +22,7 @@ class ReportedTouch {
   TouchTick tick(const HandTick& hand, double share) noexcept;
   /// Writes the sphere's place and, if `share` > 0, the contact that carries most, with the spring that has the
   /// opposite of what the hand feels (`force_N`, before the force scale).
-  void tell(const Vec3& force_N, double share, messages::ToolState& tool) const noexcept;
+  void report(const Vec3& force_N, double share, messages::ToolState& tool) const noexcept;
 
  private:
   double stiffness_N_m(double share) const noexcept { return share * settings_.stiffness_N_m; }

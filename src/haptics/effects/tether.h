@@ -18,8 +18,8 @@ struct TetherSpring {
   double energy_J(const Vec3& hand_m) const noexcept;
 };
 
-/// Where the anchor of the model's tether is at `now_ns`: carried on by its velocity, for two steps at most. What is
-/// older than that has missed its turn, and where it would be by now nobody can tell. Real-time safe.
+/// Where the anchor of the model's tether is at `now_ns`: extrapolated by its velocity for two steps at most: the place
+/// of an older one is not known. Real-time safe.
 Vec3 tether_anchor_m(const messages::LocalModel& model, std::uint64_t now_ns) noexcept;
 
 }  // namespace myotact::haptics

@@ -34,7 +34,7 @@ PortTick TetherEffect::port(const HandTick& hand, const TetherSpring& now, const
   port.stored_J = now.energy_J(hand_m);
   const double kept_J = spring_.energy_J(hand_m);
   port.spring_gave_J = stored_J_ - kept_J;
-  port.tells_potential = true;
+  port.reports_potential = true;
   TetherSpring moved = spring_;
   if (moved.stiffness_N_m > 0.0) {
     moved.anchor_m = now.anchor_m;

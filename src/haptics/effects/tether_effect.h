@@ -15,7 +15,7 @@ class TetherEffect {
 
   EffectTick tick(const HandTick& hand, EffectNotes& notes) noexcept;
   /// Nothing: the simulation has the other end of the spring itself.
-  void tell(messages::ToolState& tool) const noexcept { static_cast<void>(tool); }
+  void report(messages::ToolState& tool) const noexcept { static_cast<void>(tool); }
 
  private:
   TetherSpring spring(const HandTick& hand) const noexcept;

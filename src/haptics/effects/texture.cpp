@@ -11,7 +11,7 @@ namespace myotact::haptics {
 
 namespace {
 
-/// Speeds are smoothed over this: a slide of 20 mm/s over an encoder of 20 um is told in steps of a tick.
+/// Speeds are smoothed over this: with an encoder of 20 um a slide of 20 mm/s reads as one count a tick.
 constexpr double kSmoothing_s = 5e-3;
 /// Slower than this the way of the slide is not known and the vibration keeps its direction.
 constexpr double kStill_m_s = 1e-3;

@@ -27,10 +27,10 @@ struct TextureTouch {
 ///   knock      a decaying ring along the normal, once a touch
 ///
 /// u and v are the way of the tool over the tissue, counted along and across the fibres from the first touch on. Only
-/// ways are added up, so nothing jumps where fibres turn from triangle to triangle or tissue changes, the relief rides
-/// on the tissue, and the energy is one of (u, v). A ridge is found again where it was on the way back; after a round
-/// trip over fibres that turn it may lie shifted. Without fibres u keeps the direction that it had.
-/// Real-time safe; one thread.
+/// ways are added up, so nothing jumps where the fibres' direction changes from triangle to triangle or tissue changes,
+/// the relief rides on the tissue, and the energy is one of (u, v). A ridge is found again where it was on the way
+/// back; after a round trip over fibres of changing direction it may lie shifted. Without fibres u keeps the direction
+/// that it had. Real-time safe; one thread.
 class Texture {
  public:
   explicit Texture(TextureSettings settings);

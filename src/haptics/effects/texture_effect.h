@@ -17,7 +17,7 @@ class TextureEffect {
 
   EffectTick tick(const HandTick& hand, EffectNotes& notes) noexcept;
   /// Nothing: it is for the hand only. The tissue feels the contact's force, about which texture goes to and fro.
-  void tell(messages::ToolState& tool) const noexcept { static_cast<void>(tool); }
+  void report(messages::ToolState& tool) const noexcept { static_cast<void>(tool); }
 
  private:
   PortTick port(const HandTick& hand, const Touch& touch) noexcept;

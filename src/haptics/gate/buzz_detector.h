@@ -7,15 +7,15 @@
 
 namespace myotact::haptics {
 
-/// Finds a tool that buzzes against what it touches and says by how much to soften it.
+/// Detects a tool that buzzes against what it touches and returns by how much to soften the contact.
 ///
-/// The motion along each axis turns round when it has come back by `swing_m` from where it was farthest: smaller swings
-/// are texture and encoder. More than 30 turns a second for eight turns running are no hand: tremor makes 16 to 24
-/// (8-12 Hz). Nor may the swings die out, as they do after a knock. Then the stiffness is halved, down to an eighth; it
-/// grows back by 7 % a second, doubling in 10 s. Real-time safe; one thread.
+/// The motion along an axis has reversed when it has come back by `swing_m` from where it was farthest: smaller swings
+/// are texture and encoder. More than 30 reversals a second for eight reversals running are no hand: tremor makes 16 to
+/// 24 (8-12 Hz). Nor may the swings decay, as they do after a knock. Then the stiffness is halved, down to an eighth;
+/// it grows back by 7 % a second, doubling in 10 s. Real-time safe; one thread.
 class BuzzDetector {
  public:
-  /// `resolution_m` of the encoder: swings of a few counts are none.
+  /// `resolution_m` of the encoder: swings of a few counts are ignored.
   explicit BuzzDetector(double resolution_m);
 
   /// One tick of `dt_s` > 0 with the device at `position_m`; `feels`: a force acts, else nothing can buzz.
@@ -24,18 +24,18 @@ class BuzzDetector {
   double stiffness_share() const noexcept { return share_; }  // 1/8 .. 1
 
  private:
-  static constexpr std::size_t kTurns = 8;
+  static constexpr std::size_t kReversals = 8;
 
   struct Axis {
     double farthest_m = 0.0;
-    int direction = 0;      // +1, -1; 0: none yet
-    bool turned = false;    // before its first turn it came from anywhere: no swing
-    double turned_m = 0.0;  // where it last turned
-    std::array<double, kTurns> turned_s{};
-    std::array<double, kTurns> swung_m{};
-    std::size_t turns = 0;  // since the last halving
+    int direction = 0;           // +1, -1; 0: none yet
+    bool reversed = false;       // before the first reversal the start of the motion is unknown: no swing
+    double reversed_at_m = 0.0;  // where it last reversed
+    std::array<double, kReversals> reversed_s{};
+    std::array<double, kReversals> swung_m{};
+    std::size_t reversals = 0;  // since the last halving
   };
-  bool turns_too_often(Axis& axis, double x_m) const noexcept;
+  bool reverses_too_often(Axis& axis, double x_m) const noexcept;
 
   double swing_m_;
   double share_ = 1.0;

@@ -19,13 +19,13 @@ struct PortTick {
   double stored_J = 0.0;                    // in the port's springs: what it may give back at any time, >= 0
   double spring_gave_J = 0.0;               // by their own potential, to the hand's motion; < 0: they took
   double friction_J = 0.0;                  // that the device's own friction took from that motion, >= 0
-  bool tells_potential = false;             // spring_gave_J is told: the device's friction may take steps of the force
+  bool reports_potential = false;           // spring_gave_J is valid: the device's friction may absorb force steps
   bool opens = false;                       // lets go of what it stores: nothing of it may be spent later
   double credit_J = 0.0;                    // energy that is accounted for elsewhere
-  double allowance_J = 0.0;                 // that the effect may give to the hand out of nothing, >= 0
-  double found_J = 0.0;                     // in a spring that a hand closed on, and that nobody here put in, >= 0
+  double allowance_J = 0.0;                 // that the effect may add without having received it, >= 0
+  double found_J = 0.0;                     // stored in a spring before the hand closed on it, >= 0
   double most_damping_Ns_m = 0.0;           // that the device supports
-  double unclear_m = 0.0;                   // so short a way in a tick may be the encoder's rounding and no motion
+  double unclear_m = 0.0;                   // a shorter way in a tick may be the encoder's rounding, not motion
   double dt_s = 1e-3;                       // > 0
 };
 

@@ -11,13 +11,13 @@ namespace {
 
 constexpr std::uint64_t kFreshFor_ns = 30'000'000;    // own choice
 constexpr std::uint64_t kZeroAfter_ns = 100'000'000;  // own choice
-/// Added damping b, held over a tick T, takes b T / m of the speed of a mass m: beyond 1 it turns the motion round.
-/// This keeps well away.
+/// Added damping b, held over a tick T, takes b T / m of the speed of a mass m: beyond 1 it reverses the motion.
+/// This stays well below.
 constexpr double kDampingShare = 0.4;
 /// A late tick may not let the force jump by more than five ordinary ones.
 constexpr double kLongestTick_s = 5e-3;
 constexpr std::uint64_t kTick_ns = 1'000'000;  // what a tick counts whose clock stood still or ran backwards
-/// Two reads closer together than this tell no speed: a count of the encoder would read as 0.5 m/s.
+/// Two reads closer together than this give no speed: a count of the encoder would read as 0.5 m/s.
 constexpr double kShortestTick_s = 1e-4;
 constexpr double kLongestHeat_s = 1.0;  // a held force after that long is no force of this loop any more
 /// Faster than a thrown ball leaves the hand of an untrained person; 20 mm a tick.
@@ -37,7 +37,7 @@ std::uint64_t fresh_for_ns(const GateInput& input) {
 }
 
 /// Bounds of the hand's own speed and energy as positions report them.
-GateSettings as_told(GateSettings settings, double motion_scale) {
+GateSettings scaled_to_positions(GateSettings settings, double motion_scale) {
   settings.cut_off_m_s *= motion_scale;
   settings.energy_store_J *= motion_scale;
   settings.active_power_W *= motion_scale;
@@ -48,7 +48,7 @@ GateSettings as_told(GateSettings settings, double motion_scale) {
 
 ForceGate::ForceGate(const device::DeviceProfile& profile, const GateSettings& settings)
     : profile_(profile),
-      settings_(as_told(settings, profile.motion_scale)),
+      settings_(scaled_to_positions(settings, profile.motion_scale)),
       heat_(profile.continuous_force_N, std::clamp(settings.force_limit, 0.0, 1.0) * profile.peak_force_N) {}
 
 Vec3 ForceGate::shut(GateState state) noexcept {

@@ -6,7 +6,7 @@ namespace myotact::haptics {
 
 namespace {
 
-/// Added damping b, held over a tick T, takes b T / m of the speed of a mass m: beyond 1 it turns the motion round.
+/// Added damping b, held over a tick T, takes b T / m of the speed of a mass m: beyond 1 it reverses the motion.
 /// This keeps well away.
 constexpr double kDampingShare = 0.4;
 /// A hand at rest between two counts of the encoder is read as moving by one of them on each axis, sqrt(3) at most: at
@@ -37,7 +37,7 @@ Vec3 HapticPorts::admit(std::span<PortTick> ticks, const PortsHand& hand) noexce
     tick.dt_s = hand.dt_s;
     tick.most_damping_Ns_m = damping_left_Ns_m;
     tick.unclear_m = kUnclearCounts * profile_.resolution_m;
-    if (tick.tells_potential) tick.friction_J = friction_J(profile_, moved_m.norm(), hand.dt_s);
+    if (tick.reports_potential) tick.friction_J = friction_J(profile_, moved_m.norm(), hand.dt_s);
     found_J_ += tick.found_J;
     const Vec3 asked_N = ports_[i].admit(tick);
     damping_left_Ns_m -= ports_[i].damping_Ns_m();

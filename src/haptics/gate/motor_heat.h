@@ -2,8 +2,8 @@
 
 namespace myotact::haptics {
 
-/// Keeps the mean square of the force within what the device's motors bear for ever. Heat follows the square of the
-/// current with one time constant; the limit falls smoothly before the rating is reached:
+/// Keeps the mean square of the force within what the device's motors withstand continuously. Heat follows the square
+/// of the current with one time constant; the limit falls smoothly before the rating is reached:
 ///
 ///   heat = mean of (|F| / continuous)^2, forgetting over 20 s
 ///

@@ -16,14 +16,14 @@ struct StiffnessBound {
   std::string why() const;  // which of the three it is
 };
 
-/// Damping of the lightest hand that holds a stylus (1-10 N s/m by general knowledge). A stylus that nobody holds is
+/// Damping of the lightest hand that holds a stylus (1-10 N s/m by general knowledge). A stylus that is not held is
 /// left to its own friction and to the observers of energy: by Colgate's bound alone no device of this class renders
 /// tissue.
 inline constexpr double kLightestHand_Ns_m = 1.0;
 
 StiffnessBound stiffness_bound(const device::DeviceProfile& profile, double hand_damping_Ns_m = kLightestHand_Ns_m);
 
-/// One line that says to what a wanted stiffness is lowered and why; empty when the device supports it.
+/// One line that states to what a wanted stiffness is lowered and why; empty when the device supports it.
 std::string stiffness_notice(const device::DeviceProfile& profile, double wanted_N_m);
 
 /// How stiff the coupling to a simulation may be whose answer is `age_s` old (> 0).

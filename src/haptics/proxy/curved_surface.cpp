@@ -63,7 +63,7 @@ const CurvedSurface::Vertex& CurvedSurface::vertex(int index) noexcept {
     sum += areas[at(i)];
   }
   const double length = sum.norm();
-  result.is_smooth = count >= 3 && next < 0 && length > 0.0;  // a fan of more than kMost is none
+  result.is_smooth = count >= 3 && next < 0 && length > 0.0;  // a fan of more than kMost is not smooth
   if (!result.is_smooth) return result;
   result.normal = sum / length;
   for (int i = 0; i < count; ++i) {

@@ -16,14 +16,14 @@ namespace myotact::haptics {
 ///
 /// with n_i the normal at a vertex; h_ij is the rise of an arc over its chord. Neighbours share their edge's curve, so
 /// the skin has no gaps, and a sphere kept off it by its nearest point feels the gradient of one potential: no energy
-/// comes out of shading. It lies on or above the triangles, so nothing gets inside for its sake; hollows stay flat,
-/// which is no harm: there the sphere goes from triangle to triangle without a jump. At ridges, at borders, and where
+/// comes out of shading. It lies on or above the triangles, so it puts nothing inside; hollows stay flat,
+/// which is harmless: there the sphere goes from triangle to triangle without a jump. At ridges, at borders, and where
 /// the model ends there is no vertex normal and the skin lies on the triangles.
 ///
 /// At the end of the tick; computed where it is asked for. Real-time safe; one thread.
 class CurvedSurface {
  public:
-  /// No rise is more. A felt surface that is off by less is not told from the true one by hand.
+  /// Upper bound of a rise: a hand cannot distinguish a surface that is off by less from the true one.
   static constexpr double kHighest_m = 0.3e-3;
   /// Of the sphere's radius: shorter edges stay straight, since the sphere itself rolls over them; twice as long ones
   /// have all of their rise.

@@ -15,7 +15,7 @@ constexpr double kSticks_m_s = 1e-3;
 constexpr int kStickingTicks = 3;
 /// Friction follows speed with this lag. Lubricated contacts show 1-50 ms (frictional memory: Armstrong-Helouvry
 /// et al. 1994); it spreads the fall from static to dynamic over a few ticks, and the noise of a
-/// velocity that is told from an encoder.
+/// velocity that is measured by an encoder.
 constexpr double kMemory_s = 5e-3;
 /// Fibres that stand on the surface steeper than this (sine) have no direction along it.
 constexpr double kFlattest = 0.05;

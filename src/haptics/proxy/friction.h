@@ -44,7 +44,7 @@ class Friction {
   void release() noexcept;
 
   bool sliding() const noexcept { return sliding_; }
-  /// Coefficient across the fibres (and everywhere, where there are none) at this moment.
+  /// Coefficient across the fibres (everywhere on tissue without fibres) at this moment.
   double coefficient() const noexcept;
 
  private:

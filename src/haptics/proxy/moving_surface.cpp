@@ -48,7 +48,7 @@ bool all_finite(const std::array<double, 9>& matrix) {
   return std::all_of(matrix.begin(), matrix.end(), [](double x) { return std::isfinite(x); });
 }
 
-/// Without a way out at the first wrong one, which would cost more than it saves: models are right.
+/// Without an early exit at the first invalid one, which would cost more than it saves: models are mostly valid.
 bool are_places(const Frame& positions_m) {
   return ((positions_m.array().abs() < kLargest_m).count()) == positions_m.size();
 }

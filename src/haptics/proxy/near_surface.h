@@ -22,7 +22,7 @@ struct NearestPoint {
 /// The triangles that a sphere may meet in a tick, and the half-spaces that keep it off them.
 ///
 /// Most of a model's triangles are out of reach: spheres round them, computed when they come and grown by the motion
-/// since, leave those out that the way allowed (`travel`) does not reach. A way that turns out longer is allowed by
+/// since, leave those out that the way allowed (`travel`) does not reach. A longer way is allowed by
 /// collecting anew from where the first one ended. Real-time safe; one thread.
 class NearSurface {
  public:

@@ -23,7 +23,7 @@ constexpr int kMaxMoves = 10;
 constexpr double kTouching = 1.02;
 /// Of the radius: with less room the sphere counts as squeezed and is content with the room there is.
 constexpr double kSqueezed = 0.99;
-/// Triangles as near as the nearest, within the accuracy of a projection, bear the sphere together.
+/// Triangles as near as the nearest, within the accuracy of a projection, support the sphere together.
 constexpr double kTogether_m = 3e-8;
 /// Cosine of 0.01 rad. Before a flat edge the triangle ahead is as near as the one below to 3e-8 m, and its plane tilts
 /// by 0.0045 rad, which would be an error of that much in the friction: planes so much alike count once, the nearest.
@@ -103,7 +103,7 @@ double Proxy::longest_way_m(const Tick& tick) const noexcept {
          2.0 * tick.surface->largest_motion_m() + 0.5 * settings_.radius_m;
 }
 
-/// The way turned out longer than usual: the triangles along a longer one, from here. False: it was long enough.
+/// The way is longer than usual: the triangles along a longer one, from here. False: it was long enough.
 bool Proxy::allow_more(Tick& tick, double fraction) noexcept {
   if (near_.travel_left_m() > kConverged_m || tick.ways == kMostWays) return false;
   ++tick.ways;

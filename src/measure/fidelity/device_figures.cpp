@@ -75,7 +75,7 @@ AnswerTime answer_time(const device::DeviceProfile& profile) {
       loop.models().publish();
     }
     loop.tick(now_ns);
-    for (haptics::HapticTick taken; loop.ticks().pop(taken);) {  // nobody else empties the queue here
+    for (haptics::HapticTick taken; loop.ticks().pop(taken);) {  // the only reader of the queue
     }
   };
   const double touching_m = settings.contact.radius_m;

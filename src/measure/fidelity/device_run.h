@@ -12,14 +12,14 @@
 
 namespace myotact::measure {
 
-/// Of long work, asked and told between its steps.
+/// Progress and stop of long work, called between its steps.
 struct RunWatch {
   std::function<void(int done, int all)> progress;
   std::function<bool()> stopped;  // true, once and for good: end here, with what there is
 };
 
-/// What the first tool's hand felt along a path of its device, and what the simulation was told and gave meanwhile. A
-/// second hand acts beside it.
+/// What the first tool's hand felt along a path of its device, and the inputs and outputs of the simulation meanwhile.
+/// A second hand acts beside it.
 struct DeviceRun {
   std::vector<haptics::HapticTick> ticks;  // 1 ms apart
   /// Where the hand was at each tick: of a simulated device the truth behind its encoder; of a recorded one its counts

@@ -69,8 +69,8 @@ struct Drag {
   std::vector<double> sent_N, alone_N, true_N;
 };
 
-/// The hand swings the strand to 50 mm and back. The strand's own step of 10 ms sees the hand at its beginning and is
-/// told at its end: one step late.
+/// The hand swings the strand to 50 mm and back. The strand's own step of 10 ms reads the hand at its beginning and is
+/// published at its end: one step late.
 Drag drag(const Strand& strand, double frequency_hz, double seconds) {
   GuidedDevice device(20.0);
   haptics::HapticSettings settings;
@@ -145,7 +145,8 @@ GoalFigures measure_line_drag(Effort effort) {
         {fmt::format("{}: force sent, lag", strand.name), static_cast<double>(worst_lag), "ticks", 2.0});
   }
   result.note = fmt::format(
-      "0.25 to 2 Hz, {:.0f} mm sideways, strand of {:.0f} mm stepped at 100 Hz and told one step late, force scale {}; "
+      "0.25 to 2 Hz, {:.0f} mm sideways, strand of {:.0f} mm stepped at 100 Hz and published one step late, force "
+      "scale {}; "
       "before observers of energy and gate the force differs by up to {:.1f} % RMS",
       1e3 * kDrag_m, 2e3 * kHalf_m, kForceScale, 100.0 * worst_alone);
   return result;

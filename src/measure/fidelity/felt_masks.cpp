@@ -24,8 +24,8 @@ ComparedTicks compared_ticks(const scene::Scene& scene, const DeviceRun& run, co
     result.gate += shut ? 1 : 0;
     result.hand += !shut && moves ? 1 : 0;
     result.at_limit += !shut && !moves && limited ? 1 : 0;
-    result.judged.push_back(!shut && !moves && !limited);
-    if (changed) result.judged[i - 1] = false;  // the truth is smoothed over its neighbours
+    result.compared.push_back(!shut && !moves && !limited);
+    if (changed) result.compared[i - 1] = false;  // the truth is smoothed over its neighbours
   }
   return result;
 }

@@ -17,12 +17,12 @@ inline bool holds_contact(const haptics::HapticTick& tick) {
   return tick.tool.contact.surface >= 0 && !holds_line(tick) && !holds_bone(tick);
 }
 
-/// Which ticks say something about truth, and why the others do not.
+/// Which ticks are compared with the true force, and why the others are not.
 struct ComparedTicks {
-  std::vector<bool> judged;  // one a tick
-  std::size_t gate = 0;      // the force gate was opening, shut or fading
-  std::size_t hand = 0;      // a hand was closing or opening, whose force rises and dies out over 100 ms
-  std::size_t at_limit = 0;  // the true force is more than the device may give
+  std::vector<bool> compared;  // one a tick
+  std::size_t gate = 0;        // the force gate was opening, shut or fading
+  std::size_t hand = 0;        // a hand was closing or opening, whose force rises and dies out over 100 ms
+  std::size_t at_limit = 0;    // the true force is more than the device may give
 };
 /// One a tick of `true_N`, which may be fewer than the run has.
 ComparedTicks compared_ticks(const scene::Scene& scene, const DeviceRun& run, const device::DeviceProfile& profile,

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kWindow_ticks = 50;
 constexpr std::size_t kFewest_ticks = 20;  // for a slope
-constexpr double kSlips_m_s = 5e-3;        // below, sticking to moving tissue and slipping are hard to tell apart
+constexpr double kSlips_m_s = 5e-3;        // below, sticking to moving tissue and slipping are hard to distinguish
 constexpr double kTick_s = 1e-3;
 
 Vec3 place_m(const haptics::HapticTick& tick) {
@@ -81,7 +81,7 @@ double slope(const std::vector<double>& x, const std::vector<double>& y) {
 std::size_t end_of_loading(const DeviceRun& run, const ForceSeries& series, std::size_t first) {
   const Vec3 normal = normal_of(run.ticks[first]);
   std::size_t end = first;
-  for (; end < run.ticks.size() && holds_contact(run.ticks[end]) && series.judged[end]; ++end) {
+  for (; end < run.ticks.size() && holds_contact(run.ticks[end]) && series.compared[end]; ++end) {
     if (end < first + kWindow_ticks) continue;
     const Vec3 way_m = series.hand_m[end] - series.hand_m[end - kWindow_ticks];
     const double into_m = -way_m.dot(normal);
@@ -118,7 +118,7 @@ std::vector<PressStiffness> press_stiffness(const DeviceRun& run, const ForceSer
   std::vector<PressStiffness> presses;
   bool before = false;
   for (std::size_t i = 0; i < run.ticks.size(); ++i) {
-    const bool touches = holds_contact(run.ticks[i]) && series.judged[i];
+    const bool touches = holds_contact(run.ticks[i]) && series.compared[i];
     if (touches && !before) {
       if (const auto press = press_of(run, series, i, end_of_loading(run, series, i))) presses.push_back(*press);
     }
@@ -135,7 +135,7 @@ std::optional<SlidingFriction> sliding_friction(const scene::Scene& scene, const
   SlidingFriction found;
   std::array<double, 2> along_N{}, across_N{};  // felt, true
   for (std::size_t i = 0; i < run.ticks.size(); ++i) {
-    if (!series.judged[i] || !holds_contact(run.ticks[i]) || speeds_m_s[i] < kSlips_m_s) continue;
+    if (!series.compared[i] || !holds_contact(run.ticks[i]) || speeds_m_s[i] < kSlips_m_s) continue;
     const Vec3 normal = normal_of(run.ticks[i]);
     const std::array<Vec3, 2> forces_N = {series.commanded_N[i], series.true_N[i]};
     for (std::size_t k = 0; k < 2; ++k) {
@@ -161,7 +161,7 @@ std::optional<JointInHand> joint_in_hand(const scene::Scene& scene, const Device
   double read_Nm_rad = 0.0, lowest = 1e300, highest = -1e300, least_rad = 1e300, most_rad = -1e300;
   for (std::size_t i = 0; i + 1 < run.ticks.size(); ++i) {
     const bool ends_step = run.step_of_tick[i + 1] != run.step_of_tick[i];
-    if (!ends_step || !series.judged[i] || run.ticks[i].tool.grabbed_body < 0) continue;
+    if (!ends_step || !series.compared[i] || run.ticks[i].tool.grabbed_body < 0) continue;
     const simulation::JointReadout& now = run.joints[run.step_of_tick[i]];
     const Vec3 torque_Nm = (place_m(run.ticks[i]) - joint.centre_m).cross(-series.commanded_N[i]);
     rows.push_back({now.angle_rad, now.velocity_rad_s, 1.0, axis.dot(torque_Nm) / scene.tools.front().force_scale});

@@ -28,12 +28,13 @@ struct SlidingFriction {
 std::optional<SlidingFriction> sliding_friction(const scene::Scene& scene, const DeviceRun& run,
                                                 const ForceSeries& series);
 
-/// A joint turned by a bone in hand: torque of the felt force fitted to K times angle and B times speed.
+/// A joint rotated by a bone in hand: torque of the felt force fitted to K times angle and B times speed.
 struct JointInHand {
   double felt_Nm_rad = 0.0, read_Nm_rad = 0.0;  // K by the force, K that the simulation shows (mean)
   double range_rad = 0.0;                       // of the angle
 };
-/// Nothing unless the co-contracted joint turns by half a degree with the hand on a bone, its K within 5 % throughout.
+/// Nothing unless the co-contracted joint rotates by half a degree with the hand on a bone, its K within 5 %
+/// throughout.
 std::optional<JointInHand> joint_in_hand(const scene::Scene& scene, const DeviceRun& run, const ForceSeries& series);
 
 }  // namespace myotact::measure

@@ -18,13 +18,13 @@ namespace {
 constexpr double kRate_Hz = 1000.0;
 constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 constexpr int kLongestLag_ticks = 100;
-constexpr std::size_t kFewest_ticks = 50;  // below, gain, turn and lag together fit anything
-/// A turn about an axis is seen by what the forces have across it: less than this share of the best seen axis (that
-/// is, forces within 3 degrees of the axis) says nothing about it.
+constexpr std::size_t kFewest_ticks = 50;  // below, gain, rotation and lag together fit anything
+/// A rotation about an axis is seen by what the forces have across it: less than this share of the best seen axis (that
+/// is, forces within 3 degrees of the axis) does not determine it.
 constexpr double kSeen_share = 3e-3;
 constexpr double kNoiseAbove_Hz = 20.0;  // as the goal of a press at rest has it: below lies what hands and tissue do
 
-/// Ticks that count: judged, and near a true force that is felt.
+/// Ticks that count: compared, and near a true force that is felt.
 std::vector<bool> near_touch(const ForceSeries& series) {
   const std::size_t ticks = series.true_N.size();
   const auto reach = static_cast<std::size_t>(std::lround(kNearTouch_s * kRate_Hz));
@@ -37,11 +37,11 @@ std::vector<bool> near_touch(const ForceSeries& series) {
     marked = last;
   }
   for (std::size_t i = 0; i < ticks; ++i)
-    near[i] = near[i] && (series.judged.empty() || series.judged[i]) && series.commanded_N[i].allFinite();
+    near[i] = near[i] && (series.compared.empty() || series.compared[i]) && series.commanded_N[i].allFinite();
   return near;
 }
 
-/// Sums over the ticks of a lag, from which the best gain and turn follow.
+/// Sums over the ticks of a lag, from which the best gain and rotation follow.
 struct Moments {
   Mat3 product = Mat3::Zero();  // sum commanded true^T
   Mat3 truth = Mat3::Zero();    // sum true true^T
@@ -49,20 +49,20 @@ struct Moments {
 
 struct Fit {
   double gain = 0.0;
-  Mat3 turn = Mat3::Identity();
+  Mat3 rotation = Mat3::Identity();
   double explained_N2 = 0.0;  // of the sum of the commanded force's squares
 };
 
-Vec3 rotation_vector(const Mat3& turn) {
-  const Eigen::AngleAxisd angle_axis(turn);
+Vec3 rotation_vector(const Mat3& rotation) {
+  const Eigen::AngleAxisd angle_axis(rotation);
   return angle_axis.angle() * angle_axis.axis();
 }
 
-/// The step of the turn that the moments ask for, seen axes only.
-Vec3 rotation_step(const Moments& sums, const Mat3& turn, double gain) {
-  const Mat3 turned = sums.product * turn.transpose();
-  const Vec3 wanted(turned(2, 1) - turned(1, 2), turned(0, 2) - turned(2, 0), turned(1, 0) - turned(0, 1));
-  const Mat3 across = sums.truth.trace() * Mat3::Identity() - turn * sums.truth * turn.transpose();
+/// The step of the rotation that the moments ask for, seen axes only.
+Vec3 rotation_step(const Moments& sums, const Mat3& rotation, double gain) {
+  const Mat3 rotated = sums.product * rotation.transpose();
+  const Vec3 wanted(rotated(2, 1) - rotated(1, 2), rotated(0, 2) - rotated(2, 0), rotated(1, 0) - rotated(0, 1));
+  const Mat3 across = sums.truth.trace() * Mat3::Identity() - rotation * sums.truth * rotation.transpose();
   const Eigen::SelfAdjointEigenSolver<Mat3> axes(across);
   Vec3 step = Vec3::Zero();
   for (int k = 0; k < 3; ++k) {
@@ -73,19 +73,19 @@ Vec3 rotation_step(const Moments& sums, const Mat3& turn, double gain) {
   return step;
 }
 
-/// Least squares of commanded - gain turn true (Gauss and Newton's steps for the turn; they end within four).
+/// Least squares of commanded - gain rotation true (Gauss and Newton's steps for the rotation; they end within four).
 Fit fit_gain_and_rotation(const Moments& sums) {
   Fit fit;
   const double truth_N2 = sums.truth.trace();
   if (!(truth_N2 > 0.0)) return fit;
   for (int iteration = 0; iteration < 8; ++iteration) {
-    fit.gain = (fit.turn.transpose() * sums.product).trace() / truth_N2;
+    fit.gain = (fit.rotation.transpose() * sums.product).trace() / truth_N2;
     if (!(fit.gain > 0.0)) break;  // the two have nothing to do with each other at this lag
-    const Vec3 step = rotation_step(sums, fit.turn, fit.gain);
+    const Vec3 step = rotation_step(sums, fit.rotation, fit.gain);
     if (step.norm() < 1e-12) break;
-    fit.turn = Eigen::AngleAxisd(std::min(step.norm(), 1.0), step.normalized()).toRotationMatrix() * fit.turn;
+    fit.rotation = Eigen::AngleAxisd(std::min(step.norm(), 1.0), step.normalized()).toRotationMatrix() * fit.rotation;
   }
-  fit.gain = (fit.turn.transpose() * sums.product).trace() / truth_N2;
+  fit.gain = (fit.rotation.transpose() * sums.product).trace() / truth_N2;
   fit.explained_N2 = fit.gain > 0.0 ? fit.gain * fit.gain * truth_N2 : 0.0;
   return fit;
 }
@@ -198,21 +198,21 @@ void measure_size_and_error(const ForceSeries& series, const std::vector<bool>& 
 
 void measure_work(const ForceSeries& series, ForceComparison& result) {
   for (std::size_t i = 0; i + 1 < series.hand_m.size(); ++i) {
-    if (!series.judged.empty() && !series.judged[i]) continue;
+    if (!series.compared.empty() && !series.compared[i]) continue;
     const Vec3 way_m = series.hand_m[i + 1] - series.hand_m[i];
     result.commanded_work_J += series.commanded_N[i].dot(way_m);
     result.true_work_J += series.true_N[i].dot(way_m);
   }
 }
 
-void measure_what_is_left(const ForceSeries& series, const std::vector<bool>& used, const Mat3& turn,
+void measure_what_is_left(const ForceSeries& series, const std::vector<bool>& used, const Mat3& rotation,
                           ForceComparison& result) {
   static const SlowPart slow;
   std::vector<Vec3> left_N(used.size());
   double angle_rad = 0.0, angles = 0.0, noise_N2 = 0.0;
   for (std::size_t i = 0; i < used.size(); ++i) {
     const Vec3 true_N = force_at(series.true_N, static_cast<double>(i) - kRate_Hz * result.lag_s);
-    left_N[i] = series.commanded_N[i] - result.gain * (turn * true_N);
+    left_N[i] = series.commanded_N[i] - result.gain * (rotation * true_N);
     if (!used[i] || true_N.norm() < 0.1 * result.true_peak_N) continue;
     angle_rad += std::atan2(true_N.cross(series.commanded_N[i]).norm(), true_N.dot(series.commanded_N[i]));
     angles += 1.0;
@@ -253,8 +253,8 @@ ForceComparison compare_forces(const ForceSeries& series) {
   const Fit fit = fit_at(series, used, lag_ticks);
   result.gain = fit.gain;
   result.lag_s = lag_ticks / kRate_Hz;
-  result.rotation_rad = rotation_vector(fit.turn);
-  measure_what_is_left(series, used, fit.turn, result);
+  result.rotation_rad = rotation_vector(fit.rotation);
+  measure_what_is_left(series, used, fit.rotation, result);
   return result;
 }
 

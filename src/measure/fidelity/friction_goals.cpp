@@ -34,7 +34,7 @@ class Felt {
  public:
   explicit Felt(double expected) : expected_(expected) {}
 
-  /// A tick at an edge has no one normal to measure by, and a fold may hold the tool for a while: told, but kept apart.
+  /// A tick at an edge has no one normal to measure by, and a fold may hold the tool for a while: reported separately.
   void add(const RubbedTissue& rub, double along_N) {
     const haptics::ProxyContact& contact = rub.proxy().contact();
     const double error = along_N / rub.force_N().dot(contact.normal) - expected_;
@@ -43,7 +43,7 @@ class Felt {
     normal_ = contact.normal;
     if (!at_edge) inside_.add(error);
   }
-  void tell(Worst& worst) const {
+  void report(Worst& worst) const {
     const double mean = inside_.sum / inside_.count;
     worst.mean_percent = std::max(worst.mean_percent, 100.0 * std::abs(mean) / expected_);
     worst.deviation =
@@ -137,7 +137,7 @@ void slide_on_plane(const geometry::TriangleMesh& plane, const Slide& slide, Wor
     rub.tick(start_m - Vec3(0, 0, depth_m) + gone_m * way);
     if (gone_m > drawn_m) felt.add(rub, along_surface_N(rub).norm());
   }
-  felt.tell(worst);
+  felt.report(worst);
 }
 
 Worst slides_on_plane(Effort effort) {
@@ -181,7 +181,7 @@ void slide_over_fibres(double angle_rad, double normal_N, Worst& worst) {
     rub.tick(start_m + gone_m * way);
     if (gone_m > from_m) felt.add(rub, -rub.force_N().dot(way));
   }
-  felt.tell(worst);
+  felt.report(worst);
 }
 
 Worst slides_over_fibres(Effort effort) {
@@ -247,7 +247,7 @@ Worst slides_on(const Curved& curved, Effort effort) {
       for (int tick = 0; tick < ticks && stroke.along(curved.way, speed_m_s); ++tick) {
         if (tick > drawn) felt.add(rub, along_surface_N(rub).norm());
       }
-      felt.tell(worst);
+      felt.report(worst);
     }
   }
   return worst;
@@ -276,7 +276,7 @@ Curved muscle_of_the_elbow() {
   return curved;
 }
 
-void tell(const std::string& where, const Worst& worst, GoalFigures& result) {
+void report(const std::string& where, const Worst& worst, GoalFigures& result) {
   result.figures.push_back({where + ", mean error of mu", worst.mean_percent, "%", 1.0});
   result.figures.push_back({where + ", SD of mu", worst.deviation, "", 0.005});
 }
@@ -285,16 +285,16 @@ void tell(const std::string& where, const Worst& worst, GoalFigures& result) {
 
 GoalFigures measure_friction_coefficient(Effort effort) {
   GoalFigures result;
-  tell("plane, mu .1-.6, 1-200 mm/s, 0.2-3 N", slides_on_plane(effort), result);
+  report("plane, mu .1-.6, 1-200 mm/s, 0.2-3 N", slides_on_plane(effort), result);
   const Worst fibres = slides_over_fibres(effort);
-  tell("over fibres, all directions", fibres, result);
+  report("over fibres, all directions", fibres, result);
   result.figures.push_back({"over fibres, all directions, breakaway", fibres.breakaway_percent, "%", 3.0});
   const Curved cylinder{make_sheet(0.06, 60, 0.025), Vec3::Zero(), Vec3::UnitZ(), Vec3(0.8, 0.6, 0.0)};
-  tell("cylinder of 25 mm, 1 N", slides_on(cylinder, effort), result);
+  report("cylinder of 25 mm, 1 N", slides_on(cylinder, effort), result);
   const Worst muscle = slides_on(muscle_of_the_elbow(), effort);
-  tell("triceps of the elbow, facets of some 4 mm, 1 N", muscle, result);
+  report("triceps of the elbow, facets of some 4 mm, 1 N", muscle, result);
   result.note = fmt::format(
-      "the worst of all runs; on the muscle {:.2g} % of the ticks are left out, in which the normal turns at an edge "
+      "the worst of all runs; on the muscle {:.2g} % of the ticks are left out, in which the normal changes at an edge "
       "or a "
       "fold holds the tool: with them the mean is off by {:.2g} %",
       muscle.at_edges_percent, muscle.all_percent);
@@ -303,13 +303,13 @@ GoalFigures measure_friction_coefficient(Effort effort) {
 
 namespace {
 
-/// Swings, turns and stretches as a whole, some 20 mm and 10 %: a limb that is moved while a finger rests on it.
+/// Swings, rotates and stretches as a whole, some 20 mm and 10 %: a limb that is moved while a finger rests on it.
 Vec3 swung(const Vec3& x, const Vec3& pivot_m, double time_s) {
   const auto wave = [time_s](double hz) { return std::sin(2.0 * std::numbers::pi * hz * time_s); };
   const double longer = 1.0 + 0.1 * wave(0.7), thinner = 1.0 / std::sqrt(longer);
   const Vec3 stretched_m = (x - pivot_m).cwiseProduct(Vec3(longer, thinner, thinner));
-  const Eigen::AngleAxisd turn(0.5 * wave(0.31), Vec3(0.3, 0.8, 0.52).normalized());
-  return pivot_m + turn * stretched_m + Vec3(20e-3 * wave(0.5), 10e-3 * wave(0.23), 5e-3 * wave(1.1));
+  const Eigen::AngleAxisd rotation(0.5 * wave(0.31), Vec3(0.3, 0.8, 0.52).normalized());
+  return pivot_m + rotation * stretched_m + Vec3(20e-3 * wave(0.5), 10e-3 * wave(0.23), 5e-3 * wave(1.1));
 }
 
 /// A finger that presses 2 N on a place of the swinging tissue and trembles by 0.2 mm at 9 Hz: how far it creeps [m],
@@ -347,7 +347,7 @@ GoalFigures measure_sticking(Effort effort) {
   result.figures = {{"plane", 1e6 * creep_m(plane, seconds), "um", 20.0},
                     {"triceps of the elbow", 1e6 * creep_m(muscle_of_the_elbow(), seconds), "um", 20.0}};
   result.note = fmt::format(
-      "{} s; tissue swings by 20 mm, turns by 0.5 rad and stretches by 10 %, the finger trembles by "
+      "{} s; tissue swings by 20 mm, rotates by 0.5 rad and stretches by 10 %, the finger trembles by "
       "0.2 mm at 9 Hz; how far the touched material moves",
       seconds);
   return result;

@@ -17,13 +17,13 @@ struct Figure {
   std::string unit;
   double goal = 0.0;
   bool at_least = false;  // else `value` should be at most `goal`
-  bool timing = false;    // depends on the machine and what else it does: told, never counted as a failure
+  bool timing = false;    // depends on the machine and its load: reported, never counted as a failure
 
   bool met() const { return at_least ? value >= goal : value <= goal; }  // a NaN meets nothing
 };
 
 struct GoalFigures {
-  std::vector<Figure> figures;  // empty: it cannot be measured yet, the note says why
+  std::vector<Figure> figures;  // empty: it cannot be measured yet, the note states why
   std::string note;             // under which conditions; where a figure misses its goal, why
 };
 

@@ -86,7 +86,7 @@ class HeldPaw {
     for (long tick = 0; tick < std::lround(seconds / kTick_s); ++tick) {
       now_ns_ += haptics::kTickPeriod_ns;
       loop_.tick(now_ns_);
-      for (haptics::HapticTick taken; loop_.ticks().pop(taken);) {  // nobody else empties the queue here
+      for (haptics::HapticTick taken; loop_.ticks().pop(taken);) {  // the only reader of the queue
       }
       if (now_ns_ % kStep_ns != 0) continue;
       limb_.simulation().step({&loop_.tool_state(), 1});

@@ -41,7 +41,7 @@ constexpr std::array kMethods{
 /// nothing can be below: as good is within this, by which the jitter differs because rounding takes the hand another
 /// way.
 constexpr double kAsGood = 1.01;
-/// Less jitter than this is none: rounding, up to a million times over.
+/// Less jitter than this counts as zero: rounding, up to a million times over.
 constexpr double kNone_N = 1e-6, kNone_m = 1e-9;
 
 double minimum_jerk(double s) {
@@ -111,7 +111,7 @@ struct PlaneRun {
   double place_m() const { return std::max(SlideFigures::all(ways[0].place_m), SlideFigures::all(ways[1].place_m)); }
 };
 
-/// `result` says what to run, and takes its figures.
+/// `result` states what to run, and takes its figures.
 void slide(const scene::Scene& scene, PlaneRun& result, LayerFidelity::Trace& trace) {
   haptics::HapticSettings settings = scene::haptic_settings(scene.tools.front());
   settings.method = result.method.method;

@@ -109,8 +109,8 @@ LiftFigures lift(const LiftCase& which, const scene::Scene& scene, double hold_s
   wait(kClose_s, hand_m, messages::kGrabBoneButton);
   const double turn_rad = kLift_m / (grip_m - plate.hinge_m).head<2>().norm();
   const auto target = [&](double t_s) {  // on the arc of the point in hand
-    const Eigen::AngleAxisd turn(turn_rad * minimum_jerk(t_s / kLift_s), plate.axis);
-    return Vec3(hand_m - grip_m + plate.hinge_m + turn * (grip_m - plate.hinge_m));
+    const Eigen::AngleAxisd rotation(turn_rad * minimum_jerk(t_s / kLift_s), plate.axis);
+    return Vec3(hand_m - grip_m + plate.hinge_m + rotation * (grip_m - plate.hinge_m));
   };
   for (int i = 0; i < std::lround((kLift_s + hold_s) / kTick_s); ++i) {
     const double t_s = i * kTick_s;

@@ -91,12 +91,12 @@ Vec3 tremor_m(double time_s) {
   return kTremor_m * Vec3(std::sin(phase), std::sin(1.13 * phase + 1.0), std::sin(0.87 * phase + 2.0));
 }
 
-/// Along a line that turns, through the anchor twice a swing: a gate that a stall shut opens only there.
+/// Along a line that rotates, through the anchor twice a swing: a gate that a stall shut opens only there.
 Vec3 swing_m(double time_s) {
-  constexpr double kReach_m = 0.03, kSwings_Hz = 0.7, kTurns_Hz = 0.11;
+  constexpr double kReach_m = 0.03, kSwings_Hz = 0.7, kRotation_Hz = 0.11;
   const double since_s = std::max(0.0, time_s - kGateOpens_s);
-  const double turned = 2.0 * std::numbers::pi * kTurns_Hz * since_s;
-  const Vec3 way = Vec3(std::cos(turned), std::sin(turned), 0.5 * std::sin(1.7 * turned)).normalized();
+  const double angle_rad = 2.0 * std::numbers::pi * kRotation_Hz * since_s;
+  const Vec3 way = Vec3(std::cos(angle_rad), std::sin(angle_rad), 0.5 * std::sin(1.7 * angle_rad)).normalized();
   return kReach_m * std::sin(2.0 * std::numbers::pi * kSwings_Hz * since_s) * way;
 }
 

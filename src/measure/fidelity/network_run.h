@@ -24,7 +24,7 @@ struct NetworkRun {
   double most_net_J = 0.0;                  // net work on the hand since it last felt nothing, while the gate was open
   double jitter_N = 0.0;                    // of the force above 20 Hz while touched, root mean square
   double largest_rise_after_break_N = 0.0;  // of the force from one tick to the next, within 0.2 s of a break's end
-  double largest_age_s = 0.0;               // of the content of the models, as told, while the gate was open
+  double largest_age_s = 0.0;               // of the content of the models, as reported, while the gate was open
   std::uint64_t buzzes = 0;
   std::uint64_t faded_ticks = 0;  // the gate was not open
   std::uint64_t touched_ticks = 0;

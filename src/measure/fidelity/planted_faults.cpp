@@ -82,14 +82,14 @@ PlantedFaults parse_planted_faults(const std::string& text) {
 }
 
 std::vector<Vec3> plant(const PlantedFaults& faults, const std::vector<Vec3>& force_N) {
-  const Mat3 turn = Eigen::AngleAxisd(faults.rotate_rad, axis_across(force_N)).toRotationMatrix();
+  const Mat3 rotation = Eigen::AngleAxisd(faults.rotate_rad, axis_across(force_N)).toRotationMatrix();
   const double axis_N = faults.noise_N / std::sqrt(3.0);
   Noise noise;
   std::vector<Vec3> planted;
   planted.reserve(force_N.size());
   for (std::size_t i = 0; i < force_N.size(); ++i) {
     const Vec3 late_N = force_at(force_N, static_cast<double>(i) - 1e3 * faults.delay_s);
-    planted.emplace_back(faults.scale * (turn * late_N));
+    planted.emplace_back(faults.scale * (rotation * late_N));
     if (axis_N > 0.0) planted.back() += axis_N * Vec3(noise.next(), noise.next(), noise.next());
   }
   return planted;

@@ -22,11 +22,11 @@ struct PlantedFaults {
 /// From "delay_ms=5,scale=0.9,rotate_deg=5,noise_mN=20", any of them. Throws Error Usage naming what is wrong.
 PlantedFaults parse_planted_faults(const std::string& text);
 
-/// The forces late, scaled, turned and noisy, in that order. Same arguments, same bits.
+/// The forces late, scaled, rotated and noisy, in that order. Same arguments, same bits.
 std::vector<Vec3> plant(const PlantedFaults& faults, const std::vector<Vec3>& force_N);
 
 /// What a comparison finds of faults that were planted into a series, beyond what the series had before: lags
-/// subtracted, gains divided, turns undone, noise less the square of the noise there was.
+/// subtracted, gains divided, rotations undone, noise less the square of the noise there was.
 PlantedFaults found_faults(const ForceComparison& before, const ForceComparison& after);
 
 /// What planted faults were, and what was found of them.

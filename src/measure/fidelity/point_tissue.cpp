@@ -13,7 +13,7 @@ namespace myotact::measure {
 
 namespace {
 
-constexpr double kPlate_m = 0.2;  // side: nobody slides over its rim
+constexpr double kPlate_m = 0.2;  // side: no path crosses its rim
 
 /// Where the tool rests in the air before it goes down.
 constexpr double kStart_m = 2e-3;
@@ -43,7 +43,7 @@ void PointPress::tick(const Vec3& hand_target_m, std::uint32_t buttons) {
   now_ns_ += haptics::kTickPeriod_ns;
   device_.set_hand_target({to_array(hand_target_m), {}, buttons});
   loop_.tick(now_ns_);
-  for (haptics::HapticTick tick; loop_.ticks().pop(tick);) {  // nobody else empties the queue here
+  for (haptics::HapticTick tick; loop_.ticks().pop(tick);) {  // the only reader of the queue
   }
   if (now_ns_ % static_cast<std::uint64_t>(std::llround(tissue_.dt_s * 1e9)) != 0) return;
   step();

@@ -9,7 +9,7 @@ namespace myotact::measure {
 /// number) and rescues.
 GoalFigures measure_deforming_contact(Effort effort);
 
-/// Goal 2: thin sheets, grooves, slides over edges and corners. Counts proxies inside, told in closed form.
+/// Goal 2: thin sheets, grooves, slides over edges and corners. Counts proxies inside, checked in closed form.
 GoalFigures measure_hard_shapes(Effort effort);
 
 }  // namespace myotact::measure

@@ -74,7 +74,7 @@ class Misfortune {
 
   void move_hand(int i) {
     const double t_s = 1e-3 * i;
-    // Out of the tissue for a moment in every turn, where the gate opens; never faster than the cut-off.
+    // Out of the tissue for a moment in every cycle, where the gate opens; never faster than the cut-off.
     position_m_ = Vec3(0.03 * std::sin(2.1 * t_s), 0.03 * std::sin(1.3 * t_s), 3e-3 * std::sin(9.0 * t_s));
     device_.state_.stylus_position_world_m = to_array(position_m_);
     device_.state_.stylus_velocity_world_m_s = {};
@@ -117,7 +117,7 @@ class Misfortune {
         now_ns_ -= std::min(now_ns_, static_cast<std::uint64_t>(1e9 * unit()));
         return false;
       default:
-        spoils_model_ = true;
+        corrupts_model_ = true;
         return false;
     }
   }
@@ -128,11 +128,11 @@ class Misfortune {
     model.sequence = ++sequence_;
     model.published_at_ns = now_ns_;
     model.dt_ns = 10 * kTick_ns;
-    if (spoils_model_) {
+    if (corrupts_model_) {
       model.triangles[static_cast<std::size_t>(200.0 * unit())].vertices[1] = 100 + static_cast<int>(1000.0 * unit());
       model.current_world_m[5][0] = unit() < 0.5 ? 1e300 : std::numeric_limits<double>::infinity();
     }
-    spoils_model_ = false;
+    corrupts_model_ = false;
     loop_.models().publish();
   }
 
@@ -162,7 +162,7 @@ class Misfortune {
   double limit_N_ = haptics::GateSettings{}.force_limit * device::DeviceProfile{}.peak_force_N;
   std::uint64_t now_ns_ = 10'000'000'000, sequence_ = 0;
   Vec3 position_m_ = Vec3::Zero();
-  bool spoils_model_ = false;
+  bool corrupts_model_ = false;
   int waited_ = 0;
   Outcome outcome_;
 };

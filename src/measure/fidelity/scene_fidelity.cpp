@@ -20,10 +20,10 @@ namespace {
 constexpr double kTick_s = 1e-3;
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
-ForceSeries felt_series(const DeviceRun& run, const std::vector<Vec3>& true_N, const std::vector<bool>& judged) {
+ForceSeries felt_series(const DeviceRun& run, const std::vector<Vec3>& true_N, const std::vector<bool>& compared) {
   ForceSeries series;
   series.true_N = true_N;
-  series.judged = judged;
+  series.compared = compared;
   const std::size_t ticks = true_N.size();  // fewer than of the run when stopped
   for (std::size_t i = 0; i < ticks; ++i) {
     series.commanded_N.push_back(to_vec3(run.ticks[i].tool.force_world_N));
@@ -35,7 +35,8 @@ ForceSeries felt_series(const DeviceRun& run, const std::vector<Vec3>& true_N, c
 using TickFilter = bool (*)(const haptics::HapticTick&);
 
 ForceSeries only(ForceSeries series, const DeviceRun& run, TickFilter wanted) {
-  for (std::size_t i = 0; i < series.judged.size(); ++i) series.judged[i] = series.judged[i] && wanted(run.ticks[i]);
+  for (std::size_t i = 0; i < series.compared.size(); ++i)
+    series.compared[i] = series.compared[i] && wanted(run.ticks[i]);
   return series;
 }
 
@@ -108,8 +109,8 @@ void grade_force(const ComparedForce& force, std::vector<GradedFigure>& figures)
   add("strength off by", "%", 100.0 * std::abs(c.gain - 1.0), 3.0, 15.0, kShareSource);
   add("late or early by", "ms", 1e3 * std::abs(c.lag_s), 2.0, 30.0,
       "2 ms: the goal of a line in hand; 30 ms: of a joint in hand");
-  // A force turned by an angle differs by 2 sin(angle / 2) of itself: the same shares.
-  add("turned by", "degrees", kDegrees * c.rotation_angle_rad(), 1.7, 8.6, "3 and 15 % of the force, as above");
+  // A force rotated by an angle differs by 2 sin(angle / 2) of itself: the same shares.
+  add("rotated by", "degrees", kDegrees * c.rotation_angle_rad(), 1.7, 8.6, "3 and 15 % of the force, as above");
   add("jitter over 20 Hz", "mN RMS", 1e3 * c.noise_rms_N, 10.0, 50.0,
       "10 mN: the goal of a press at rest; 50 mN: where a coupling counts as unstable");
 }
@@ -129,7 +130,7 @@ SceneFidelity measure_scene_fidelity(const scene::Scene& whole, const FidelityRe
   const std::vector<Vec3> true_N =
       request.truth == Truth::Ticks ? true_force_by_ticks(scene, run, request.profile, watch) : by_steps_N;
   const ComparedTicks ticks = compared_ticks(scene, run, request.profile, true_N);
-  result.force = felt_series(run, true_N, ticks.judged);
+  result.force = felt_series(run, true_N, ticks.compared);
   result.gate_ticks = ticks.gate;
   result.hand_ticks = ticks.hand;
   result.limit_ticks = ticks.at_limit;

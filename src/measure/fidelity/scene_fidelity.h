@@ -10,7 +10,7 @@
 
 namespace myotact::measure {
 
-/// What counts as the true force; true_force.h says how each is got.
+/// What counts as the true force; true_force.h states how each is computed.
 enum class Truth { Steps, Ticks };
 
 struct FidelityRequest {
@@ -62,7 +62,7 @@ struct SceneFidelity {
 /// out. Throws Error.
 SceneFidelity measure_scene_fidelity(const scene::Scene& scene, const FidelityRequest& request, const RunWatch& watch);
 
-/// The figures that make the verdict; those that the run says nothing about are left out, and all
+/// The figures that make the verdict; those that the run does not determine are left out, and all
 /// where nothing was felt.
 std::vector<GradedFigure> grade(const SceneFidelity& fidelity);
 

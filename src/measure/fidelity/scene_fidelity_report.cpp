@@ -128,7 +128,7 @@ std::string scene_fidelity_text(const SceneFidelity& fidelity) {
     text += fmt::format("  {:<52} {:>9.3g} {:<8} {}  (good to {:g}, fair to {:g})\n", figure.name, figure.value,
                         figure.unit, grade_text(figure.grade()), figure.good, figure.fair);
   text += fmt::format("\n  {:<30} {:>7} {:>8} {:>8} {:>7} {:>8} {:>7} {:>8}\n", "", "N RMS", "% RMS", "% worst", "gain",
-                      "lag ms", "turn", "mN noise");
+                      "lag ms", "angle", "mN noise");
   for (const ComparedForce& one : fidelity.compared) text += comparison_text(one.name, one.found);
   if (fidelity.haptic_part) text += comparison_text("of it: felt on own steps", *fidelity.haptic_part);
   if (fidelity.step_part) text += comparison_text("of it: own steps on truth", *fidelity.step_part);
@@ -186,7 +186,7 @@ std::string scene_fidelity_csv(const SceneFidelity& fidelity) {
       "t_s,judged,commanded_x_N,commanded_y_N,commanded_z_N,true_x_N,true_y_N,true_z_N,error_x_N,error_y_N,error_z_N\n";
   const ForceSeries& force = fidelity.force;
   for (std::size_t i = 0; i < force.true_N.size(); ++i) {
-    csv += to_text(static_cast<double>(i) / 1e3) + (force.judged[i] ? ",1" : ",0");
+    csv += to_text(static_cast<double>(i) / 1e3) + (force.compared[i] ? ",1" : ",0");
     const Vec3 error_N = force.commanded_N[i] - force.true_N[i];
     for (const Vec3* vector : {&force.commanded_N[i], &force.true_N[i], &error_N})
       for (int k = 0; k < 3; ++k) csv += fmt::format(",{}", to_text((*vector)[k]));

@@ -6,7 +6,7 @@
 
 namespace myotact::measure {
 
-/// A few lines for a person: the verdict, each judged figure beside its bounds, the parts, planted faults, notes. Ends
+/// A few lines for a person: the verdict, each checked figure beside its bounds, the parts, planted faults, notes. Ends
 /// with a newline.
 std::string scene_fidelity_text(const SceneFidelity& fidelity);
 

@@ -124,7 +124,7 @@ Worst slides_between_nodes(const haptics::TextureSet& set, double seconds) {
   return worst;
 }
 
-void tell(const std::string& where, const Worst& worst, GoalFigures& result) {
+void report(const std::string& where, const Worst& worst, GoalFigures& result) {
   result.figures.push_back({where + ", log-spectral distance 20-450 Hz", worst.distance_dB, "dB", 2.0});
   result.figures.push_back({where + ", RMS gain off by", worst.gain_percent, "%", 10.0});
 }
@@ -137,14 +137,14 @@ GoalFigures measure_texture_spectrum(Effort effort) {
   const auto set_of = [&](messages::Tissue tissue) { return own.by_tissue[static_cast<std::size_t>(tissue)]; };
   GoalFigures result;
   const Worst bone = slides_at_nodes(set_of(messages::Tissue::Bone), seconds);
-  tell("bone, 5 forces x 5 speeds", bone, result);
+  report("bone, 5 forces x 5 speeds", bone, result);
   if (effort == Effort::Full) {
-    tell("muscle, 5 forces x 5 speeds", slides_at_nodes(set_of(messages::Tissue::Muscle), seconds), result);
-    tell("fascia, 5 forces x 5 speeds", slides_at_nodes(set_of(messages::Tissue::Fascia), seconds), result);
-    tell("tendon, 5 forces x 5 speeds", slides_at_nodes(set_of(messages::Tissue::Tendon), seconds), result);
-    tell("fat, 5 forces x 5 speeds", slides_at_nodes(set_of(messages::Tissue::Fat), seconds), result);
+    report("muscle, 5 forces x 5 speeds", slides_at_nodes(set_of(messages::Tissue::Muscle), seconds), result);
+    report("fascia, 5 forces x 5 speeds", slides_at_nodes(set_of(messages::Tissue::Fascia), seconds), result);
+    report("tendon, 5 forces x 5 speeds", slides_at_nodes(set_of(messages::Tissue::Tendon), seconds), result);
+    report("fat, 5 forces x 5 speeds", slides_at_nodes(set_of(messages::Tissue::Fat), seconds), result);
   }
-  tell("bone, half-way between", slides_between_nodes(set_of(messages::Tissue::Bone), seconds), result);
+  report("bone, half-way between", slides_between_nodes(set_of(messages::Tissue::Bone), seconds), result);
   result.figures.push_back({"bone, power above 300 Hz", bone.above_cap_percent, "%", 5.0});
   result.note = fmt::format(
       "{} s a slide on a plane, through proxy and friction, before the gate; the cap of 300 Hz lies in the models "

@@ -14,7 +14,7 @@ namespace {
 
 /// The stiffest coupling that the haptic loop itself uses (contact_compliance.cpp): tissue of 1000 N/m reads 3 % soft.
 constexpr double kCoupling_N_m = 3e4;
-constexpr double kNoLimit_N = 1e3;  // of a device that nobody has
+constexpr double kNoLimit_N = 1e3;  // above any device's
 
 device::DeviceProfile unlimited(device::DeviceProfile profile) {
   profile.peak_force_N = profile.continuous_force_N = kNoLimit_N;
@@ -40,7 +40,7 @@ std::vector<messages::DeviceState> path_of(const DeviceRun& run) {
   return path;
 }
 
-/// Without what swings from tick to tick: proxy and solver take turns, and where the tool slides the one answers to the
+/// Without what swings from tick to tick: proxy and solver alternate, and where the tool slides the one answers to the
 /// other's last force (80 mN on the canine triceps). Quarter, half, quarter is not late and takes all of that.
 std::vector<Vec3> without_turns(const std::vector<Vec3>& force_N) {
   std::vector<Vec3> smooth_N = force_N;
@@ -79,7 +79,7 @@ std::vector<Vec3> true_force_by_ticks(const scene::Scene& scene, const DeviceRun
     if (watch.stopped && watch.stopped()) return without_turns(force_N);
     loop.tick(now_ns);
     now_ns += haptics::kTickPeriod_ns;
-    for (haptics::HapticTick tick; loop.ticks().pop(tick);) {  // nobody else empties the queue here
+    for (haptics::HapticTick tick; loop.ticks().pop(tick);) {  // the only reader of the queue
     }
     const scene::StepRecord& step = run.steps[run.step_of_tick[k]];
     std::vector<messages::ToolState> tools = step.tools;  // another hand holds what it held in that step

@@ -85,7 +85,7 @@ void VirtualTouch::tick(bool publishes) {
   work_J_ = held_N.dot(device.position_world_m() - last_m_);
   last_m_ = device.position_world_m();
   if (publishes && now_ns_ % kStep_ns == 0) publish();
-  for (haptics::HapticTick tick; loop.ticks().pop(tick);) {  // nobody else empties the queue
+  for (haptics::HapticTick tick; loop.ticks().pop(tick);) {  // the only reader of the queue
   }
 }
 

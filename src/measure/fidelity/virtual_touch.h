@@ -9,7 +9,7 @@
 namespace myotact::measure {
 
 /// A patch of tissue that rests, 0.1 m square about the origin, its normal up: flat, or waves of 2 mm over 33 mm.
-/// With a muscle line 40 mm above it and a bone at 60 mm that nothing turns.
+/// With a muscle line 40 mm above it and a bone at 60 mm that does not rotate.
 struct TouchedPatch {
   bool waves = false;
   bool line = false;

@@ -6,7 +6,7 @@
 namespace myotact::measure {
 namespace {
 
-/// Both sides at one angle, told apart by strength instead of direction.
+/// Both sides at one angle, distinguished by strength instead of direction.
 class Antagonists {
  public:
   Antagonists(const LineJoint& joint, double q_rad) : joint_(joint), q_rad_(q_rad) {

@@ -25,7 +25,7 @@ struct LineMuscle {
 /// One hinge and the muscles over it; nothing else acts, all other joints are fixed.
 struct LineJoint {
   std::string name;
-  double inertia_kg_m2 = 0.0;         // of what turns, about the hinge
+  double inertia_kg_m2 = 0.0;         // of what rotates, about the hinge
   std::optional<double> paw_lever_m;  // from the axis to where a hand pushes
   std::vector<LineMuscle> muscles;
 };

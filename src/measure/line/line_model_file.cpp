@@ -83,7 +83,7 @@ WrappedPath read_path(const JsonValue& value, Side side) {
   return path;
 }
 
-/// The angle between P and D must stay between 0 and a whole turn in every pose that is told about.
+/// The angle between P and D must stay between 0 and a whole turn in every reported pose.
 void require_open(const JsonValue& value, const WrappedPath& path, double q_rad) {
   for (const double at_rad : {q_rad - kPush_rad, q_rad, q_rad + kPush_rad}) {
     const double phi_rad = path.phi0_rad + path.sign * at_rad;

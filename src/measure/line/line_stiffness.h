@@ -41,7 +41,7 @@ std::vector<LineColumn> line_columns(const LineModel& model, const LineRow& row)
 
 /// Columns as in assets/cases/README.md; line_columns() and whether the balance is held.
 std::string line_stiffness_csv(const LineModel& model, const std::vector<LineRow>& rows);
-/// The same with the muscles of each row and the units. Numbers that there are none of are null.
+/// The same with the muscles of each row and the units. Missing numbers are null.
 std::string line_stiffness_json(const LineModel& model, const std::vector<LineRow>& rows);
 
 }  // namespace myotact::measure

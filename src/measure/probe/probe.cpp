@@ -19,7 +19,7 @@ namespace {
 /// The virtual clock starts here, so that a frame may begin before the path does.
 constexpr std::uint64_t kStart_ns = 1'000'000'000'000'000'000;
 
-/// Shows frame after frame to the touch and to the judge of sides.
+/// Shows frame after frame to the touch and to the check of sides.
 class FilmPlayer {
  public:
   FilmPlayer(const ProbeInput& input, SurfaceTouch& touch, SurfaceSide& side)

@@ -44,7 +44,7 @@ void note_defects(const geometry::TriangleMesh& mesh, const std::string& file, s
   if (defects.non_manifold_edges > 0)
     notes.push_back(
         fmt::format("{}: {} edges are not between two triangles that face the same way; \"inside\" is "
-                    "told by the nearest triangle there",
+                    "decided by the nearest triangle there",
                     file, defects.non_manifold_edges));
   if (defects.border_edges > 0)
     notes.push_back(fmt::format("{}: the surface is open ({} border edges); \"inside\" means behind it", file,

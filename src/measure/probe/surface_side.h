@@ -17,8 +17,9 @@ struct SurfaceDefects {
 };
 SurfaceDefects find_defects(const geometry::TriangleMesh& mesh);
 
-/// Tells whether a point lies behind a moving surface, independently of the proxy: by the angle-weighted pseudo-normal
-/// of the nearest point (Baerentzen and Aanaes 2005), which on a closed surface the winding number must confirm.
+/// Computes whether a point lies behind a moving surface, independently of the proxy: by the angle-weighted
+/// pseudo-normal of the nearest point (Baerentzen and Aanaes 2005), which on a closed surface the winding number must
+/// confirm.
 class SurfaceSide {
  public:
   /// Keeps a reference to the mesh, for its triangles.

@@ -27,7 +27,7 @@ anatomy::Body rod_body(const std::string& key, const Rod& rod) {
   body.mass_kg = rod.mass_kg;
   body.com_m = {0.0, 0.0, -0.5 * rod.length_m};
   const double across = rod.mass_kg * rod.length_m * rod.length_m / 12.0;
-  const double along = 1e-6 * across;  // turns about the axis only; a specimen wants a positive inertia
+  const double along = 1e-6 * across;  // rotates about the axis only; a specimen wants a positive inertia
   body.inertia_kg_m2 = {across, across, along, 0.0, 0.0, 0.0};
   return body;
 }

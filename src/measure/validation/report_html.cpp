@@ -25,7 +25,7 @@ constexpr double kLongest_px = 300.0;    // a longer bar ends here
 constexpr double kRow_px = 18.0;
 constexpr double kLabel_px = 260.0;
 
-// Blue and orange of Okabe and Ito: told apart by everyone.
+// Blue and orange of Okabe and Ito: distinguishable with any colour vision.
 constexpr const char* kPassColour = "#0072B2";
 constexpr const char* kFailColour = "#D55E00";
 
@@ -51,7 +51,7 @@ std::string bar_of(const CheckResult& result, double top_px) {
                            failed ? kFailColour : kPassColour);
 }
 
-/// One row a check that is judged.
+/// One row for each check with a tolerance.
 std::string bars_svg(const CaseResult& result) {
   std::string bars;
   double top_px = 4.0;

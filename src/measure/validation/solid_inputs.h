@@ -4,7 +4,7 @@
 #include "measure/validation/kinds.h"
 #include "simulation/solid/static_solve.h"
 
-// What the kinds that deform a solid have in common: the keys they share and how supports are told.
+// What the kinds that deform a solid have in common: the keys they share and how supports are given.
 
 namespace myotact::measure {
 

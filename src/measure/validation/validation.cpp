@@ -86,8 +86,8 @@ ValidationCase read_case(JsonObject& object) {
   result.slow = object.boolean_or("slow", false);
   const JsonValue checks = object.at("checks");
   for (const JsonValue& check : checks.elements()) result.checks.push_back(read_check(check, result.source));
-  const auto judged = [](const Check& check) { return check.expectation != Expectation::Reported; };
-  if (std::none_of(result.checks.begin(), result.checks.end(), judged)) {
+  const auto is_checked = [](const Check& check) { return check.expectation != Expectation::Reported; };
+  if (std::none_of(result.checks.begin(), result.checks.end(), is_checked)) {
     throw checks.error("holds no value and no bound; a case that checks nothing proves nothing");
   }
   return result;

@@ -14,7 +14,7 @@ namespace myotact::measure {
 // Cases that compare what the program computes with closed forms and published figures. A case is a file NAME.json of
 // tests/validation/, whose README gives the format.
 
-/// Reported: a figure that is shown and not judged, for comparison with those that are.
+/// Reported: a figure that is shown and not checked, for comparison with those that are.
 enum class Expectation { Value, AtLeast, AtMost, Reported };
 enum class Verdict { Pass, Fail, Reported };
 

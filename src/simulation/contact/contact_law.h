@@ -28,7 +28,7 @@ inline ContactPressure contact_pressure(const ContactLaw& law, double overlap_m)
 
 /// Muscle on bone. 600 kPa (a belly at full tension around a bone as thick as itself) press it in by 0.4 mm, 100 kPa
 /// (10 N on 1 cm^2) by 0.15 mm. A surface node of 10 mm^2 then holds 2e4 N/m, about what the bulk modulus gives its
-/// element: stiffer would gain little and spoil the solve's conditioning.
+/// element: stiffer would gain little and make the solve ill-conditioned.
 inline constexpr ContactLaw kBoneContact{2e9, 0.2e-3};
 
 /// Muscle on muscle: as soft as the tissue allows, because stiffer coupling costs iterations. 20 kPa, a relaxed muscle

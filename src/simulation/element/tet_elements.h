@@ -15,7 +15,7 @@ namespace myotact::simulation {
 /// Where the block of a pair of nodes goes in a BlockMatrix; base -1: nowhere, one of them is no unknown.
 struct PairSlot {
   BlockSlot block;
-  bool in_order = true;  // a's row, b's column; else the other way round
+  bool in_order = true;  // a's row, b's column; else swapped
 };
 
 /// [pair of nodes a <= b][lane].

@@ -142,8 +142,8 @@ MYOTACT_INLINE void coordinate_blocks(const TetShape<Real>& shape, const std::ar
     }
   }
   for (std::size_t e = 0; e < 9; ++e) {
-    const std::size_t turned = 3 * (e % 3) + e / 3;
-    B[0][sum][e] = -((at(0, 1, turned) + at(0, 2, turned)) + at(0, 3, turned));
+    const std::size_t rotated = 3 * (e % 3) + e / 3;
+    B[0][sum][e] = -((at(0, 1, rotated) + at(0, 2, rotated)) + at(0, 3, rotated));
   }
 }
 

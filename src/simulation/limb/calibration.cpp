@@ -26,7 +26,7 @@ constexpr double kLargestFactor = 1.3;
 constexpr double kLengthFits = 0.05;
 /// Limits of the whole adjustment; beyond them the mesh is too coarse or too bent to stand for the line.
 constexpr double kSmallestScale = 0.4, kLargestScale = 2.5;
-/// Turn for the slope of the tension, small against any curvature, large against rounding [rad].
+/// Rotation for the slope of the tension, small against any curvature, large against rounding [rad].
 constexpr double kProbe_rad = 1e-6;
 
 /// The line at the file pose and the joint that changes its length most.
@@ -64,11 +64,11 @@ double tension_slope(const Skeleton& skeleton, int joint, LimbMuscle& muscle) {
   std::vector<double> angles(static_cast<std::size_t>(skeleton.joint_count()));
   for (int j = 0; j < skeleton.joint_count(); ++j) angles[static_cast<std::size_t>(j)] = skeleton.angle_rad(j);
   angles[static_cast<std::size_t>(joint)] += kProbe_rad;
-  Skeleton turned = skeleton;
-  turned.set_pose(angles);
+  Skeleton rotated = skeleton;
+  rotated.set_pose(angles);
   move_free_nodes(muscle, -kProbe_rad * follow);
-  place_clamped(muscle.tissue, turned, muscle.state);
-  compute_forces(muscle.tissue, turned, load, muscle.state, muscle.system);
+  place_clamped(muscle.tissue, rotated, muscle.state);
+  compute_forces(muscle.tissue, rotated, load, muscle.state, muscle.system);
   muscle.state.now.position_m = kept;
   return (muscle.system.tension_N - tension_N) / kProbe_rad;
 }

@@ -8,7 +8,7 @@ namespace myotact::simulation {
 /// static solve came to rest.
 struct LineAgreement {
   double force = 0.0;      // isometric tension over the line's force
-  double stiffness = 0.0;  // dF/dL by turning a joint, over the line's; 1 when no joint changes the line's length
+  double stiffness = 0.0;  // dF/dL by rotating a joint, over the line's; 1 when no joint changes the line's length
 };
 
 /// Adjusts the fibres so that the muscle as a whole does what its line does (one muscle, one mechanics). A curved belly

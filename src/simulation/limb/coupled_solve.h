@@ -22,10 +22,10 @@ bool touches_neighbours(const Limb& limb);
 void couple_step(Limb& limb, const Eigen::PartialPivLU<Eigen::MatrixXd>& small, double share, Eigen::VectorXd& solution,
                  WorkerPool& workers);
 
-/// Minus what the nodes of all muscles do when joints turn by one radian each, tissue following in equilibrium with its
-/// neighbours: solves (matrix + mean + coupling) follow = coupling_N_rad, from and into the muscles' `follow_m_rad`,
-/// which hold the solutions without coupling. After compute_system() and factor_system() of accuracy Refined. False
-/// when it did not get there.
+/// Minus what the nodes of all muscles do when joints rotate by one radian each, tissue following in equilibrium with
+/// its neighbours: solves (matrix + mean + coupling) follow = coupling_N_rad, from and into the muscles'
+/// `follow_m_rad`, which hold the solutions without coupling. After compute_system() and factor_system() of accuracy
+/// Refined. False when it did not get there.
 bool couple_follow(Limb& limb, WorkerPool& workers);
 
 /// Takes from `right` (free dofs x joints) what the neighbours of a muscle pull on it when they follow the joints as in

@@ -126,7 +126,7 @@ void stop_moving(Limb& limb);
 /// Locks, gravity, external torques and springs stay.
 void return_to_file_pose(Limb& limb);
 
-/// Single: for a Newton step, whose residual says what is left. Refined: for a solution that is read out itself.
+/// Single: for a Newton step, whose residual shows what is left. Refined: for a solution that is read out itself.
 enum class Accuracy { Single, Refined };
 /// Tangent and residual of the present iterate of one muscle that is not rigid, for factor_system() of the same
 /// accuracy.

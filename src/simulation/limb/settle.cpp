@@ -56,8 +56,8 @@ struct Outlook {
 };
 
 /// Goes along `direction` as far as the energy falls: every force has a potential in a static solve, and its slope
-/// along the way is residual . direction, so the slope alone says where to stop. Returns the part gone, 0 when none
-/// helps.
+/// along the way is residual . direction, so the slope alone determines where to stop. Returns the part gone, 0 when
+/// none helps.
 double search_line(const Skeleton& skeleton, const TissueLoad& load, const Eigen::VectorXd& direction,
                    LimbMuscle& muscle) {
   const double slope = -muscle.system.residual_N.dot(direction);

@@ -21,13 +21,13 @@ bool settle_muscle(const Skeleton& skeleton, const Vec3& gravity_m_s2, double wa
 
 /// Refreshes the quasi-static stiffness of one muscle about every joint: -d(torque)/d(angle) at held activation with
 /// the tissue following in equilibrium (Schur complement of the static tangent, no inertia, no force-velocity). Its
-/// neighbours follow as in their own last refresh: exact once each has had its turn a few times. Keeps the old value
+/// neighbours follow as in their own last refresh: exact once each was refreshed a few times. Keeps the old value
 /// when the tangent is singular. Of a Line muscle: its line at rest. Different muscles one after the other, since each
 /// reads its neighbours; beside it others may only read.
 void refresh_muscle_stiffness(const Limb& limb, LimbMuscle& muscle);
 
 /// The same of all muscles, exact at once, and what contact adds to it: the stiffness less the one that is left when
-/// all contact forces are held as they are while the joint turns. Twice the cost.
+/// all contact forces are held as they are while the joint rotates. Twice the cost.
 void refresh_stiffness(Limb& limb, WorkerPool& workers);
 
 }  // namespace myotact::simulation

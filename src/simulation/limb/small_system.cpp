@@ -123,9 +123,10 @@ bool of_several_tools(const Limb& limb) {
 void read_compliance(Limb& limb, const SmallSystem& small) {
   const auto joints = static_cast<Eigen::Index>(small.joints.size());
   const Eigen::MatrixXd columns = small.matrix.topRightCorner(joints, small.size() - joints);
-  const Eigen::MatrixXd turns = joints > 0 && columns.cols() > 0
-                                    ? Eigen::MatrixXd(small.matrix.topLeftCorner(joints, joints).ldlt().solve(columns))
-                                    : columns;
+  const Eigen::MatrixXd rotations =
+      joints > 0 && columns.cols() > 0
+          ? Eigen::MatrixXd(small.matrix.topLeftCorner(joints, joints).ldlt().solve(columns))
+          : columns;
   const bool several = of_several_tools(limb);
   for (std::size_t s = 0; s < limb.springs.size(); ++s) {
     const int muscle = limb.springs[s].muscle;
@@ -137,7 +138,7 @@ void read_compliance(Limb& limb, const SmallSystem& small) {
     if (several) {
       compliance += compliance_beside(limb, small, s);
     } else if (joints > 0) {
-      compliance += columns.middleCols<3>(first).transpose() * turns.middleCols<3>(first);
+      compliance += columns.middleCols<3>(first).transpose() * rotations.middleCols<3>(first);
     }
   }
 }

@@ -7,9 +7,9 @@
 namespace myotact::simulation {
 
 /// The dense system that is left when all muscles' nodes are eliminated: matrix x = right. Unknowns: changes of the
-/// angles of the joints that may turn, then the force of each spring [N, world].
+/// angles of the joints that may rotate, then the force of each spring [N, world].
 struct SmallSystem {
-  std::vector<int> joints;  // that may turn, in the order of their rows
+  std::vector<int> joints;  // that may rotate, in the order of their rows
   Eigen::MatrixXd matrix;   // symmetric, indefinite: negative in the springs' block
   Eigen::VectorXd right;    // minus the residual
 
@@ -18,7 +18,7 @@ struct SmallSystem {
   Eigen::Index spring_row(std::size_t spring) const { return static_cast<Eigen::Index>(joints.size() + 3 * spring); }
 };
 
-/// Which joints are unknowns. Free: those that may turn. Held: none does, whatever pulls.
+/// Which joints are unknowns. Free: those that may rotate. Held: none, whatever pulls.
 enum class Joints { Free, Held };
 
 /// All zero, of the right size.
@@ -26,7 +26,7 @@ SmallSystem make_small_system(const Limb& limb, Joints joints);
 
 /// Tangent, factor, border solutions of one muscle. A muscle that the first Newton step has balanced keeps its tangent
 /// in the later ones: only its residual is new. It is cheap, and the muscles that are out of balance set the pace.
-/// `sound` says whether it worked, `made_definite` whether the safe tangent was needed. `index`: of the muscle.
+/// `sound` states whether it worked, `made_definite` whether the safe tangent was needed. `index`: of the muscle.
 /// Different muscles may be eliminated by different threads at once.
 void eliminate(const Limb& limb, const SmallSystem& small, TissueLoad load, int index, LimbMuscle& muscle);
 

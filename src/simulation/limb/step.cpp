@@ -27,7 +27,7 @@ constexpr double kRelaxedPart = 0.01;
 /// Out-of-balance torque of the joints, over the sum of the lines' torques, at which Line muscles count as solved: they
 /// cost next to nothing, so that one more step of Newton's is worth a figure's fourth digit.
 constexpr double kLinesSolvedShare = 1e-4;
-/// A joint that turns farther than this in one Newton step is linearised once more [rad].
+/// A joint that rotates farther than this in one Newton step is linearised once more [rad].
 constexpr double kLargestRotation_rad = 0.05;
 /// A place where an element folds over farther than this is not looked at.
 constexpr double kSmallestJ = -0.5;
@@ -128,7 +128,7 @@ Way make_way(Limb& limb, const SmallSystem& small, const Solutions& solutions, W
   return way;
 }
 
-/// Goes the whole way unless the energy has turned to rise steeply by then; then back towards the lowest place on it.
+/// Goes the whole way unless the energy rises steeply by then; then back towards the lowest place on it.
 /// `part`: how much of it at most, then how much was gone.
 bool search_way(Limb& limb, const TissueLoad& load, const Way& way, WorkerPool& workers, double& part) {
   const double start_slope = energy_slope(limb, load.rule, way);
@@ -149,8 +149,8 @@ struct Iteration {
   double part = 1.0;  // of the way that was gone
 };
 
-/// Out-of-balance torque of the joints that may turn over the sizes of the lines' torques; 0 where finite elements or
-/// springs have a part in the balance, which the muscles' own residuals then tell.
+/// Out-of-balance torque of the joints that may rotate over the sizes of the lines' torques; 0 where finite elements or
+/// springs have a part in the balance, which the muscles' own residuals then show.
 double lines_share(Limb& limb, const TimeRule& rule) {
   double scale_Nm = 0.0;
   for (const LimbMuscle& muscle : limb.muscles) {

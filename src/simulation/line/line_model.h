@@ -11,7 +11,7 @@
 namespace myotact::simulation {
 
 /// Length of a muscle line and its derivatives by the joint angles, in the skeleton's pose. Rows of joints that cannot
-/// turn (welds) are 0; locked joints have theirs.
+/// rotate (welds) are 0; locked joints have theirs.
 struct LineGeometry {
   double length_m = 0.0;             // round its wraps
   Eigen::VectorXd slope_m_rad;       // dl/dq; the moment arm is r = -dl/dq, positive flexes

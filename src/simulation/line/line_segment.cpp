@@ -31,17 +31,17 @@ Vec3 second_derivative(const Skeleton& skeleton, int body, int a, int b, const V
   return body < 0 ? Vec3(Vec3::Zero()) : skeleton.point_second_derivative(body, a, b, p_W);
 }
 
-Vec3 turning(const Skeleton& skeleton, int surface_body, int joint) {
-  const bool turns = surface_body >= 0 && skeleton.is_distal(surface_body, joint);
-  return turns ? skeleton.axis_W(joint) : Vec3(Vec3::Zero());
+Vec3 rotation_axis(const Skeleton& skeleton, int surface_body, int joint) {
+  const bool rotates = surface_body >= 0 && skeleton.is_distal(surface_body, joint);
+  return rotates ? skeleton.axis_W(joint) : Vec3(Vec3::Zero());
 }
 
 /// d2p/(dq_a dq_b) of a stop as seen from the surface: with p = X(q) s, differentiated twice for s.
 Vec3 relative_bend(const Skeleton& skeleton, const LineStop& stop, int surface_body, int a, int b) {
   return second_derivative(skeleton, stop.body, a, b, stop.p_W) -
          second_derivative(skeleton, surface_body, a, b, stop.p_W) -
-         turning(skeleton, surface_body, a).cross(relative_velocity(skeleton, stop, surface_body, b)) -
-         turning(skeleton, surface_body, b).cross(relative_velocity(skeleton, stop, surface_body, a));
+         rotation_axis(skeleton, surface_body, a).cross(relative_velocity(skeleton, stop, surface_body, b)) -
+         rotation_axis(skeleton, surface_body, b).cross(relative_velocity(skeleton, stop, surface_body, a));
 }
 
 LineSegment straight_segment(const LineStop& from, const LineStop& to) {
@@ -83,7 +83,7 @@ double LineSegment::by_angles(const Skeleton& skeleton, int a, int b) const {
 Vec3 LineSegment::slope_from_by_angle(const Skeleton& skeleton, int joint) const {
   return bend_from_1_m * relative_velocity(skeleton, from, surface_body, joint) +
          bend_mixed_1_m * relative_velocity(skeleton, to, surface_body, joint) +
-         turning(skeleton, surface_body, joint).cross(slope_from);
+         rotation_axis(skeleton, surface_body, joint).cross(slope_from);
 }
 
 LineSegment measure_segment(const Skeleton& skeleton, const LineStop& from, const LineStop& to,

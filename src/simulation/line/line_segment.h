@@ -21,7 +21,7 @@ struct LineSegment {
   int surface_body = -1;  // of the surface on its way; -1: none
   bool clears = true;     // false: the surface is there and cannot be cleared (geometry::WrapPath)
 
-  /// Whether turning the joint moves the stops and the surface against each other.
+  /// Whether rotating the joint moves the stops and the surface against each other.
   bool changes_with(const Skeleton& skeleton, int joint) const;
   /// Derivatives by the angles of the joints: of the length, first and second, and of slope_from. The surface moves
   /// with its body: what counts is how the stops move relative to it.
@@ -37,8 +37,8 @@ LineSegment measure_segment(const Skeleton& skeleton, const LineStop& from, cons
 
 /// Points between the ends of a segment that has a surface on its way.
 inline constexpr int kWrapPoints = 15;
-/// Joins the segment's points to `points_m`: `from`, and on the way round a surface kWrapPoints more; not `to`. World
-/// frame; X_WB is the pose of the surface's body, not read without a wrap.
+/// Joins the segment's points to `points_m`: `from`, and on the geodesic round a surface kWrapPoints more; not `to`.
+/// World frame; X_WB is the pose of the surface's body, not read without a wrap.
 void add_segment_points(const Vec3& from_W, const Vec3& to_W, const anatomy::LineWrap* wrap, const Pose& X_WB,
                         std::vector<Vec3>& points_m);
 

@@ -10,7 +10,7 @@
 namespace myotact::simulation {
 namespace {
 
-/// A tendon shorter than this is none [m]: the fibres reach from bone to bone.
+/// A shorter tendon is left out [m]: the fibres reach from bone to bone.
 constexpr double kShortestTendon_m = 1e-4;
 
 }  // namespace

@@ -20,7 +20,7 @@ struct LineTissue {
 };
 
 /// `skeleton` at the file pose. Throws Error BadData naming the muscle when its fibres are wider than long there, or
-/// longer than the line. A tendon shorter than 0.1 mm is taken as rigid, whatever `tendon` says.
+/// longer than the line. A tendon shorter than 0.1 mm is taken as rigid, whatever `tendon` is.
 LineTissue make_line_tissue(const anatomy::Muscle& muscle, const anatomy::MuscleLine& line, const Skeleton& skeleton,
                             Tendon tendon);
 

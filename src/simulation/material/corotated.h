@@ -36,15 +36,15 @@ MYOTACT_INLINE Matrix3<Real> polar_rotation(const Point<Real>& p) {
   for (int step = 0; step < kScaledSteps + kPlainSteps; ++step) {
     const Point<Real> at = make_point<Real>(R, {});
     const Real inverse_J = 1.0 / at.J;
-    Real keep = constant<Real>(0.5), turn = 0.5 * inverse_J;
+    Real keep = constant<Real>(0.5), cofactor_share = 0.5 * inverse_J;
     if (step < kScaledSteps) {
       Real cofactor_squared{};
       for (std::size_t k = 0; k < 9; ++k) cofactor_squared += at.cofactor[k] * at.cofactor[k];
       const Real g = square_root(square_root(cofactor_squared / at.I1) * larger(inverse_J, -inverse_J));
       keep = 0.5 * g;
-      turn = turn / g;
+      cofactor_share = cofactor_share / g;
     }
-    for (std::size_t k = 0; k < 9; ++k) R[k] = keep * R[k] + turn * at.cofactor[k];
+    for (std::size_t k = 0; k < 9; ++k) R[k] = keep * R[k] + cofactor_share * at.cofactor[k];
   }
   if constexpr (kWidth<Real> == 1) {
     return p.J < kSafeRatio ? rotation_by_singular_values(p.F) : R;

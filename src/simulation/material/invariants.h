@@ -26,7 +26,7 @@ struct Slopes {
 };
 
 /// Laws that divide by the volume ratio or take its logarithm see this instead: J itself down to a tenth, below it a
-/// curve that stays positive, with value and slope continuous. An element that turned inside out is thus pushed back
+/// curve that stays positive, with value and slope continuous. An inverted element is thus pushed back
 /// by a finite force.
 template <class Real>
 struct PositiveRatio {

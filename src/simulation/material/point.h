@@ -4,7 +4,7 @@
 
 #include "simulation/simd/lanes.h"
 
-// What a law is told about a point of the tissue, and what it answers. 3x3 matrices are row-major: entry 3 i + A has
+// The input of a material law at a point of the tissue, and its result. 3x3 matrices are row-major: entry 3 i + A has
 // the component i in the world and the direction A of the rest position.
 
 namespace myotact::simulation {

@@ -28,29 +28,29 @@ void add_touch_forces(const TissuePass& pass, const Touch& touch) {
   }
 }
 
-/// Second derivatives of the energy E(x, q). A joint turn by dq moves the bone past a node at rest by -J dq, J the
-/// jacobian, and turns the forces with it; that nothing changes when the node moves along with the bone gives the
-/// angles' own part. `turns`: the forces' directions turn (left out of a safe tangent).
-void add_touch_tangent(const TissuePass& pass, const Touch& touch, bool turns) {
+/// Second derivatives of the energy E(x, q). A joint rotation by dq moves the bone past a node at rest by -J dq, J the
+/// jacobian, and rotates the forces with it; that nothing changes when the node moves along with the bone gives the
+/// angles' own part. `rotates`: the forces' directions rotate (left out of a safe tangent).
+void add_touch_tangent(const TissuePass& pass, const Touch& touch, bool rotates) {
   const Skeleton& skeleton = pass.skeleton;
   const int f = pass.tissue.free_index[at(touch.node)];
   if (pass.load.in_factor)
     pass.system.factor.matrix.add(f, f, touch.curvature_N_m);
   else
     pass.system.matrix.add(f, f, touch.curvature_N_m);
-  const auto turned = [&](int joint) {
-    return turns ? Vec3(skeleton.axis_W(joint).cross(touch.gradient_N)) : Vec3(Vec3::Zero());
+  const auto rotated = [&](int joint) {
+    return rotates ? Vec3(skeleton.axis_W(joint).cross(touch.gradient_N)) : Vec3(Vec3::Zero());
   };
   for (int j = 0; j < skeleton.joint_count(); ++j) {
     if (!skeleton.is_distal(touch.body, j)) continue;
     const Vec3 jacobian = skeleton.point_derivative(touch.body, j, touch.position_m);
     const Vec3 pushed = touch.curvature_N_m * jacobian;
-    pass.system.coupling_N_rad.col(j).segment<3>(3 * f) += turned(j) - pushed;
+    pass.system.coupling_N_rad.col(j).segment<3>(3 * f) += rotated(j) - pushed;
     for (int k = 0; k < skeleton.joint_count(); ++k) {
       if (!skeleton.is_distal(touch.body, k)) continue;
       const Vec3 other = skeleton.point_derivative(touch.body, k, touch.position_m);
-      double stiffness = pushed.dot(other) - turned(j).dot(other) - turned(k).dot(jacobian);
-      if (turns) {
+      double stiffness = pushed.dot(other) - rotated(j).dot(other) - rotated(k).dot(jacobian);
+      if (rotates) {
         const Vec3 second = skeleton.point_second_derivative(touch.body, j, k, touch.position_m);
         stiffness -= touch.gradient_N.dot(second);
       }
@@ -73,11 +73,11 @@ void add_node(const TissuePass& pass, const BoneShape& bone, const BonePatch::No
   Touch touch{node.node, bone.body, x, -node.area_m2 * law.pressure_Pa * (X_WL.rotation * d.gradient), Mat3::Zero()};
   add_touch_forces(pass, touch);
   if (!pass.tangent || pass.load.contact_held) return;
-  const bool turns = !pass.load.definite;
+  const bool rotates = !pass.load.definite;
   Mat3 curvature = node.area_m2 * law.slope_Pa_m * d.gradient * d.gradient.transpose();
-  if (turns) curvature -= node.area_m2 * law.pressure_Pa * d.hessian_1_m;
+  if (rotates) curvature -= node.area_m2 * law.pressure_Pa * d.hessian_1_m;
   touch.curvature_N_m = X_WL.rotation * curvature * X_WL.rotation.transpose();
-  add_touch_tangent(pass, touch, turns);
+  add_touch_tangent(pass, touch, rotates);
 }
 
 Eigen::AlignedBox3d box_of(const BonePatch& patch, const Eigen::VectorXd& position_m) {

@@ -65,7 +65,7 @@ struct FibreMap {
 
   /// n by which active force goes, and that by which passive force goes.
   double length(double stretch) const { return passive_length(stretch) + offset; }
-  /// The offset makes up for what active fibres shorten by against their soft ends; at rest they are as long as given.
+  /// The offset compensates what active fibres shorten by against their soft ends; at rest they are as long as given.
   double passive_length(double stretch) const { return rest_stretch + gain * (stretch - 1.0); }
 };
 

@@ -26,7 +26,7 @@ bool is_clamped(const TissuePass& pass, int node) {
   return pass.tissue.body[at(node)] >= 0;
 }
 
-/// Whether turning the joint moves the node: it is clamped, and to a body beyond the joint.
+/// Whether rotating the joint moves the node: it is clamped, and to a body beyond the joint.
 bool follows(const TissuePass& pass, int node, int joint) {
   return is_clamped(pass, node) && pass.skeleton.is_distal(pass.tissue.body[at(node)], joint);
 }

@@ -157,13 +157,13 @@ template <class Real>
 MYOTACT_INLINE void add_edge_blocks(const Edge<Real>& edge, std::size_t e, bool definite,
                                     TetBlocks<Real, LinearTet>& blocks) {
   const auto [a, b] = edge_nodes(e);
-  Real turning = 1.0 - edge.rest_m / edge.length_m;
-  if (definite) turning = larger(turning, Real{});
+  Real transverse = 1.0 - edge.rest_m / edge.length_m;
+  if (definite) transverse = larger(transverse, Real{});
   const Real inverse = 1.0 / edge.length_m;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
-      Real value = (1.0 - turning) * (inverse * edge.way_m[i]) * (inverse * edge.way_m[j]);
-      if (i == j) value += turning;
+      Real value = (1.0 - transverse) * (inverse * edge.way_m[i]) * (inverse * edge.way_m[j]);
+      if (i == j) value += transverse;
       value *= edge.stiffness_N_m;
       blocks[pair_of(a, a)][3 * i + j] += value;
       blocks[pair_of(b, b)][3 * i + j] += value;

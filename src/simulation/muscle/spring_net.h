@@ -13,7 +13,8 @@
 // That is the stiffness at which regular tets of all orientations resist shear like a solid of shear modulus mu: six
 // springs of one length hold 1/2 (k L^2 / V) sum (n . strain n)^2 a volume, whose mean over all orientations is that of
 // a solid with lambda = mu = 2/5 k L^2 / V. A net of springs cannot have another Poisson's ratio than this 1/4; the
-// volume springs bring it near that of muscle. What a mesh of few, unequal tets does instead, the one scale makes up.
+// volume springs bring it near that of muscle. The deviation of a mesh of few, unequal tets is compensated by the one
+// scale.
 
 namespace myotact::simulation {
 

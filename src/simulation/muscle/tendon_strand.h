@@ -12,8 +12,8 @@
 namespace myotact::simulation {
 
 /// The load-bearing part of a tendon as a one-dimensional elastic string: from the weighted mean p of the belly's end
-/// nodes over points and surfaces on bodies to the bone. A string has true lever arms and no bending stiffness; tendon
-/// tets of 1 GPa would lock in bending and spoil the solve.
+/// nodes over points and surfaces on bodies to the bone. A string has true moment arms and no bending stiffness; tendon
+/// tets of 1 GPa would lock in bending and make the solve ill-conditioned.
 struct TendonStrand {
   /// A point that the string passes, riding on a body.
   struct BodyPoint {

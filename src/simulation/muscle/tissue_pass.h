@@ -71,7 +71,7 @@ struct TissueFactor {
 ///
 /// over its free nodes and all joint angles.
 struct TissueSystem {
-  BlockMatrix matrix;   // unless the load says `in_factor`
+  BlockMatrix matrix;   // unless the load sets `in_factor`
   TissueFactor factor;  // of the matrix
   MeanTerm mean;
   Eigen::VectorXd residual_N;              // of the free nodes: internal forces, inertia, minus weight
@@ -85,7 +85,7 @@ struct TissueSystem {
   Eigen::VectorXd internal_N;        // at all nodes: elastic forces, strands, contact
   Eigen::VectorXd muscle_torque_Nm;  // that the tissue exerts on the joints, positive flexes
   double tension_N = 0.0;            // on the insertion, along the line's last segment
-  double force_scale_N = 0.0;        // size of the nodal forces, to judge a residual by
+  double force_scale_N = 0.0;        // size of the nodal forces, to compare a residual with
   double smallest_J = 1.0;           // over the integration points
   double volume_ratio = 1.0;         // of the whole muscle, now over rest
   double contact_N = 0.0;            // sum of the nodes' contact forces

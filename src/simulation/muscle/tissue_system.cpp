@@ -33,7 +33,7 @@ using Blocks = TetBlocks<Eight, QuadraticTet>;
 
 using ElementVectors = std::array<Vec3, kTetNodes>;
 
-/// Motion of an element's clamped nodes when a joint turns; false when it moves none of them.
+/// Motion of an element's clamped nodes when a joint rotates; false when it moves none of them.
 bool joint_motion(const Pass& pass, const TissueElement& element, int joint, ElementVectors& motion) {
   motion.fill(Vec3::Zero());
   bool any = false;

@@ -11,7 +11,7 @@ TissueSystem make_system(const MuscleTissue& tissue, const Skeleton& skeleton);
 /// the load is static.
 void compute_forces(const MuscleTissue& tissue, const Skeleton& skeleton, const TissueLoad& load, TissueState& state,
                     TissueSystem& system);
-/// The same and the tangent, which goes to the factor's places when the load says `in_factor`, else to the matrix; it
+/// The same and the tangent, which goes to the factor's places when the load sets `in_factor`, else to the matrix; it
 /// is not factored. Different muscles may be computed by different threads at once.
 void compute_system(const MuscleTissue& tissue, const Skeleton& skeleton, const TissueLoad& load, TissueState& state,
                     TissueSystem& system);

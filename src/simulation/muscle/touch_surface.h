@@ -25,7 +25,7 @@ struct TouchSurface {
   };
   std::vector<SurfaceNode> nodes;  // free ones
   /// How deep each of them lies in each other muscle at the file pose; empty for a muscle that none lies in. Below 0:
-  /// too deep to tell which face it lies under, so it touches none.
+  /// too deep to determine which face it lies under, so it touches none.
   std::vector<std::vector<double>> rest_depths_m;
   geometry::TriangleTree tree;  // over the mesh's nodes
   std::vector<Vec3> normals_W;  // one a node of the mesh, outwards; not unit: sum over faces, 0 inside
@@ -58,7 +58,7 @@ struct Under {
   double nearest_m = std::numeric_limits<double>::infinity();  // distance of the face, no sign
 };
 
-/// The face of `other` nearest to p, within the radius; face.triangle -1 when none is. The normal turns smoothly from
+/// The face of `other` nearest to p, within the radius; face.triangle -1 when none is. The normal rotates smoothly from
 /// one flat triangle to the next. `positions_m`: one a node, those that `other` followed last. Const: may be called
 /// from several threads.
 Under face_under(const Vec3& p, const TouchSurface& other, std::span<const Vec3> positions_m, double radius_m);

@@ -4,8 +4,8 @@
 
 namespace myotact::simulation {
 
-/// How step_particle() steps. Explicit gains energy in every step of an oscillation; it is here to show why nobody
-/// should use it.
+/// How step_particle() steps. Explicit gains energy in every step of an oscillation; it is here to show why it
+/// should not be used.
 enum class Integration { Implicit, Explicit };
 
 /// A particle at x (world) on two springs without rest length, to x1 and to x2. A stiffness of 0 is no spring.

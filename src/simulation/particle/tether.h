@@ -54,7 +54,7 @@ class Tether {
 
   /// The particle at rest in the cube's centre, the cube at its start.
   void restart();
-  /// `tools`: their newest states; one that nobody has in hand (sequence 0), or is nowhere, does not pull.
+  /// `tools`: their newest states; one that is not in a hand (sequence 0), or has no position, does not pull.
   void step(std::span<const messages::ToolState> tools, double dt_s);
 
   /// Stiffness, and the particle (or the origin) as the anchor; no tether once the particle is lost.

@@ -36,7 +36,7 @@ void Skeleton::check_joint(int j) const {
   const anatomy::Joint& joint = joints_[index(j)];
   if (joint.type != anatomy::JointType::Hinge && joint.type != anatomy::JointType::Weld) {
     throw joint_error(joint,
-                      "only hinges and welds turn here; universal and ball joints become chains of hinges by "
+                      "only hinges and welds are supported here; universal and ball joints become chains of hinges by "
                       "anatomy::with_hinge_chains");
   }
   for (const int body : {joint.parent, joint.child}) {
@@ -99,10 +99,10 @@ void Skeleton::set_pose(std::span<const double> angles_rad) {
     const Pose& X_WP = poses_[index(joint.parent)];
     const bool hinge = joint.type == anatomy::JointType::Hinge;
     const double angle_rad = hinge ? angles_rad[index(j)] : 0.0;
-    Mat3 turn = Mat3::Identity();
-    if (hinge) turn = Eigen::AngleAxisd(angle_rad, joint.axes[0]).toRotationMatrix();
-    // The turn leaves the centre in place: p -> R (p - c) + c.
-    poses_[index(joint.child)] = X_WP * Pose{turn, joint.centre_m - turn * joint.centre_m};
+    Mat3 rotation = Mat3::Identity();
+    if (hinge) rotation = Eigen::AngleAxisd(angle_rad, joint.axes[0]).toRotationMatrix();
+    // The rotation leaves the centre in place: p -> R (p - c) + c.
+    poses_[index(joint.child)] = X_WP * Pose{rotation, joint.centre_m - rotation * joint.centre_m};
     angles_rad_[index(j)] = angle_rad;
     axes_W_[index(j)] = hinge ? Vec3(X_WP.rotation * joint.axes[0]) : Vec3(Vec3::Zero());
     centres_W_[index(j)] = X_WP * joint.centre_m;
@@ -139,8 +139,9 @@ double Skeleton::inertia_kg_m2(int joint) const {
   double sum = 0.0;
   for (int b = 0; b < body_count(); ++b) {
     if (!is_distal(b, joint)) continue;
-    const Vec3 lever = point_derivative(b, joint, com_W(b));
-    sum += bodies_[index(b)].mass_kg * lever.squaredNorm() + axis_W(joint).dot(inertia_W_kg_m2(b) * axis_W(joint));
+    const Vec3 derivative_m = point_derivative(b, joint, com_W(b));
+    sum +=
+        bodies_[index(b)].mass_kg * derivative_m.squaredNorm() + axis_W(joint).dot(inertia_W_kg_m2(b) * axis_W(joint));
   }
   return sum;
 }

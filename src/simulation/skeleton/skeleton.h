@@ -11,7 +11,7 @@ namespace myotact::simulation {
 /// The tree of rigid bodies in generalised coordinates: one angle a joint, in the specimen's order (a weld's stays 0).
 /// Bodies without a joint above them stand still. Positive torques flex.
 ///
-/// All sums follow from where a point of a body goes when joint j turns by dq: dp = w_j x (p - c_j) dq if the body is
+/// All sums follow from where a point of a body goes when joint j rotates by dq: dp = w_j x (p - c_j) dq if the body is
 /// distal to j, else 0. Single caller; const functions may be called from several threads.
 class Skeleton {
  public:
@@ -40,7 +40,7 @@ class Skeleton {
   const Pose& body_pose(int body) const { return poses_[index(body)]; }
   Vec3 axis_W(int joint) const { return axes_W_[index(joint)]; }       // unit; 0 for a weld
   Vec3 centre_W(int joint) const { return centres_W_[index(joint)]; }  // on its axis
-  /// True when turning `joint` moves `body` (locked or not); never of a weld.
+  /// True when rotating `joint` moves `body` (locked or not); never of a weld.
   bool is_distal(int body, int joint) const { return distal_[index(body) * joints_.size() + index(joint)]; }
 
   /// dp/dq_joint [m/rad] of the point of `body` that is at p_W now; world frame, 0 when the joint does not move the

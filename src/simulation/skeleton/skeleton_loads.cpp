@@ -36,7 +36,7 @@ void add_passive(const Skeleton& skeleton, int j, double velocity_rad_s, Skeleto
   loads.damping_Nms_rad[j] += kRangeDamping_Nms_rad * share;
 }
 
-/// Acceleration that a body has at zero joint accelerations, because the joints turn each other's axes.
+/// Acceleration that a body has at zero joint accelerations, because the joints rotate each other's axes.
 struct BiasAcceleration {
   Vec3 com_m_s2 = Vec3::Zero();
   Vec3 angular_rad_s2 = Vec3::Zero();
@@ -53,8 +53,8 @@ BiasAcceleration bias(const Skeleton& skeleton, int body, std::span<const double
     for (int l = 0; l < skeleton.joint_count(); ++l) {
       const double product = velocity_k * velocities_rad_s[static_cast<std::size_t>(l)];
       sum.com_m_s2 += skeleton.point_second_derivative(body, k, l, com_W) * product;
-      const bool turns = skeleton.is_distal(body, l) && skeleton.is_distal(skeleton.joint(l).parent, k);
-      if (turns) sum.angular_rad_s2 += skeleton.axis_W(k).cross(skeleton.axis_W(l)) * product;
+      const bool rotates = skeleton.is_distal(body, l) && skeleton.is_distal(skeleton.joint(l).parent, k);
+      if (rotates) sum.angular_rad_s2 += skeleton.axis_W(k).cross(skeleton.axis_W(l)) * product;
     }
   }
   return sum;
@@ -71,11 +71,11 @@ void add_body(const Skeleton& skeleton, int body, const SkeletonInput& input, Sk
   const Vec3 moment_Nm = -inertia * b.angular_rad_s2 - omega.cross(inertia * omega);
   for (int j = 0; j < skeleton.joint_count(); ++j) {
     if (!skeleton.is_distal(body, j)) continue;
-    const Vec3 lever = skeleton.point_derivative(body, j, com_W);
-    loads.force_Nm[j] += lever.dot(force_N) + skeleton.axis_W(j).dot(moment_Nm);
+    const Vec3 derivative_m = skeleton.point_derivative(body, j, com_W);
+    loads.force_Nm[j] += derivative_m.dot(force_N) + skeleton.axis_W(j).dot(moment_Nm);
     for (int k = 0; k < skeleton.joint_count(); ++k) {
       if (!skeleton.is_distal(body, k)) continue;
-      loads.mass_kg_m2(j, k) += mass_kg * lever.dot(skeleton.point_derivative(body, k, com_W)) +
+      loads.mass_kg_m2(j, k) += mass_kg * derivative_m.dot(skeleton.point_derivative(body, k, com_W)) +
                                 skeleton.axis_W(j).dot(inertia * skeleton.axis_W(k));
       loads.stiffness_Nm_rad(j, k) -=
           mass_kg * input.gravity_m_s2.dot(skeleton.point_second_derivative(body, j, k, com_W));

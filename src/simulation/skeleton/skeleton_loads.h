@@ -18,7 +18,7 @@ struct SkeletonInput {
 
 /// Stop at the end of a joint's range: a one-sided spring and damper. 500 N m/rad yields 1.7 degrees under 12 N m (600
 /// N at 20 mm, a strong canine triceps); softer, and the elbow visibly passes its range. Chosen, not measured: bone on
-/// bone is far stiffer, which an implicit step would stand but a hand could not tell.
+/// bone is far stiffer, which an implicit step would withstand but a hand could not distinguish.
 inline constexpr double kRangeStiffness_Nm_rad = 500.0;
 /// Over this angle past the end the stop's stiffness and damping rise from nothing, so that neither torque nor
 /// stiffness jumps when a limb swings into it: half a degree, below what anybody sees [rad].

@@ -58,7 +58,7 @@ class Solid {
     Eigen::VectorXd force_N;     // slope of the energy at all nodes
     BlockMatrix stiffness;       // slope of the forces, when asked for
     double smallest_J = 1.0;     // over the integration points
-    double force_scale_N = 0.0;  // size of the elements' forces, to judge a residual by
+    double force_scale_N = 0.0;  // size of the elements' forces, to compare a residual with
   };
   /// Zero, of the right size and pattern, for evaluate() to fill.
   Evaluation make_evaluation() const;

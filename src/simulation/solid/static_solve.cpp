@@ -95,8 +95,8 @@ class StaticSolver {
     return false;
   }
 
-  /// An exact Newton step estimates what is left to go. Where the stress vanishes everywhere (free contraction) nothing
-  /// but this can tell: the elements' forces are round-off themselves.
+  /// An exact Newton step estimates what is left to go. Where the stress vanishes everywhere (free contraction) no
+  /// other measure works: the elements' forces are round-off themselves.
   bool is_there(const Eigen::VectorXd& direction) const {
     return exact_ && direction.lpNorm<Eigen::Infinity>() < smallest_step_m_;
   }

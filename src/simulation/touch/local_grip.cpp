@@ -116,13 +116,16 @@ void write_grip_motion(const Limb& limb, const GripStep& step, messages::LocalGr
   if (joints.empty() || slope.isZero()) return;
 
   const Eigen::LDLT<Eigen::MatrixXd> mass(part(limb.loads.mass_kg_m2, joints));
-  const Eigen::MatrixXd turn = mass.solve(slope.transpose());  // angles' acceleration by a unit force on the point
-  const Mat3 mobility = slope * turn;
-  const Eigen::MatrixXd turn_of_way = turn * pseudo_inverse(mobility);
+  const Eigen::MatrixXd rotation_by_force =
+      mass.solve(slope.transpose());  // angles' acceleration by a unit force on the point
+  const Mat3 mobility = slope * rotation_by_force;
+  const Eigen::MatrixXd rotation_by_displacement = rotation_by_force * pseudo_inverse(mobility);
   const JointTangent tangent = tangent_of(limb, step);
   grip.mobility_1_kg = rows_of(mobility);
-  grip.stiffness_1_s2 = rows_of(turn.transpose() * part(tangent.stiffness_Nm_rad, joints) * turn_of_way);
-  grip.damping_1_s = rows_of(turn.transpose() * part(tangent.damping_Nms_rad, joints) * turn_of_way);
+  grip.stiffness_1_s2 =
+      rows_of(rotation_by_force.transpose() * part(tangent.stiffness_Nm_rad, joints) * rotation_by_displacement);
+  grip.damping_1_s =
+      rows_of(rotation_by_force.transpose() * part(tangent.damping_Nms_rad, joints) * rotation_by_displacement);
 }
 
 }  // namespace myotact::simulation

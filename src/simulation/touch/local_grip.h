@@ -31,11 +31,11 @@ struct GripStep {
 };
 
 /// What a hand at a point of a body feels until the next step, with the limb's joints held together in a few 3x3
-/// matrices. M, D, K: mass, damping and stiffness of the joints that may turn; J = dx/dq of the point.
+/// matrices. M, D, K: mass, damping and stiffness of the joints that may rotate; J = dx/dq of the point.
 ///
 ///   M q'' = torques + J^T f     mobility W = J M^-1 J^T
-///   x'' = J q''  (the point's own turning about the axis, v^2 / r, is left to the next step)
-///   dq = M^-1 J^T W^+ dx        the turn that belongs to a displacement of the point; exact under one joint
+///   x'' = J q''  (the point's own rotation about the axis, v^2 / r, is left to the next step)
+///   dq = M^-1 J^T W^+ dx        the rotation that belongs to a displacement of the point; exact under one joint
 ///   stiffness J M^-1 K M^-1 J^T W^+, damping likewise with D
 ///
 /// The springs by which other tools hold or press on bones are part of K. Sets everything but what local_grip() has

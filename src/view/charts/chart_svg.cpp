@@ -24,7 +24,7 @@ struct Range {
   double lowest, highest;
 };
 
-/// Fewest digits that tell neighbouring ticks apart.
+/// Fewest digits that distinguish neighbouring ticks.
 std::string tick_text(double value, double spacing) {
   const int digits = std::max(0, static_cast<int>(std::ceil(-std::log10(spacing) - 1e-9)));
   return fmt::format("{:.{}f}", value, digits);

@@ -11,7 +11,8 @@ glm::vec3 cividis(double level);
 /// Its colours at evenly spaced levels from 0 to 1; between them it is linear.
 std::array<glm::vec3, 10> cividis_table();
 
-/// For signed values: -1 blue .. 0 near white .. 1 orange, lightest in the middle, told apart by everyone.
+/// For signed values: -1 blue .. 0 near white .. 1 orange, lightest in the middle, distinguishable with any colour
+/// vision.
 glm::vec3 blue_orange(double level);
 
 }  // namespace myotact::view

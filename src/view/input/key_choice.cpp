@@ -85,7 +85,7 @@ ChosenKeys chosen_keys(const JsonValue& value) {
         refusal(bindings, key_bindings()[static_cast<std::size_t>(place)].action, *key_from_name(key.string()));
     if (!why.empty()) throw key.error(why);
   }
-  // refusal() finds the first owner of a key: of two that share one, the second is told about the first.
+  // refusal() finds the first owner of a key: of two that share one, the message of the second names the first.
   std::set<std::pair<int, int>> keys;
   for (const KeyBinding& binding : bindings) {
     if (!keys.emplace(binding.key, binding.mods).second) {

@@ -11,15 +11,15 @@ namespace {
 
 constexpr int kLeft = GLFW_MOUSE_BUTTON_LEFT, kRight = GLFW_MOUSE_BUTTON_RIGHT, kMiddle = GLFW_MOUSE_BUTTON_MIDDLE;
 constexpr int kShift = GLFW_MOD_SHIFT, kCtrl = GLFW_MOD_CONTROL, kAlt = GLFW_MOD_ALT;
-constexpr const char *kTurns = "mouse.turn", *kShifts = "mouse.shift", *kNearer = "mouse.nearer";
+constexpr const char *kRotates = "mouse.turn", *kShifts = "mouse.shift", *kNearer = "mouse.nearer";
 
-constexpr std::array kThreeButton = {MouseRow{kLeft, 0, CameraDrag::Turn, "mouse.left", kTurns},
+constexpr std::array kThreeButton = {MouseRow{kLeft, 0, CameraDrag::Rotate, "mouse.left", kRotates},
                                      MouseRow{kRight, 0, CameraDrag::Shift, "mouse.right", kShifts},
                                      MouseRow{kLeft, kShift, CameraDrag::Shift, "mouse.shift_left", kShifts}};
-constexpr std::array kTrackpad = {MouseRow{kLeft, 0, CameraDrag::Turn, "mouse.left", kTurns},
-                                  MouseRow{kLeft, kAlt, CameraDrag::Turn, "mouse.alt_left", "mouse.turn_always"},
+constexpr std::array kTrackpad = {MouseRow{kLeft, 0, CameraDrag::Rotate, "mouse.left", kRotates},
+                                  MouseRow{kLeft, kAlt, CameraDrag::Rotate, "mouse.alt_left", "mouse.turn_always"},
                                   MouseRow{kLeft, kShift, CameraDrag::Shift, "mouse.shift_left", kShifts}};
-constexpr std::array kBlender = {MouseRow{kMiddle, 0, CameraDrag::Turn, "mouse.middle", kTurns},
+constexpr std::array kBlender = {MouseRow{kMiddle, 0, CameraDrag::Rotate, "mouse.middle", kRotates},
                                  MouseRow{kMiddle, kShift, CameraDrag::Shift, "mouse.shift_middle", kShifts},
                                  MouseRow{kMiddle, kCtrl, CameraDrag::Nearer, "mouse.ctrl_middle", kNearer}};
 

@@ -8,7 +8,7 @@ namespace myotact::view {
 /// Which drags move the camera: as in anatomy programs, without a middle button or wheel, or as in Blender.
 enum class MousePreset { ThreeButton, Trackpad, Blender };
 
-enum class CameraDrag { Turn, Shift, Nearer };
+enum class CameraDrag { Rotate, Shift, Nearer };
 
 /// One drag. Rows without modifiers of the left button hold while the mouse looks: else it is the hand's.
 struct MouseRow {

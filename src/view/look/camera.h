@@ -40,14 +40,14 @@ struct ViewBox {
   glm::vec3 lowest_m{0.0f}, highest_m{0.0f};
 };
 
-/// What a device that turns the view does to it within `dt_s`, as if its cap were the limb: pushed to the right, up and
-/// towards the person, each -1 .. 1.
+/// What a device that rotates the view does to it within `dt_s`, as if its cap were the limb: pushed to the right, up
+/// and towards the person, each -1 .. 1.
 void push_view(Camera& camera, const std::array<double, 3>& push, float dt_s);
 
 /// From the same side, so near and so placed that the box fills a picture of that width over height.
 Camera framed(const Camera& camera, const ViewBox& box, float aspect);
 
-/// On the way from one view to another, share 0 .. 1 of it; turns by the shorter way round.
+/// On the way from one view to another, share 0 .. 1 of it; rotates by the smaller angle.
 Camera between(const Camera& from, const Camera& to, float share);
 
 /// Standard views of a limb: lateral, medial, cranial, caudal, dorsal, palmar; nothing for another name. `left_limb`:

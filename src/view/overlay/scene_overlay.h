@@ -25,7 +25,7 @@ struct OverlaidScene {
   const std::vector<bool>& superficial;  // as for opacity_of()
   Part hovered;
   glm::vec3 background{1.0f};  // text is dark on a light one
-  bool tools_lag = false;      // some may, behind hands that feel nothing: the legend says what joins the two
+  bool tools_lag = false;      // some may, behind hands that feel nothing: the legend explains what joins the two
 };
 
 /// What is written over the scene: names with leader lines, the legend of the colours, a scale bar. Between ImGui's

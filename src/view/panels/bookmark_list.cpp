@@ -37,7 +37,7 @@ void add(PanelContext& context, Bookmark bookmark) {
   }
 }
 
-/// Turns there; everything but the camera is shown at once.
+/// Rotates the view there; everything but the camera is shown at once.
 void turn_to(PanelContext& context, const SavedView& saved) {
   const Camera camera = context.view.camera;
   const std::vector<std::string> missing = show(saved, context.specimen, context.view);

@@ -7,8 +7,8 @@
 
 namespace myotact::view {
 
-/// The person's bookmarks of this specimen: a click turns there, and undo back. Each can be renamed and deleted; the
-/// one deleted last can be had back.
+/// The person's bookmarks of this specimen: a click rotates the view there, and undo back. Each can be renamed and
+/// deleted; the one deleted last can be had back.
 class BookmarkList {
  public:
   void draw(PanelContext& context);

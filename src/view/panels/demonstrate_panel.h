@@ -7,7 +7,7 @@
 
 namespace myotact::view {
 
-/// The co-contraction bench: what the muscles are told, and how stiff the joint is for it, and why.
+/// The co-contraction bench: the commands of the muscles, and how stiff the joint is for it, and why.
 class DemonstratePanel {
  public:
   void draw(PanelContext& context);

@@ -45,7 +45,7 @@ std::string bones_of(const PanelContext& context, int body) {
   return names;
 }
 
-/// A device on the table is in that hand; else the mouse is, and has to be told how.
+/// A device on the table is in that hand; else the mouse is, and its mode has to be set.
 bool is_on_table(const PanelContext& context, const messages::ToolFrame& tool) {
   const std::vector<DeviceNews>& devices = context.news.devices;
   return std::any_of(devices.begin(), devices.end(), [&](const DeviceNews& d) { return d.left == tool.left; });

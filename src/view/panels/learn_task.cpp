@@ -73,7 +73,7 @@ void draw_band(double force_N, const learn::PressTask& task) {
   ui::paragraph(ui::tr("learn.press.force", force_N, task.low_N, task.high_N, ui::tr(where)));
 }
 
-/// Says so where the tool is on another muscle than the one asked for.
+/// Shows it where the tool is on another muscle than the one asked for.
 void draw_place(const Scribe& s, int messages::ToolFrame::*what, int wanted, const char* key) {
   for (const messages::ToolFrame& tool : s.context.frame.tools) {
     if (tool.*what >= 0 && tool.*what != wanted) ui::paragraph(ui::tr(key, s.name({tool.*what, -1})));

@@ -11,7 +11,7 @@ namespace myotact::view {
 /// Shows and sets what a step of a lesson asks for, as a person could by hand, so that undo brings back what was. The
 /// side from which it is seen is left to the window.
 void show_step(const learn::Step& step, ViewState& view, SceneControls& scene);
-/// Whether a name on the screen, or what is told of a muscle beside it, would be the answer.
+/// Whether a name on the screen, or what is shown of a muscle beside it, would be the answer.
 bool hides_names(const learn::Task& task);
 /// What the mouse has to be for the task.
 PointerMode pointer_mode_for(const learn::Task& task);

@@ -49,7 +49,7 @@ struct DeviceNews {
 /// What the session is about.
 struct SessionNews {
   bool opening = false;                  // another scene is being built
-  double silence_s = 0.0;                // since the simulation told anything: a step that does not end
+  double silence_s = 0.0;                // since the simulation reported anything: a step that does not end
   std::vector<DeviceNews> devices = {};  // on the table: neither mouse nor simulated ones
 };
 
@@ -88,7 +88,7 @@ struct WindowAsks {
   std::optional<PartNote> note;                    // to be kept
   bool write_note = false;                         // about the selected part
   std::optional<std::vector<Bookmark>> bookmarks;  // from now on
-  std::optional<Camera> turn_to;                   // the view to turn to
+  std::optional<Camera> turn_to;                   // the view to rotate to
   std::optional<std::string> save_work;            // under this name; empty: the scene's
   std::optional<std::filesystem::path> open_work;  // a saved work
   bool recordings = false;                         // their list to be shown or hidden

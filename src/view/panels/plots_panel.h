@@ -18,7 +18,7 @@ class PlotsPanel {
 
  private:
   void draw_buttons(const PanelContext& context, const std::vector<PlotSheet>& sheets);
-  /// Into the person's folder "exports"; message_ says where, or what is wrong.
+  /// Into the person's folder "exports"; message_ states where, or what is wrong.
   void save_csv(const PanelContext& context, const std::vector<PlotSheet>& sheets);
   void save_svg(const PanelContext& context, const std::vector<PlotSheet>& sheets);
   const PlotRecord& shown() const { return held_ ? *held_ : record_; }

@@ -4,7 +4,7 @@
 
 namespace myotact::view {
 
-/// How the limb is shown: what colours tell, layers, names, fibres, attachments, a section.
+/// How the limb is shown: what colours mean, layers, names, fibres, attachments, a section.
 void draw_see_panel(PanelContext& context);
 
 }  // namespace myotact::view

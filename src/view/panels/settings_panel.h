@@ -21,7 +21,7 @@ class SettingsPanel {
   std::optional<double> dragged_scale_;  // while the slider is held: the sizes change when it is let go
 };
 
-/// Applies settings that changed and writes them; `message` says what is wrong where that fails.
+/// Applies settings that changed and writes them; `message` states what is wrong where that fails.
 void keep(const Settings& settings, std::string& message);
 
 }  // namespace myotact::view

@@ -17,7 +17,7 @@ class TimelinePanel {
   /// Valid until the next call.
   const messages::SceneFrame& choose(const messages::SceneFrame& present);
   void draw(PanelContext& context);
-  /// Says over the scene that this is the past.
+  /// Shows over the scene that this is the past.
   void draw_past_banner(const Area& scene) const;
 
   bool looks_back() const { return past_s_.has_value(); }

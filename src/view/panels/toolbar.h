@@ -6,7 +6,7 @@ namespace myotact::view {
 
 struct ToolbarState {
   PointerMode pointer = PointerMode::Look;
-  bool free_orbit = false;  // a drag turns the limb any way
+  bool free_orbit = false;  // a drag rotates the limb any way
   bool can_undo = false, can_redo = false;
 };
 

@@ -57,7 +57,7 @@ std::vector<std::string> arguments(const std::filesystem::path& video, int width
           video.string()};
 }
 
-/// With `input` as standard input, without standard output, with no signal held back. -1: errno says why.
+/// With `input` as standard input, without standard output, with no signal held back. -1: errno states why.
 pid_t start(const std::filesystem::path& program, std::vector<std::string> words, int input) {
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);

@@ -10,7 +10,8 @@
 
 namespace myotact::view {
 
-/// How one muscle is painted: its colour, and stripes across it as a second cue for those who cannot tell the colours.
+/// How one muscle is painted: its colour, and stripes across it as a second cue for those who cannot distinguish the
+/// colours.
 struct MuscleTint {
   glm::vec3 colour{0.0f};
   float stripe_m = 0.0f;  // from stripe to stripe along the muscle; 0: none

@@ -12,7 +12,7 @@ namespace myotact::view {
 
 namespace {
 
-// Okabe-Ito, which the colour-blind can tell apart.
+// Okabe-Ito, which the colour-blind can distinguish.
 constexpr glm::vec3 kRight{0.00f, 0.62f, 0.45f}, kLeft{0.00f, 0.45f, 0.70f};
 constexpr glm::vec4 kRightForce{0.84f, 0.37f, 0.00f, 1.0f}, kLeftForce{0.80f, 0.47f, 0.65f, 1.0f};
 constexpr glm::vec4 kGrip{0.80f, 0.18f, 0.12f, 1.0f};

@@ -19,7 +19,7 @@ glm::vec3 tool_colour(const messages::ToolFrame& tool);
 ///   point  a cone whose tip is the sphere that is felt
 ///   clamp  two jaws round the sphere that is felt
 ///
-/// Shafts lean away from `middle_m`, the middle of the specimen: devices tell no direction.
+/// Shafts lean away from `middle_m`, the middle of the specimen: devices report no direction.
 void add_tool(DrawMesh& mesh, const messages::ToolFrame& tool, const glm::vec3& middle_m);
 
 /// What joins hand and tool.

@@ -58,7 +58,7 @@ std::filesystem::path marks_file(const std::string& specimen);
 /// None where there is no such file. Throws Error BadData, or what reading throws.
 Marks read_marks(const std::filesystem::path& file);
 Marks parse_marks(const std::string& text, const std::string& file);
-/// As read_marks(), but a file that cannot be used is renamed to FILE.broken and `message` says so.
+/// As read_marks(), but a file that cannot be used is renamed to FILE.broken and `message` reports it.
 Marks marks_or_none(const std::filesystem::path& file, std::string& message);
 /// Makes the folder. Throws Error InputOutput, without a home too.
 void write_marks(const Marks& marks, const std::string& specimen, const std::filesystem::path& file);

@@ -11,7 +11,7 @@
 
 namespace myotact::view {
 
-/// How a limb is looked at, for a file: parts are told by their keys, so that it outlives a specimen's lists.
+/// How a limb is looked at, for a file: parts are identified by their keys, so that it outlives a specimen's lists.
 struct SavedView {
   ViewState look;                                   // of no part: its lists are empty, nothing is selected
   std::vector<std::string> hidden, faded, plotted;  // keys of bones and muscles

@@ -13,7 +13,7 @@ struct Settings {
   std::string language = "en";  // a folder of assets/languages
   bool light = false;           // theme
   double scale = 1.0;           // of everything written and clicked on, kSmallestScale .. kLargestScale
-  bool free_orbit = false;      // a drag turns the limb any way
+  bool free_orbit = false;      // a drag rotates the limb any way
   bool tour_done = false;       // or skipped
   bool tone = false;            // that rises with the force
   MousePreset mouse = MousePreset::ThreeButton;
@@ -29,7 +29,7 @@ std::filesystem::path settings_file();
 
 /// The defaults where there is no such file. Throws Error BadData, or what reading throws.
 Settings read_settings(const std::filesystem::path& file);
-/// As read_settings(), but a file that cannot be used is renamed to FILE.broken and `message` says so.
+/// As read_settings(), but a file that cannot be used is renamed to FILE.broken and `message` reports it.
 Settings settings_or_defaults(const std::filesystem::path& file, std::string& message);
 /// Makes the folder. Throws Error InputOutput.
 void write_settings(const Settings& settings, const std::filesystem::path& file);

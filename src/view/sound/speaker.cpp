@@ -24,7 +24,7 @@ constexpr double kNothingNew = -1.0;
 
 using Period = std::array<std::int16_t, kSoundRate_Hz / 1000 * kPeriod_ms>;
 
-void say_nothing(const char*, int, const char*, int, const char*, ...) {}  // the caller says what failed
+void say_nothing(const char*, int, const char*, int, const char*, ...) {}  // the caller reports what failed
 
 void require(int answer, const std::string& what) {
   if (answer >= 0) return;

@@ -59,7 +59,7 @@ bool replaces(const messages::Order& later, const messages::Order& earlier) {
 }  // namespace
 
 void SceneControls::hear(const messages::SceneFrame& newest, double now_s) {
-  // When frames that say otherwise mean that the scene does not do it. The first may be of a step begun before.
+  // When frames that differ mean that the scene does not do it. The first may be of a step begun before.
   constexpr double kPatience_s = 1.0;
   constexpr int kFrames = 3;
   now_s_ = now_s;

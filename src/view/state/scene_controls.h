@@ -18,7 +18,7 @@ namespace myotact::view {
 ///   the person, a lesson --push()--> take_commands() --> the session
 class SceneControls {
  public:
-  /// `start`: what is in force until the first frame says it.
+  /// `start`: what is in force until the first frame states it.
   explicit SceneControls(const messages::ControlState& start) : in_force_(start), state_(start) {}
 
   /// Once a picture, before the panels. `now_s`: of a clock that rises with the pictures.

@@ -121,7 +121,7 @@ void Pointer::begin_camera_drag() {
 void Pointer::drag_camera(PanelContext& context, const Area& scene) const {
   const ImGuiIO& io = ImGui::GetIO();
   const auto& [button, drag] = *camera_press_;
-  if (drag == CameraDrag::Turn) return turn(context, button);
+  if (drag == CameraDrag::Rotate) return rotate(context, button);
   if (!ImGui::IsMouseDragging(button, kClick_px)) return;
   if (drag == CameraDrag::Shift) {
     context.view.camera.pan(io.MouseDelta.x / scene.height, -io.MouseDelta.y / scene.height);
@@ -130,7 +130,7 @@ void Pointer::drag_camera(PanelContext& context, const Area& scene) const {
   }
 }
 
-void Pointer::turn(PanelContext& context, int button) const {
+void Pointer::rotate(PanelContext& context, int button) const {
   const ImGuiIO& io = ImGui::GetIO();
   Camera& camera = context.view.camera;
   if (free_orbit) {

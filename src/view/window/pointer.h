@@ -32,7 +32,7 @@ class Pointer {
   const Part& hovered() const { return hovered_; }
   double depth_m() const { return depth_m_; }  // that a press aims at, below the surface
   MousePreset preset = MousePreset::ThreeButton;
-  bool free_orbit = false;  // a drag turns the limb any way; else from one standard view to the next
+  bool free_orbit = false;  // a drag rotates the limb any way; else from one standard view to the next
 
  private:
   std::optional<PickHit> look_through(const PanelContext& context, const Area& scene,
@@ -44,11 +44,11 @@ class Pointer {
   /// A drag that moves the camera, from its press to its release.
   struct CameraPress {
     int button = 0;
-    CameraDrag drag = CameraDrag::Turn;
+    CameraDrag drag = CameraDrag::Rotate;
   };
   void begin_camera_drag();
   void drag_camera(PanelContext& context, const Area& scene) const;
-  void turn(PanelContext& context, int button) const;
+  void rotate(PanelContext& context, int button) const;
   void let_go(PanelContext& context);
   void hold_above(PanelContext& context, const PickHit& hit, double height_m);
   void move_towards(PanelContext& context, const glm::dvec3& target_m);

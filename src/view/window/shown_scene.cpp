@@ -71,7 +71,7 @@ void ShownScene::take_over(const ShownScene& before) {
 
 /// Turns there within a quarter of a second.
 void ShownScene::look(const Camera& camera) {
-  turn_ = {state_.view.camera, camera, 0.0f};
+  transition_ = {state_.view.camera, camera, 0.0f};
 }
 
 void ShownScene::look(const char* name, const messages::SceneFrame& frame) {
@@ -86,15 +86,15 @@ void ShownScene::look_at_selection(const messages::SceneFrame& frame) {
 }
 
 void ShownScene::go_on_turning() {
-  if (turn_.share >= 1.0f) return;
+  if (transition_.share >= 1.0f) return;
   constexpr float kTime_s = 0.25f;
-  turn_.share = std::min(1.0f, turn_.share + ImGui::GetIO().DeltaTime / kTime_s);
-  state_.view.camera = between(turn_.from, turn_.to, turn_.share);
+  transition_.share = std::min(1.0f, transition_.share + ImGui::GetIO().DeltaTime / kTime_s);
+  state_.view.camera = between(transition_.from, transition_.to, transition_.share);
 }
 
 void ShownScene::push(const std::array<double, 3>& cap) {
   if (cap == std::array<double, 3>{}) return;
-  turn_.share = 1.0f;
+  transition_.share = 1.0f;
   push_view(state_.view.camera, cap, ImGui::GetIO().DeltaTime);
 }
 
@@ -102,13 +102,13 @@ void ShownScene::restore(const WorkState& earlier) {
   for (const messages::Order& order : orders_between(state_.scene, earlier.scene)) scene_.push(order);
   state_ = earlier;
   restored_ = true;
-  turn_.share = 1.0f;
+  transition_.share = 1.0f;
 }
 
 /// `before`: what was set when the picture began. What the script or others changed is no step of the person's.
 void ShownScene::note_changes(const SceneState& before) {
   const SceneState now = scene_state_of(scene_.state());
-  const bool busy = ImGui::IsAnyItemActive() || ImGui::IsAnyMouseDown() || turn_.share < 1.0f;
+  const bool busy = ImGui::IsAnyItemActive() || ImGui::IsAnyMouseDown() || transition_.share < 1.0f;
   if (!std::exchange(restored_, false) && now != before) {
     if (!std::exchange(scene_changes_, true)) history_.begin_from(before);
     state_.scene = now;
@@ -282,7 +282,7 @@ void ShownScene::draw_limb(int width, int height) {
 }
 
 void ShownScene::take_picture(int width, int height) {
-  if (const auto told = filming_.take(viewport(width, height))) message = *told;
+  if (const auto saved = filming_.take(viewport(width, height))) message = *saved;
   if (!picture_wish_ || width <= 0 || height <= 0) return;  // of a minimised window: when it is seen again
   const bool alone = *picture_wish_ == KeyAction::SceneScreenshot && !layout_.scene.empty();
   message = save_picture_for_person(facts_.name, alone ? viewport(width, height) : Viewport{0, 0, width, height});
@@ -292,7 +292,7 @@ void ShownScene::take_picture(int width, int height) {
 std::string ShownScene::description(const messages::SceneFrame& now) {
   WindowAsks none;
   return describe(context_of((timeline_.looks_back() || replays()) && shown_ != nullptr ? *shown_ : now, none), layout_,
-                  {timeline_.looks_back(), turn_.share < 1.0f, now.time_s});
+                  {timeline_.looks_back(), transition_.share < 1.0f, now.time_s});
 }
 
 }  // namespace myotact::view

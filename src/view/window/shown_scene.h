@@ -68,7 +68,7 @@ class ShownScene {
   std::optional<SceneWish> wish;  // of the person
   /// By a device, for the time since the last picture.
   void push(const std::array<double, 3>& cap);
-  /// Saves the picture that the person asked for, and those of a film, from the framebuffer [pixels]; message says
+  /// Saves the picture that the person asked for, and those of a film, from the framebuffer [pixels]; message states
   /// where.
   void take_picture(int width, int height);
 
@@ -96,14 +96,14 @@ class ShownScene {
   void lead_replay();
   Viewport viewport(int width, int height) const;
   void take_marks(const WindowAsks& asks);
-  void tell_missing(const std::vector<std::string>& parts);
+  void report_missing(const std::vector<std::string>& parts);
   void save(const std::string& name);
   void open(const std::filesystem::path& file);
   void begin_with(const SavedWork& work);
   void obey(const WindowAsks& asks, const messages::SceneFrame& frame);
 
   /// On the way from one view to another.
-  struct Turn {
+  struct Transition {
     Camera from, to;
     float share = 1.0f;  // 1: there
   };
@@ -122,7 +122,7 @@ class ShownScene {
   bool scene_changes_ = false;  // by the person, and not noted yet: a slider is held
   bool restored_ = false;       // by undo or redo, in this picture
   Part hovered_;
-  Turn turn_;
+  Transition transition_;
   Pointer pointer_;
   PartMenu menu_;
   FindPanel find_;

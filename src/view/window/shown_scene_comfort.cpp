@@ -53,7 +53,7 @@ bool ShownScene::act_on_comfort(KeyAction action, WindowAsks& asks) {
   }
 }
 
-/// Of both sides of the joint, whatever told the muscles what to do before: from the level in force on.
+/// Of both sides of the joint, whatever drove the muscles before: from the level in force on.
 void ShownScene::add_co_contraction(double step) {
   const messages::ControlState& now = scene_.state();
   const double common = now.drive == Drive::Balance ? now.common : now.common_now;

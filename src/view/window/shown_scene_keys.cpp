@@ -10,7 +10,7 @@
 #include "view/look/part_actions.h"
 #include "view/window/shown_scene.h"
 
-// What each key does to the scene; which key that is, key_bindings says.
+// What each key does to the scene; which key that is, is in key_bindings.
 
 namespace myotact::view {
 

@@ -53,18 +53,18 @@ void ShownScene::keep_marks() {
   }
 }
 
-void ShownScene::tell_missing(const std::vector<std::string>& parts) {
-  constexpr std::size_t kTold = 5;  // more would not fit the line that messages have
+void ShownScene::report_missing(const std::vector<std::string>& parts) {
+  constexpr std::size_t kMost = 5;  // more would not fit the line that messages have
   if (parts.empty()) return;
   const std::vector<std::string> first(parts.begin(),
-                                       parts.begin() + static_cast<std::ptrdiff_t>(std::min(parts.size(), kTold)));
+                                       parts.begin() + static_cast<std::ptrdiff_t>(std::min(parts.size(), kMost)));
   message = fmt::format("{} {}", message, ui::tr("session.parts_missing", parts.size(), join(first)));
 }
 
 void ShownScene::save(const std::string& name) {
   SavedWork work{lasting_name(facts_),           facts_.tissue, specimen_->name, saved_view(state_.view, *specimen_),
                  scene_state_of(scene_.state()), marks_};
-  if (turn_.share < 1.0f) work.view.look.camera = turn_.to;
+  if (transition_.share < 1.0f) work.view.look.camera = transition_.to;
   try {
     message = ui::tr("session.saved", save_work(work, name).string());
   } catch (const Error& failure) {
@@ -88,9 +88,9 @@ void ShownScene::open(const std::filesystem::path& file) {
 
 void ShownScene::begin_with(const SavedWork& work) {
   message = ui::tr("session.opened");
-  tell_missing(show(work.view, *specimen_, state_.view));
+  report_missing(show(work.view, *specimen_, state_.view));
   scene_.restore(work.state);
-  turn_.share = 1.0f;
+  transition_.share = 1.0f;
   timeline_.back_to_now();
   const JoinedMarks both = joined(marks_, work.marks);
   if (both.differing_notes > 0) {

@@ -115,7 +115,7 @@ void Window::push_view(const std::array<double, 3>& cap) {
   if (impl_->scene) impl_->scene->push(cap);
 }
 
-void Window::tell(const std::string& message) {
+void Window::show_message(const std::string& message) {
   (impl_->scene ? impl_->scene->message : impl_->message) = message;
 }
 

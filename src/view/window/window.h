@@ -22,7 +22,7 @@ struct WindowSize {
 /// Of a scene that is opened.
 struct WindowSettings {
   SceneFacts facts;
-  messages::ControlState start;                // what is in force until a frame says it
+  messages::ControlState start;                // what is in force until a frame states it
   std::array<double, 3> hand_start_world_m{};  // where the mouse takes the hand up
   std::optional<SavedWork> work = {};          // that it begins with
 };
@@ -43,14 +43,14 @@ class Window {
   std::vector<messages::Command> take_commands();
   /// Whether the forces of all devices are to be enabled or stopped, once; none: as they are.
   std::optional<bool> take_forces_on();
-  /// What the panel says about the joint from the next picture on.
+  /// What the panel shows about the joint from the next picture on.
   void set_readings(const JointReadings& readings);
   void set_news(const SessionNews& news);
-  /// How far the cap of a device that turns the view is pushed: right, up, towards the person, each -1 .. 1. Once a
+  /// How far the cap of a device that rotates the view is pushed: right, up, towards the person, each -1 .. 1. Once a
   /// picture.
   void push_view(const std::array<double, 3>& cap);
   /// A sentence for the person, shown until it has been read.
-  void tell(const std::string& message);
+  void show_message(const std::string& message);
   /// The scene that the person wants to be opened, once.
   std::optional<SceneWish> take_wish();
   bool should_close() const;

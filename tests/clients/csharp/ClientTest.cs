@@ -112,7 +112,7 @@ static class ClientTest
                 var hand = new[] { 0.001 * (i % 30), -0.0005 * (i % 20), 0.00025 * (i % 40) };
                 var state = new ToolState { PositionWorldM = hand, ProxyWorldM = hand, Sequence = (ulong)i };
                 if (line >= 0 && i >= 10) state.Grip = new Grip { Line = line, LineFraction = 0.5, LineStiffnessNPerM = 100 };
-                client.Tell(state, 1000000UL * (ulong)i);
+                client.SendState(state, 1000000UL * (ulong)i);
                 client.ReadUntil(FrameType.LocalModel);
             }
         }

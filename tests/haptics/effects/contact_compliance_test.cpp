@@ -19,7 +19,7 @@ struct Play {
   std::uint64_t now_ns = kTick_ns;
 
   Play() {
-    compliance.bear(kDevice_N_m);
+    compliance.limit_stiffness(kDevice_N_m);
     model.dt_ns = 10 * kTick_ns;
     touching.active = true;
     touching.surface = 0;
@@ -38,7 +38,7 @@ struct Play {
 
 TEST(ContactCompliance, WithoutAModelOfTheContactTheSpringIsTheDevices) {
   ContactCompliance compliance;
-  compliance.bear(kDevice_N_m);
+  compliance.limit_stiffness(kDevice_N_m);
   EXPECT_DOUBLE_EQ(compliance.felt_stiffness_N_m(), kDevice_N_m);
   EXPECT_DOUBLE_EQ(compliance.coupling_stiffness_N_m(), kDevice_N_m);
   EXPECT_EQ(compliance.shift_m().norm(), 0.0);

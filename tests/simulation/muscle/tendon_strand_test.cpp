@@ -133,7 +133,7 @@ TEST(TendonStrand, ItGoesRoundWhatTheLineGoesRound) {
   }
 }
 
-TEST(TendonStrand, ALineOfTheSameLengthGivesTheSameLever) {
+TEST(TendonStrand, ALineOfTheSameLengthGivesTheSameMomentArm) {
   const anatomy::Specimen specimen = wrapped_muscle();
   const Skeleton skeleton(specimen);
   LineGeometry geometry;

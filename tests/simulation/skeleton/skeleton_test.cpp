@@ -198,7 +198,7 @@ std::string refusal(const anatomy::Specimen& specimen) {
 TEST(Skeleton, RefusesWhatItCannotMove) {
   anatomy::Specimen ball = arm(), far = arm(), twice = arm(), loop = arm(), skewed = arm(), axisless = arm();
   ball.joints[kElbow].type = anatomy::JointType::Ball;
-  EXPECT_NE(refusal(ball).find("'elbow': only hinges and welds turn here"), std::string::npos);
+  EXPECT_NE(refusal(ball).find("'elbow': only hinges and welds are supported here"), std::string::npos);
   far.joints[kElbow].child = 9;
   EXPECT_NE(refusal(far).find("body 9 must be 0 .. 3"), std::string::npos);
   twice.joints[kWrist].child = 2;

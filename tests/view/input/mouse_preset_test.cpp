@@ -24,7 +24,7 @@ TEST_P(Presets, NoDragDoesTwoThingsAndEachHasItsTexts) {
     EXPECT_TRUE(drags.emplace(row.button, row.mods).second);
     EXPECT_TRUE(ui::has_text(row.how)) << row.how;
     EXPECT_TRUE(ui::has_text(row.what)) << row.what;
-    turns = turns || row.drag == CameraDrag::Turn;
+    turns = turns || row.drag == CameraDrag::Rotate;
     shifts = shifts || row.drag == CameraDrag::Shift;
   }
   EXPECT_TRUE(turns);
@@ -41,7 +41,7 @@ INSTANTIATE_TEST_SUITE_P(All, Presets,
 
 TEST(MousePresets, TheTrackpadNeedsTheLeftButtonAlone) {
   for (const MouseRow& row : mouse_rows(MousePreset::Trackpad)) EXPECT_EQ(row.button, kLeft);
-  EXPECT_EQ(camera_drag(MousePreset::Trackpad, kLeft, GLFW_MOD_ALT, false), CameraDrag::Turn);
+  EXPECT_EQ(camera_drag(MousePreset::Trackpad, kLeft, GLFW_MOD_ALT, false), CameraDrag::Rotate);
   EXPECT_EQ(camera_drag(MousePreset::Trackpad, kLeft, GLFW_MOD_SHIFT, false), CameraDrag::Shift);
 }
 
@@ -49,7 +49,7 @@ TEST(MousePresets, TheTrackpadNeedsTheLeftButtonAlone) {
 // 1 is the front, 3 the right side, 7 the top, with Ctrl their opposites.
 TEST(MousePresets, BlenderIsAsInItsManual) {
   const MousePreset blender = MousePreset::Blender;
-  EXPECT_EQ(camera_drag(blender, kMiddle, 0, true), CameraDrag::Turn);
+  EXPECT_EQ(camera_drag(blender, kMiddle, 0, true), CameraDrag::Rotate);
   EXPECT_EQ(camera_drag(blender, kMiddle, GLFW_MOD_SHIFT, true), CameraDrag::Shift);
   EXPECT_EQ(camera_drag(blender, kMiddle, GLFW_MOD_CONTROL, false), CameraDrag::Nearer);
   EXPECT_EQ(camera_drag(blender, kLeft, 0, true), std::nullopt);

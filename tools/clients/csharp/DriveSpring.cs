@@ -20,7 +20,7 @@ namespace Myotact
                 double angle = 2 * Math.PI * i / StepsOfTurn;
                 var hand = new[] { RadiusM * Math.Cos(angle), RadiusM * Math.Sin(angle), 0.0 };
                 var state = new ToolState { PositionWorldM = hand, ProxyWorldM = hand, Sequence = (ulong)i + 1 };
-                client.Tell(state, MyotactClient.NowNs());
+                client.SendState(state, MyotactClient.NowNs());
                 double[] force = MyotactClient.ForceOf(client.ReadUntil(FrameType.Force)).WorldN;
                 Console.WriteLine(string.Format(CultureInfo.InvariantCulture, "{0:F5},{1:F5},{2:F4},{3:F4}", hand[0], hand[1],
                                                 force[0], force[1]));

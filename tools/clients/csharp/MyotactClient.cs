@@ -1,5 +1,5 @@
-// A client of `myotact serve`: tells where the hand is and gets the newest force, and frames for SceneDecoder. No haptic
-// loop: a device at 1 kHz belongs to `myotact feel`. One thread, or one that reads and one that tells. All that can go wrong
+// A client of `myotact serve`: sends where the hand is and gets the newest force, and frames for SceneDecoder. No haptic
+// loop: a device at 1 kHz belongs to `myotact feel`. One thread, or one that reads and one that sends. All that can go wrong
 // is a WireException.
 using System;
 using System.Diagnostics;
@@ -83,7 +83,7 @@ namespace Myotact
             return (ulong)(Stopwatch.GetTimestamp() * (1e9 / Stopwatch.Frequency));
         }
 
-        public void Tell(ToolState state, ulong timeNs)
+        public void SendState(ToolState state, ulong timeNs)
         {
             foreach (Frame frame in Wire.Frames(state)) Send(frame, timeNs);
         }

@@ -46,7 +46,7 @@ namespace Myotact
             try
             {
                 Feel();  // first: a server that goes has said why
-                Tell();
+                SendState();
             }
             catch (WireException failure)
             {
@@ -73,13 +73,13 @@ namespace Myotact
             if (MyotactClient.NowNs() - feltNs > StaleNs) ForceNewtons = new Vector3(0, 0, 0);
         }
 
-        void Tell()
+        void SendState()
         {
             Vector3 place = transform.position;
             double[] world = WorldAxes.ToWorld(new double[] { place.x, place.y, place.z });
             for (int i = 0; i < 3; ++i) world[i] *= MetresPerUnit;
             var state = new ToolState { PositionWorldM = world, ProxyWorldM = world, Sequence = ++sequence };
-            client.Tell(state, MyotactClient.NowNs());
+            client.SendState(state, MyotactClient.NowNs());
             if (MyotactClient.NowNs() - pingedNs < PingPeriodNs) return;
             client.Ping();
             pingedNs = MyotactClient.NowNs();

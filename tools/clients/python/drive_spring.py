@@ -43,7 +43,7 @@ def lead_round(client, seconds):
     for i in range(round(seconds / PERIOD_S)):
         angle = 2 * math.pi * i * PERIOD_S / TURNS_S
         hand = (RADIUS_M * math.cos(angle), RADIUS_M * math.sin(angle), 0.0)
-        client.tell(ToolState(hand, sequence=i + 1))
+        client.send_state(ToolState(hand, sequence=i + 1))
         force = decode_force(client.read_until(FORCE).payload).force_world_N
         difference = math.dist(force, [-k * x for x in hand])
         print(f"{i * PERIOD_S:.2f},{hand[0]:.5f},{hand[1]:.5f},{force[0]:.4f},{force[1]:.4f},{difference:.4f}")

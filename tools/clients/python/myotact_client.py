@@ -1,6 +1,6 @@
 """A client of `myotact serve` without dependencies: the wire format of src/net/README.md, version 1.
 
-It has no haptic loop: it tells where the hand is and gets the newest force of the simulation. SI units, world frame
+It has no haptic loop: it sends where the hand is and gets the newest force of the simulation. SI units, world frame
 (x cranial, y left, z up).
 """
 import socket
@@ -207,7 +207,7 @@ class SceneDecoder:
 
 
 class Client:
-    """One connection. `with Client(...) as client:` says good-bye at its end. All that can go wrong is a WireError."""
+    """One connection. `with Client(...) as client:` sends Bye at its end. All that can go wrong is a WireError."""
 
     def __init__(self, host, port, role=STUDENT, wants=WANT_HAND, token=bytes(16), name="python", hand=0, resume_id=0,
                  timeout_s=60.0):
@@ -253,7 +253,7 @@ class Client:
             raise self._failure(why.strerror or why) from None
         self._sent += 1
 
-    def tell(self, state: ToolState, time_ns=None):
+    def send_state(self, state: ToolState, time_ns=None):
         for kind, flags, payload in tool_state_frames(state):
             self.send(kind, payload, flags, time.monotonic_ns() if time_ns is None else time_ns)
 

@@ -106,7 +106,7 @@ class Extractor {
   }
 
   /// One or two triangles, seen counter-clockwise from outside: the tets of the table are positively oriented, and an
-  /// odd permutation of the nodes turns the triangle.
+  /// odd permutation of the nodes flips the triangle.
   void cut_tet(const std::array<Index3, 4>& nodes) {
     std::array<std::size_t, 4> order{};  // inner nodes first
     std::size_t inner = 0, outer = 4;
@@ -138,8 +138,8 @@ class Extractor {
     return odd;
   }
 
-  void add(int a, int b, int c, bool turned) {
-    if (turned) std::swap(b, c);
+  void add(int a, int b, int c, bool flipped) {
+    if (flipped) std::swap(b, c);
     mesh_.triangles.push_back({a, b, c});
   }
 

@@ -31,7 +31,7 @@ void keep_core(const Body& own, Borders& borders, double clearance_m, Cut& cut);
 geometry::TriangleMesh film_surface(const Body& own, const Borders& borders, double clearance_m, const Cut& cut);
 
 /// Closes what handles the cut still has, and holds its loose ends, with films of one node's thickness, whatever is in
-/// their way. Tunnels of a lattice step or two come and go with films; this ends them. Returns the films' surface;
+/// their way. Handles of a lattice step or two come and go with films; this ends them. Returns the films' surface;
 /// empty when nothing was done.
 geometry::TriangleMesh patch(const Body& own, const Borders& borders, double clearance_m, Cut& cut);
 

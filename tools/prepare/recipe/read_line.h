@@ -5,7 +5,7 @@
 #include "core/json_reader.h"
 #include "prepare/recipe/anatomy_data.h"
 
-// What a recipe says about a muscle's line (assets/canine/README.md lists the keys). All throw Error BadData naming
+// What a recipe states about a muscle's line (assets/canine/README.md lists the keys). All throw Error BadData naming
 // file and JSON pointer.
 
 namespace myotact::prepare {

@@ -21,8 +21,8 @@ class FaceGrid {
   void insert(int face, const Corners& corners);
   void remove(int face);
 
-  /// Calls visit(face, corners) once for every face whose box meets the box; stops when it returns true. Says whether
-  /// it did.
+  /// Calls visit(face, corners) once for every face whose box meets the box; stops when it returns true. Returns
+  /// whether it did.
   template <class Visit>
   bool any(const Eigen::AlignedBox3d& box, Visit&& visit) const {
     ++query_;

@@ -35,8 +35,8 @@ class GuardedMesh {
   const geometry::TriangleTree& reference_tree() const { return tree_; }
   const std::vector<Vec3>& reference_positions_m() const { return reference_.positions_m; }
 
-  /// Each makes the change and says true, or leaves all as it was. The worst shape (see shape_of) among the triangles
-  /// made is at least `least_shape`, or at least that of the triangles they replace.
+  /// Each makes the change and returns true, or leaves all as it was. The worst shape (see shape_of) among the
+  /// triangles made is at least `least_shape`, or at least that of the triangles they replace.
   bool try_collapse(HalfEdge from_to, const Vec3& place_m, double least_shape);
   bool try_flip(Edge e, double least_shape);
   bool try_split(Edge e, const Vec3& place_m, double least_shape);

@@ -35,7 +35,7 @@ std::vector<Piece> measured_pieces(const TriangleMesh& mesh) {
   return pieces;
 }
 
-/// Drops the pieces that `keep` says false for.
+/// Drops the pieces for which `keep` returns false.
 void keep_pieces(RepairJob& job, const std::vector<bool>& keep) {
   const std::vector<int> piece = piece_of_triangles(job.mesh);
   std::vector<bool> triangles;
@@ -117,14 +117,14 @@ void drop_empty_pieces(RepairJob& job) {
 void wind_outward(RepairJob& job) {
   const std::vector<int> piece = piece_of_triangles(job.mesh);
   const std::vector<Piece> pieces = measured_pieces(job.mesh);
-  int turned = 0;
+  int flipped = 0;
   Vec3 place = Vec3::Zero();
   for (std::size_t t = 0; t < piece.size(); ++t) {
     if (pieces[at(piece[t])].volume > 0.0) continue;
     std::swap(job.mesh.triangles[t][1], job.mesh.triangles[t][2]);
-    if (turned++ == 0) place = centroid(job.mesh, static_cast<int>(t));
+    if (flipped++ == 0) place = centroid(job.mesh, static_cast<int>(t));
   }
-  note(job, "triangles turned outward", turned, place);
+  note(job, "triangles flipped outward", flipped, place);
 }
 
 /// Each group as one piece, in the order of their first pieces.

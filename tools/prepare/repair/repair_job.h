@@ -55,7 +55,7 @@ Error refusal(const RepairJob& job, std::string_view problem, const Vec3& place)
 /// Whether dropped triangles were no part of the body's surface.
 enum class Dropped { StillCovered, LeftOut };
 
-/// Drops the triangles that `keep` says false for, and vertices that none uses any more.
+/// Drops the triangles for which `keep` returns false, and vertices that none uses any more.
 void keep_triangles(RepairJob& job, const std::vector<bool>& keep, Dropped dropped);
 void drop_unused_vertices(RepairJob& job);
 

@@ -30,7 +30,7 @@ bool vanishes(const WindingNumber& winding, const Vec3& p, double reach) {
 
 std::optional<TriangleMesh> resample(const TriangleMesh& piece, double tolerance) {
   const WindingNumber winding(piece);
-  // Quickly told, unlike the distances at the end: what is inside out would be lost.
+  // Quickly checked, unlike the distances at the end: what is inside out would be lost.
   if (std::any_of(piece.positions_m.begin(), piece.positions_m.end(),
                   [&](const Vec3& p) { return vanishes(winding, p, tolerance); })) {
     return std::nullopt;

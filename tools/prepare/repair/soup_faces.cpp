@@ -50,34 +50,34 @@ void drop_copies(RepairJob& job) {
 
 namespace {
 
-/// Goes from triangle to neighbour and finds those that must be turned.
+/// Goes from triangle to neighbour and finds those that must be flipped.
 class Winder {
  public:
   explicit Winder(const RepairJob& job)
-      : job_(job), opposite_(opposite_sides(job.mesh)), turn_(job.mesh.triangles.size(), 0) {}
+      : job_(job), opposite_(opposite_sides(job.mesh)), flip_(job.mesh.triangles.size(), 0) {}
 
-  std::vector<int> triangles_to_turn() {
-    for (std::size_t seed = 0; seed < turn_.size(); ++seed) {
-      if (turn_[seed] == 0) flood(static_cast<int>(seed));
+  std::vector<int> triangles_to_flip() {
+    for (std::size_t seed = 0; seed < flip_.size(); ++seed) {
+      if (flip_[seed] == 0) flood(static_cast<int>(seed));
     }
-    return std::move(turned_);
+    return std::move(flipped_);
   }
 
  private:
   void flood(int seed) {
-    turn_[at(seed)] = 1;
+    flip_[at(seed)] = 1;
     std::vector<int> region{seed}, against;
     for (std::size_t next = 0; next < region.size(); ++next) {
       const int here = region[next];
-      if (turn_[at(here)] < 0) against.push_back(here);
+      if (flip_[at(here)] < 0) against.push_back(here);
       for (int side = 3 * here; side < 3 * here + 3; ++side) cross(side, region);
     }
     if (2 * against.size() <= region.size()) {
-      turned_.insert(turned_.end(), against.begin(), against.end());
+      flipped_.insert(flipped_.end(), against.begin(), against.end());
       return;
     }
-    for (const int t : region) {  // most lie the other way: turn the fewer
-      if (turn_[at(t)] > 0) turned_.push_back(t);
+    for (const int t : region) {  // most lie the other way: flip the fewer
+      if (flip_[at(t)] > 0) flipped_.push_back(t);
     }
   }
 
@@ -86,8 +86,8 @@ class Winder {
     const int other = opposite_[at(side)];
     if (other < 0) return;
     const bool alike = tail_of(job_.mesh, side) == head_of(job_.mesh, other);
-    const int wanted = alike ? turn_[at(side / 3)] : -turn_[at(side / 3)];
-    signed char& there = turn_[at(other / 3)];
+    const int wanted = alike ? flip_[at(side / 3)] : -flip_[at(side / 3)];
+    signed char& there = flip_[at(other / 3)];
     if (there == 0) region.push_back(other / 3);
     if (there == -wanted) {
       throw refusal(job_,
@@ -100,18 +100,18 @@ class Winder {
 
   const RepairJob& job_;
   std::vector<int> opposite_;
-  std::vector<signed char> turn_;  // 0: not met; 1: as it is; -1: to be turned
-  std::vector<int> turned_;
+  std::vector<signed char> flip_;  // 0: not met; 1: as it is; -1: to be flipped
+  std::vector<int> flipped_;
 };
 
 }  // namespace
 
 void wind_alike(RepairJob& job) {
-  const std::vector<int> turned = Winder(job).triangles_to_turn();
-  if (turned.empty()) return;
-  for (const int t : turned) std::swap(job.mesh.triangles[at(t)][1], job.mesh.triangles[at(t)][2]);
-  note(job, "triangles turned to their neighbours' side", static_cast<int>(turned.size()),
-       centroid(job.mesh, turned.front()));
+  const std::vector<int> flipped = Winder(job).triangles_to_flip();
+  if (flipped.empty()) return;
+  for (const int t : flipped) std::swap(job.mesh.triangles[at(t)][1], job.mesh.triangles[at(t)][2]);
+  note(job, "triangles flipped to their neighbours' side", static_cast<int>(flipped.size()),
+       centroid(job.mesh, flipped.front()));
 }
 
 }  // namespace myotact::prepare

@@ -24,7 +24,7 @@ void remove_crossings(RepairJob& job);
 /// Unites pieces that cross each other and drops floaters. Refuses several bodies where one is asked for.
 void unite_pieces(RepairJob& job);
 
-/// The last way out for a piece that crosses itself beyond local repair: a new surface round what it winds round more
+/// The last resort for a piece that crosses itself beyond local repair: a new surface round what it winds round more
 /// than half a time, on a lattice of about the tolerance [working coordinates]. Folds inside vanish. Nothing when parts
 /// that are inside out would be lost.
 std::optional<geometry::TriangleMesh> resample(const geometry::TriangleMesh& piece, double tolerance);

@@ -81,7 +81,7 @@ PicturePair draw(const anatomy::Specimen& specimen, const Size& size, const std:
 }  // namespace
 
 const std::vector<MarkColour>& mark_colours() {
-  // Okabe and Ito's: told apart by everyone.
+  // Okabe and Ito's: distinguishable with any colour vision.
   static const std::vector<MarkColour> colours = {{MarkKind::Repair, "#E69F00", "repaired"},
                                                   {MarkKind::Overlap, "#D55E00", "deepest overlap that is left"},
                                                   {MarkKind::Tet, "#CC79A7", "flattest tetrahedron"},

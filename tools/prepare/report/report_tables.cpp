@@ -165,20 +165,20 @@ std::string meshes_table(const LimbWork& limb) {
 std::string architecture_table(const LimbWork& limb) {
   Table table({"muscle", "#volume, cm3", "#mass, g", "#fibre path, mm", "#belly, mm", "#optimal fibre, mm",
                "#pennation, degrees", "#PCSA of this mesh, cm2", "#F0, N", "#F0 / PCSA, kPa", "#origin, mm2",
-               "#insertion, mm2", "#gaps to bone, mm", "levers, mm (positive flexes)"});
+               "#insertion, mm2", "#gaps to bone, mm", "moment arms, mm (positive flexes)"});
   for (const MuscleWork& muscle : limb.muscles) {
     const SurfaceReport& r = muscle.report;
     const anatomy::Muscle& m = muscle.data.mechanics;
     const double pcsa_m2 = r.volume_m3 * std::cos(m.pennation_rad) / m.optimal_fibre_m;
-    std::vector<std::string> levers;
-    for (const auto& [joint, moment_arm_m] : r.levers_m)
-      levers.push_back(fmt::format("{} {:+.1f}", joint, 1e3 * moment_arm_m));
+    std::vector<std::string> moment_arms;
+    for (const auto& [joint, moment_arm_m] : r.moment_arms_m)
+      moment_arms.push_back(fmt::format("{} {:+.1f}", joint, 1e3 * moment_arm_m));
     table.add({r.key, fixed(1e6 * r.volume_m3, 1), fixed(1e3 * kMuscleDensity_kg_m3 * r.volume_m3, 1),
                fixed(1e3 * r.path_m, 0), fixed(1e3 * r.belly_m, 0), fixed(1e3 * m.optimal_fibre_m, 1),
                fixed(m.pennation_rad * 180.0 / std::numbers::pi, 0), fixed(1e4 * pcsa_m2, 2), fixed(m.peak_force_N, 0),
                fixed(1e-3 * m.peak_force_N / pcsa_m2, 0), fixed(1e6 * r.origin_area_m2, 0),
                fixed(1e6 * r.insertion_area_m2, 0),
-               fmt::format("{:.1f} / {:.1f}", 1e3 * r.origin_gap_m, 1e3 * r.insertion_gap_m), join(levers)});
+               fmt::format("{:.1f} / {:.1f}", 1e3 * r.origin_gap_m, 1e3 * r.insertion_gap_m), join(moment_arms)});
   }
   return table.html();
 }

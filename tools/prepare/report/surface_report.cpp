@@ -42,13 +42,14 @@ nlohmann::ordered_json json_of(const SurfaceReport& r) {
                {"belly_m", r.belly_m},
                {"largest_section_m2", r.largest_section_m2},
                {"levers_m", nlohmann::ordered_json::object()}});
-  for (const auto& [joint, moment_arm_m] : r.levers_m) json["levers_m"][joint] = moment_arm_m;
+  for (const auto& [joint, moment_arm_m] : r.moment_arms_m) json["levers_m"][joint] = moment_arm_m;
   return json;
 }
 
-std::string levers_text(const SurfaceReport& r) {
+std::string moment_arms_text(const SurfaceReport& r) {
   std::string text;
-  for (const auto& [joint, moment_arm_m] : r.levers_m) text += fmt::format(" {} {:+.1f}", joint, 1e3 * moment_arm_m);
+  for (const auto& [joint, moment_arm_m] : r.moment_arms_m)
+    text += fmt::format(" {} {:+.1f}", joint, 1e3 * moment_arm_m);
   return text;
 }
 
@@ -57,7 +58,7 @@ std::string levers_text(const SurfaceReport& r) {
 std::string report_table(const std::vector<SurfaceReport>& reports) {
   std::string text = fmt::format("{:<30} {:>6} {:>5} {:>6} {:>5} {:>4} {:>5} {:>5} {:>5} {:>6} {:>9} {:>4} {:>8}  {}\n",
                                  "surface", "tri in", "skin", "cm3", "lost", "tets", "min", "1 %", "ratio", "dV %",
-                                 "gap o/i", "fill", "belly", "levers, mm");
+                                 "gap o/i", "fill", "belly", "moment arms, mm");
   for (const SurfaceReport& r : reports) {
     text += fmt::format("{:<30} {:>6} {:>5} {:>6.1f} ", r.key, r.input_triangles, r.skin_triangles, 1e6 * r.volume_m3);
     if (r.muscle) {
@@ -66,7 +67,7 @@ std::string report_table(const std::vector<SurfaceReport>& reports) {
                       1e6 * r.parted_loss_m3, r.tets.tets, r.tets.smallest_dihedral_deg,
                       r.tets.first_percentile_dihedral_deg, r.tets.mean_ratio, 100.0 * r.cage_volume_error,
                       1e3 * r.origin_gap_m, 1e3 * r.insertion_gap_m, r.filled_tets, 1e3 * r.belly_m, 1e3 * r.path_m);
-      text += levers_text(r);
+      text += moment_arms_text(r);
     }
     for (const RepairStep& step : r.repairs) text += "  [" + step_text(step) + "]";
     for (const std::string& note : r.notes) text += "  [" + note + "]";

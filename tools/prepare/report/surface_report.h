@@ -42,7 +42,7 @@ struct SurfaceReport {
   double path_m = 0.0;           // along the fibres
   double belly_m = 0.0;
   double largest_section_m2 = 0.0;
-  std::vector<std::pair<std::string, double>> levers_m;  // hinge crossed -> moment arm, positive flexes
+  std::vector<std::pair<std::string, double>> moment_arms_m;  // hinge crossed -> moment arm, positive flexes
 };
 
 /// One line a surface, with a heading.

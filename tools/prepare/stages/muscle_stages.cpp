@@ -175,7 +175,7 @@ void trace_lines(LimbWork& limb, const PartDone& done) {
     for (const int j : joints_between(name, bones)) {
       const anatomy::Joint& joint = limb.anatomy.joints[static_cast<std::size_t>(j)];
       if (joint.type != anatomy::JointType::Hinge) continue;
-      muscle.report.levers_m.emplace_back(joint.key, moment_arm_m(muscle.line, joint, bones));
+      muscle.report.moment_arms_m.emplace_back(joint.key, moment_arm_m(muscle.line, joint, bones));
     }
   });
 }

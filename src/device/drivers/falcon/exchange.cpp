@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t kSilence_ns = 30'000'000;     // as the force gate takes a stale model
 constexpr std::uint64_t kForceLife_ns = 20'000'000;   // twenty ticks: who asked for it has stopped ticking
-constexpr std::uint64_t kReportLife_ns = 10'000'000;  // two turns without one: a force would answer an old position
+constexpr std::uint64_t kReportLife_ns = 10'000'000;  // two exchanges without one: a force would answer an old position
 constexpr std::uint64_t kDistrust_ns = 100'000'000;   // after a leap: many reports that agree
 constexpr std::uint64_t kLongestGap_ns = 3'000'000;   // a longer one between reports excuses no further way
 /// Counts that an arm can have: with the grip 0.075 .. 0.175 m out and up to 0.055 m off the axis they are -2507 ..

@@ -13,7 +13,7 @@ struct ExchangeSettings {
   /// Motor counts for a newton metre of an arm. Not published: libnifalcon's authors tuned 10 000, captures of the
   /// maker's library fit 2300 .. 4700, the maker's peak force would need 18 000. Too low a scale only feels weak.
   double counts_per_Nm = 4000.0;
-  double peak_force_N = 8.0;  // |force| that is ever turned into torque
+  double peak_force_N = 8.0;  // |force| that is ever converted into torque
 };
 
 /// One report in, one command out: where the grip is, whether that is to be believed, and what the motors may do.

@@ -12,7 +12,7 @@ namespace myotact::device::falcon {
 
 namespace {
 
-/// The chip hears us and the processor behind it says nothing: it lost its power, and its firmware with it.
+/// The chip answers and the processor behind it does not: it lost its power, and its firmware with it.
 constexpr std::uint64_t kGivenUp_ns = 2'000'000'000;
 
 std::uint64_t steady(void*) {
@@ -84,7 +84,7 @@ void FalconDevice::exchange_until_gone() noexcept {
   ExchangeRate rate(session.now_ns());
   std::uint64_t heard_ns = session.now_ns(), heard = 0;
   while (!stopping() && !transport_->is_gone()) {
-    session.turn(wanted());
+    session.exchange_once(wanted());
     const Exchange& exchange = session.exchange();
     const std::uint64_t now_ns = session.now_ns();
     publish({to_array(exchange.position_m()), to_array(exchange.velocity_m_s()), exchange.reported_ns(),

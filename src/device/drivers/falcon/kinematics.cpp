@@ -131,7 +131,7 @@ double counts_of_angle(double angle_rad) noexcept {
 }
 
 std::array<std::int16_t, 3> motor_counts(const Vec3& torque_Nm, double counts_per_Nm) noexcept {
-  const Vec3 wanted = -counts_per_Nm * torque_Nm;  // a motor that turns its arm outwards counts down
+  const Vec3 wanted = -counts_per_Nm * torque_Nm;  // a motor that rotates its arm outwards counts down
   if (!wanted.allFinite()) return {};
   const double scale = std::min(1.0, kMostCounts / std::max(wanted.cwiseAbs().maxCoeff(), 1.0));
   std::array<std::int16_t, 3> counts{};

@@ -110,7 +110,7 @@ void LibusbTransport::take_back(Flights& flights) noexcept {
   while (any_flies(flights) && Clock::now() < until) handle_events(until);
 }
 
-/// An endpoint that stalled takes nothing more until it is told to, which the kernel wants to hear while nothing is
+/// An endpoint that stalled takes nothing more until its halt is cleared, which the kernel requires while nothing is
 /// queued on it.
 void LibusbTransport::clear_stalls() noexcept {
   const auto clear = [this](bool& is_stalled, unsigned char endpoint, Flights& flights) {

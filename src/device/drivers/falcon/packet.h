@@ -55,7 +55,7 @@ class PacketReader {
   std::uint64_t skipped_bytes() const noexcept { return skipped_; }
 
  private:
-  static constexpr std::size_t kKept = 256;  // four full transfers: a reader that is slower has lost its turn anyway
+  static constexpr std::size_t kKept = 256;  // four full transfers: a slower reader would get outdated reports anyway
 
   std::array<std::uint8_t, kKept> bytes_{};
   std::size_t begin_ = 0, count_ = 0;

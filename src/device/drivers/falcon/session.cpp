@@ -26,12 +26,13 @@ bool Session::take_transfer(milliseconds patience) noexcept {
   return reported;
 }
 
-void Session::turn(const WantedForce& wanted) noexcept {
+void Session::exchange_once(const WantedForce& wanted) noexcept {
   transport_.send(exchange_.command(wanted, now_ns()));
   bool reported = false;
   for (int wait = 0; wait < kWaits && !reported && !transport_.is_gone(); ++wait)
     reported = take_transfer(milliseconds(1));
-  // What else is there is newer: with one report a turn, every turn would act on one that is as many turns old.
+  // What else is there is newer: with one report an exchange, each exchange would act on one that is as many exchanges
+  // old.
   for (int left = 0; left < kMostLeft && reported; ++left) reported = take_transfer(milliseconds(0));
 }
 

@@ -17,7 +17,7 @@ class Session {
       : transport_(transport), exchange_(settings), now_(now), of_(of) {}
 
   /// Sends what the force makes of the motors and takes what comes back within five milliseconds, the newest last.
-  void turn(const WantedForce& wanted) noexcept;
+  void exchange_once(const WantedForce& wanted) noexcept;
   /// The last command: no torque, lamps off.
   void rest() noexcept;
 

@@ -55,7 +55,7 @@ struct Dhdapi {
   bool (*is_initialised)(char);
   int (*initialise)(char);
 
-  /// Whether it can find out where a device is, and can tell.
+  /// Whether it can initialise a device's position and report whether that is done.
   bool has_drd() const { return drd_open_id && drd_close && drd_stop && is_initialised && initialise; }
   /// For DRD's calls, too, where there are any. The device's ID; below zero: an error.
   int open_device(int place) const {

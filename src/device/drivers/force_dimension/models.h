@@ -15,7 +15,7 @@ struct Model {
 /// the SDK's header, limits as CHAI3D lists them)
 Model model_of(int system_type);
 
-/// What such a device supports; never more than the library says itself, where it says a force.
+/// What such a device supports; never more than the library's own limits, where it has one of the force.
 DeviceProfile profile_of(const Model& model, double told_max_force_N);
 
 }  // namespace myotact::device::force_dimension

@@ -14,10 +14,10 @@ namespace {
 /// What a hand does not do between two states: 10 m/s, and 1 cm on top for states that came late together.
 constexpr double kFastestHand_m_s = 10.0;
 constexpr double kJumpSlack_m = 0.01;
-/// The gate before us keeps to the peak. A little more is cut; this much more is no force that anybody meant.
+/// The gate before us keeps to the peak. A little more is cut; this much more is an error.
 constexpr double kSane = 2.0;
 constexpr std::uint64_t kForceLife_ns = 20'000'000;  // age of the state that a force answers
-/// Commands without an answer, the second of no force, beyond which none is sent: each is answered in its turn, and a
+/// Commands without an answer, the second of no force, beyond which none is sent: they are answered in order, and a
 /// force behind a queue of them would come late for ever.
 constexpr int kMostOwed = 2;
 constexpr std::uint64_t kRateSpan_ns = 1'000'000'000;
@@ -101,12 +101,12 @@ std::string Exchange::take_device(const DeviceEntry& device, std::uint64_t now_n
   const auto& axes = device.position_service_m;
   // Without any position nothing is fresh: left to the limit of silence, since the origin, where all three could be
   // left out, is in the mounting plate.
-  const bool tells = axes[0] || axes[1] || axes[2];
+  const bool has_position = axes[0] || axes[1] || axes[2];
   const Vec3 last_m = position_service_m_;
   for (std::size_t i = 0; i < axes.size(); ++i) {
     position_service_m_[static_cast<int>(i)] = axes[i].value_or(last_m[static_cast<int>(i)]);
   }
-  if (!tells || !position_service_m_.allFinite()) return fmt::format("the state of {} has no position", id_);
+  if (!has_position || !position_service_m_.allFinite()) return fmt::format("the state of {} has no position", id_);
   const double jump_m = (position_service_m_ - last_m).norm();
   const double farthest_m = kJumpSlack_m + kFastestHand_m_s * 1e-9 * static_cast<double>(since(heard_ns_, now_ns));
   heard_ns_ = now_ns;

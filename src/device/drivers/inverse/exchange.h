@@ -34,7 +34,7 @@ class Exchange {
   Exchange(std::string id, std::size_t place, const InverseSettings& settings);
 
   // ---- I/O thread; times are the steady clock [ns] and never run backwards
-  /// A connection stands, commands take this form (not ByVersion).
+  /// A connection is open, commands take this form (not ByVersion).
   void begin(CommandForm form, std::uint64_t now_ns);
   /// A message came: any bytes. What is wrong with it; empty: nothing.
   std::string take(std::string_view text, std::uint64_t now_ns);
@@ -92,7 +92,7 @@ class Exchange {
   ServiceMessage message_;
   std::string command_;
   Sample sample_;
-  Vec3 position_service_m_ = Vec3::Zero();       // not a number where this connection has not told it
+  Vec3 position_service_m_ = Vec3::Zero();       // not a number until this connection reported it
   std::uint64_t epoch_ = 0;                      // of the Ready phases
   int good_ = 0;                                 // states in a row without a fault
   int owed_ = 0;                                 // commands that the service has not answered

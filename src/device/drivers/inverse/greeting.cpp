@@ -12,8 +12,8 @@ constexpr std::chrono::seconds kInventoryWait(1);
 
 CommandForm form_of(ServiceLink& link, const ServiceMessage& inventory, const InverseSettings& settings) {
   if (settings.form != CommandForm::ByVersion) return settings.form;
-  const auto told = read_version(inventory.version);
-  return form_for(told ? told : read_version(link.ask_version()));
+  const auto version = read_version(inventory.version);
+  return form_for(version ? version : read_version(link.ask_version()));
 }
 
 }  // namespace

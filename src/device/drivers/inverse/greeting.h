@@ -6,7 +6,7 @@
 
 namespace myotact::device::inverse {
 
-/// What a service says first.
+/// What a service sends first.
 struct Greeting {
   ServiceMessage inventory;
   CommandForm form = CommandForm::Vector;  // what it wants, or what the settings say

@@ -14,7 +14,7 @@ namespace myotact::device::inverse {
 enum class CommandForm : std::uint8_t { ByVersion, Values, Vector };
 
 /// What the Inverse3 supports. 10 N, 1000 N/m: what the CHAI3D port chai3d_haply sets, not the maker's data
-/// (uncertain). Continuous force: nobody says it; a third of the peak, until it is measured. Friction and inertia are
+/// (uncertain). Continuous force: not published; a third of the peak, until it is measured. Friction and inertia are
 /// not known.
 inline DeviceProfile inverse3_profile() {
   DeviceProfile profile;
@@ -30,7 +30,7 @@ struct InverseSettings {
   /// Where the Inverse Service listens on this machine; a numeric loopback address. Default of its pages.
   std::string address = "127.0.0.1";
   std::uint16_t port = 10001;
-  /// Where services 3.0 and 3.1 tell their version over HTTP (docs.haply.co, 3.0.2).
+  /// Where services 3.0 and 3.1 report their version over HTTP (docs.haply.co, 3.0.2).
   std::uint16_t version_port = 10000;
   CommandForm form = CommandForm::ByVersion;
   /// The middle of the workspace in the service's frame, which starts at the face of the mounting plate: x to the

@@ -23,7 +23,7 @@ struct MotionSettings {
   double full_offset_m = 0.05;    // Position, at full deflection
   double half_workspace_m = 0.1;  // Rate: the tool stays in a cube this far about the middle
   /// 1 or -1 for right, up and towards the person. The raw axes are derived from drivers of others, not from the
-  /// maker's sheet (uncertain): turn an axis here if a model differs.
+  /// maker's sheet (uncertain): reverse an axis here if a model differs.
   Vec3 axis_signs = Vec3::Ones();
 };
 

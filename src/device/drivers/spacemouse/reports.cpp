@@ -37,11 +37,11 @@ bool apply_report(std::span<const std::uint8_t> report, Cap& cap) noexcept {
     case kPushReport:
       if (report.size() < kSplitLength) return false;
       cap.push = axes_at(report, 1);
-      if (report.size() >= kCombinedLength) cap.turn = axes_at(report, 1 + kAxesBytes);
+      if (report.size() >= kCombinedLength) cap.rotation = axes_at(report, 1 + kAxesBytes);
       return true;
-    case kTurnReport:
+    case kRotationReport:
       if (report.size() < kSplitLength) return false;
-      cap.turn = axes_at(report, 1);
+      cap.rotation = axes_at(report, 1);
       return true;
     case kKeysReport:
       cap.keys = keys_of(report);

@@ -7,13 +7,13 @@
 
 namespace myotact::device::spacemouse {
 
-/// How far the cap of a SpaceMouse is pushed and turned, in counts of the device, along and about its own raw axes
+/// How far the cap of a SpaceMouse is pushed and rotated, in counts of the device, along and about its own raw axes
 /// (+X to the right, +Y towards the person, +Z down: `motion.h` changes them to ours).
 struct Cap {
-  std::array<int, 3> push{};  // -kFullDeflection .. kFullDeflection
-  std::array<int, 3> turn{};  // the same range
-  std::uint32_t keys = 0;     // bit i: bit i of the button bytes, least significant byte first
-  int battery_percent = -1;   // 0 .. 100; below 0: the device has not told
+  std::array<int, 3> push{};      // -kFullDeflection .. kFullDeflection
+  std::array<int, 3> rotation{};  // the same range
+  std::uint32_t keys = 0;         // bit i: bit i of the button bytes, least significant byte first
+  int battery_percent = -1;       // 0 .. 100; below 0: not reported yet
 };
 
 /// Logical maximum of the axes in the report descriptors. Some models go a little beyond: clamped.
@@ -22,18 +22,18 @@ inline constexpr int kFullDeflection = 350;
 inline constexpr std::size_t kLongestReport = 64;
 
 /// Input reports: the first byte is the id.
-inline constexpr std::uint8_t kPushReport = 0x01;     // 7 bytes: push alone; 13 or more: push and turn
-inline constexpr std::uint8_t kTurnReport = 0x02;     // 7 bytes
-inline constexpr std::uint8_t kKeysReport = 0x03;     // 2 to 5 bytes used
-inline constexpr std::uint8_t kBatteryReport = 0x17;  // wireless models: percent in byte 1
+inline constexpr std::uint8_t kPushReport = 0x01;      // 7 bytes: push alone; 13 or more: push and rotation
+inline constexpr std::uint8_t kRotationReport = 0x02;  // 7 bytes
+inline constexpr std::uint8_t kKeysReport = 0x03;      // 2 to 5 bytes used
+inline constexpr std::uint8_t kBatteryReport = 0x17;   // wireless models: percent in byte 1
 
 /// Output report that switches the light of the cap.
 constexpr std::array<std::uint8_t, 2> light_report(bool on) {
   return {0x04, static_cast<std::uint8_t>(on ? 1 : 0)};
 }
 
-/// Changes of `cap` what the report says. False: the report is of another kind or too short, and nothing is changed.
-/// Models that put push and turn into one report are told by its length, not by a list of models.
+/// Changes of `cap` what the report contains. False: the report is of another kind or too short, and nothing is
+/// changed. Models that put push and rotation into one report are recognised by its length, not by a list of models.
 bool apply_report(std::span<const std::uint8_t> report, Cap& cap) noexcept;
 
 /// Keys of the models with many (Pro, Enterprise), whose bits have gaps. The models with two have bits 0 and 1: left

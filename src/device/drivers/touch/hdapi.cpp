@@ -40,7 +40,7 @@ Hdapi::Hdapi(const std::string& path) : library("libHD of OpenHaptics", names_of
 }
 
 Code Hdapi::take_error() const noexcept {
-  constexpr int kDeepestStack = 64;  // a library that never says "none" must not hold the tick
+  constexpr int kDeepestStack = 64;  // a library that never returns "none" must not block the tick
   Code newest = kNone;
   for (int i = 0; i < kDeepestStack; ++i) {
     const Code code = get_error().code;

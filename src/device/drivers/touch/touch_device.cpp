@@ -169,7 +169,7 @@ Code TouchDevice::look_after_calibration() noexcept {
   return api().take_error();
 }
 
-/// A model that does not tell its motors' warmth is not asked again. Returns what went wrong.
+/// A model that does not report its motors' temperature is not asked again. Returns what went wrong.
 Code TouchDevice::look_after_motors() noexcept {
   if (!tells_warmth_) return kNone;
   std::array<double, 6> warmth{};

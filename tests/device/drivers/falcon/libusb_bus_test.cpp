@@ -124,7 +124,7 @@ class FalconUsbTurns : public FalconUsb {
     ASSERT_TRUE(turns_until([this] { return phase() == DevicePhase::Ready; }));
   }
   void turns(int count) {
-    for (int i = 0; i < count; ++i) session->turn({{0.0, 1.0, 0.0}, session->now_ns()});
+    for (int i = 0; i < count; ++i) session->exchange_once({{0.0, 1.0, 0.0}, session->now_ns()});
   }
   DevicePhase phase() const { return session->exchange().phase(session->now_ns()); }
   /// Turns until it is so, at most ten thousand.

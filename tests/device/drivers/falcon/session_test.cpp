@@ -30,7 +30,7 @@ struct Rig {
     turns(5);
   }
   void turns(int count, const Vec3& force_N = Vec3::Zero()) {
-    for (int i = 0; i < count; ++i) session.turn({to_array(force_N), fake.now_ns()});
+    for (int i = 0; i < count; ++i) session.exchange_once({to_array(force_N), fake.now_ns()});
   }
   DevicePhase phase() const { return session.exchange().phase(fake.now_ns()); }
   Vec3 felt_N() const { return fake.force_N(settings.counts_per_Nm); }
@@ -158,9 +158,9 @@ TEST(FalconSession, WhatIsNoNumberOrTooOldIsNoForce) {
   rig.turns(3, {1.0, 0.0, 0.0});
   rig.turns(1, Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
   EXPECT_EQ(rig.felt_N().norm(), 0.0);
-  rig.session.turn({{1.0, 0.0, 0.0}, rig.fake.now_ns() - 100'000'000});
+  rig.session.exchange_once({{1.0, 0.0, 0.0}, rig.fake.now_ns() - 100'000'000});
   EXPECT_EQ(rig.felt_N().norm(), 0.0) << "the host stalled for 100 ms";
-  rig.session.turn({{1.0, 0.0, 0.0}, 0});
+  rig.session.exchange_once({{1.0, 0.0, 0.0}, 0});
   EXPECT_EQ(rig.felt_N().norm(), 0.0) << "never asked";
 }
 
@@ -293,7 +293,7 @@ TEST(FalconSession, ATurnAllocatesNothing) {
   } transport;
   Session session(transport, {}, FakeFalcon::clock, &rig.fake);
   const support::AllocationGuard guard;
-  for (int i = 0; i < 100; ++i) session.turn({{1.0, 0.0, 0.0}, rig.fake.now_ns()});
+  for (int i = 0; i < 100; ++i) session.exchange_once({{1.0, 0.0, 0.0}, rig.fake.now_ns()});
   EXPECT_EQ(guard.allocations(), 0u);
   EXPECT_EQ(session.exchange().phase(rig.fake.now_ns()), DevicePhase::Ready);
 }

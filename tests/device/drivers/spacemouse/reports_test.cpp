@@ -18,20 +18,20 @@ TEST(SpaceMouseReports, PushAndTurnComeInTwoReportsOfThreeNumbers) {
   Cap cap;
   ASSERT_TRUE(apply_report(Bytes{0x01, 0x5E, 0x01, 0xA2, 0xFE, 0x00, 0x00}, cap));
   EXPECT_THAT(cap.push, ElementsAre(350, -350, 0));
-  EXPECT_THAT(cap.turn, ElementsAre(0, 0, 0));
+  EXPECT_THAT(cap.rotation, ElementsAre(0, 0, 0));
   ASSERT_TRUE(apply_report(Bytes{0x02, 0x01, 0x00, 0xFF, 0xFF, 0x10, 0x00}, cap));
   EXPECT_THAT(cap.push, ElementsAre(350, -350, 0));
-  EXPECT_THAT(cap.turn, ElementsAre(1, -1, 16));
+  EXPECT_THAT(cap.rotation, ElementsAre(1, -1, 16));
 }
 
 TEST(SpaceMouseReports, OrInOneReportThatIsToldByItsLength) {
   Cap cap;
   ASSERT_TRUE(apply_report(Bytes{0x01, 1, 0, 2, 0, 3, 0, 4, 0, 5, 0, 6, 0}, cap));
   EXPECT_THAT(cap.push, ElementsAre(1, 2, 3));
-  EXPECT_THAT(cap.turn, ElementsAre(4, 5, 6));
+  EXPECT_THAT(cap.rotation, ElementsAre(4, 5, 6));
   ASSERT_TRUE(apply_report(Bytes{0x01, 9, 0, 9, 0, 9, 0, 7, 0, 7, 0, 7}, cap));  // a byte short: push alone
   EXPECT_THAT(cap.push, ElementsAre(9, 9, 9));
-  EXPECT_THAT(cap.turn, ElementsAre(4, 5, 6));
+  EXPECT_THAT(cap.rotation, ElementsAre(4, 5, 6));
 }
 
 TEST(SpaceMouseReports, NumbersBeyondFullDeflectionAreCutOff) {
@@ -72,7 +72,7 @@ TEST(SpaceMouseReports, RandomBytesNeverLeaveTheRange) {
     for (auto& byte : report) byte = static_cast<std::uint8_t>(random());
     if (!report.empty() && i % 2 == 0) report[0] = static_cast<std::uint8_t>(1 + random() % 3);
     apply_report(report, cap);
-    for (const auto& axes : {cap.push, cap.turn}) {
+    for (const auto& axes : {cap.push, cap.rotation}) {
       for (const int axis : axes) ASSERT_LE(std::abs(axis), kFullDeflection);
     }
     ASSERT_LE(cap.battery_percent, 100);
