@@ -43,14 +43,15 @@ void replace_file(const std::filesystem::path& path, const std::string& text) {
   std::filesystem::rename(next, path);
 }
 
-/// Writes what the window shows, a few times a second, where a file was named for it.
+/// Writes what the window shows, with every picture that takes as long as a software renderer's, where a file was named
+/// for it.
 class WindowReport {
  public:
   explicit WindowReport(std::optional<std::filesystem::path> path) : path_(std::move(path)) {}
 
   void write(view::Window& window, const messages::SceneFrame& frame) {
     if (!path_ || std::chrono::steady_clock::now() < next_) return;
-    constexpr std::chrono::milliseconds kPeriod(100);
+    constexpr std::chrono::milliseconds kPeriod(40);
     next_ = std::chrono::steady_clock::now() + kPeriod;
     replace_file(*path_, window.describe(frame));
   }
@@ -77,11 +78,12 @@ Options options_of(const Options& given, const view::SceneWish& wish) {
 class WindowApp {
  public:
   explicit WindowApp(const Options& options)
-      : options_(options), equipment_(options), report_(options.report_state), next_(begin()) {
+      : options_(options), equipment_(options), report_(options.report_state) {
     if (options.camera && equipment_.has(*options.camera)) {
       throw Error(ExitStatus::Usage, "--camera " + *options.camera + ": moves a tool already (--device)");
     }
     if (options.camera) camera_.emplace(*options.camera, device_settings_of(options));
+    begin();  // last: no scene is built where there is no window to show it
   }
 
   ~WindowApp() {
@@ -112,10 +114,9 @@ class WindowApp {
     return std::async(std::launch::async, [this, options] { return make_stage(options, guarded_, equipment_); });
   }
 
-  std::future<std::unique_ptr<Stage>> begin() {
-    if (!options_.session) return build(options_);
-    work_ = view::read_work(*options_.session, scene::built_in_scenes());
-    return build(options_of(options_, {work_->scene, work_->tissue, {}, work_}));
+  void begin() {
+    if (options_.session) work_ = view::read_work(*options_.session, scene::built_in_scenes());
+    next_ = build(work_ ? options_of(options_, {work_->scene, work_->tissue, {}, work_}) : options_);
   }
 
   void change_stage() {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "core/dense_matrix.h"
 #include "core/error.h"
 #include "geometry/tet_topology.h"
 
@@ -102,8 +102,7 @@ int held_motions(const Assembly& assembly, const Part& part) {
     const Row row = assembly.row(part, held.node, held.component);
     gram += row * row.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(gram, Eigen::EigenvaluesOnly);
-  const auto& values = solver.eigenvalues();
+  const Eigen::VectorXd values = symmetric_eigen(gram).values;
   return static_cast<int>((values.array() > kWeakest * std::max(values[5], 1e-300)).count());
 }
 
@@ -124,9 +123,9 @@ class Linkage {
 
   /// The block that moves most in the motion that is resisted least; -1: all are resisted.
   int swinging_block() const {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram_);
-    if (solver.eigenvalues()[0] > kWeakest * solver.eigenvalues()[unknowns() - 1]) return -1;
-    const Eigen::VectorXd motion = solver.eigenvectors().col(0);
+    const SymmetricEigen motions = symmetric_eigen(gram_);
+    if (motions.values[0] > kWeakest * motions.values[unknowns() - 1]) return -1;
+    const Eigen::VectorXd motion = motions.vectors.col(0);
     const auto speed = [&](int block) { return motion.segment<6>(place(block)).norm(); };
     return *std::max_element(part_.blocks.begin(), part_.blocks.end(),
                              [&](int a, int b) { return speed(a) < speed(b); });

@@ -27,7 +27,7 @@ std::string focused_control(const json& state) {
 class ComfortTest : public testing::GuiTest {};
 
 TEST_F(ComfortTest, AKeyIsGivenAwayAndTheMouseWorksAsInBlender) {
-  GuiProgram gui("comfort", "elbow");
+  GuiProgram gui("comfort", "elbow --set tissue.default=line");
   const auto becomes = [&](const std::string& control, const std::string& value) {
     return gui.wait_until([&](const json&) { return gui.value_of(control) == value; });
   };
@@ -65,7 +65,7 @@ TEST_F(ComfortTest, AKeyIsGivenAwayAndTheMouseWorksAsInBlender) {
 }
 
 TEST_F(ComfortTest, TheKeyboardReachesEveryArea) {
-  GuiProgram gui("keyboard", "elbow");
+  GuiProgram gui("keyboard", "elbow --set tissue.default=line");
   gui.key("ctrl+2");
   ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.shows("see.labels"); }));
   std::set<std::string> areas;
@@ -78,7 +78,7 @@ TEST_F(ComfortTest, TheKeyboardReachesEveryArea) {
 }
 
 TEST_F(ComfortTest, TheKeyboardReachesEveryControlOfAPanel) {
-  GuiProgram gui("keyboard_panel", "elbow");
+  GuiProgram gui("keyboard_panel", "elbow --set tissue.default=line");
   gui.key("ctrl+2");
   ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.shows("see.labels"); }));
   for (int i = 0; i < 8 && focused_control(gui.state()).rfind("see.", 0) != 0; ++i) gui.key("F6");
@@ -99,7 +99,7 @@ TEST_F(ComfortTest, TheKeyboardReachesEveryControlOfAPanel) {
 }
 
 TEST_F(ComfortTest, BigTypeShowsTheStiffnessToAClassAndGoesAway) {
-  GuiProgram gui("class", "elbow");
+  GuiProgram gui("class", "elbow --set tissue.default=line");
   gui.key("F9");
   ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.shows("class.K") && !gui.shows("tasks.see"); }));
   gui.key("equal");

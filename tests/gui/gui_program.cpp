@@ -42,7 +42,7 @@ bool wait_for(const std::function<bool()>& condition, double seconds) {
   const auto end = Clock::now() + std::chrono::duration<double>(seconds);
   while (!condition()) {
     if (Clock::now() > end) return false;
-    pause_s(0.05);
+    pause_s(0.01);
   }
   return true;
 }

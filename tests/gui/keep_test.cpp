@@ -49,7 +49,7 @@ TEST_F(KeepTest, LookingBackStaysInThePastWhileTheSimulationGoesOn) {
 }
 
 TEST_F(KeepTest, TablesAndPicturesGoIntoThePersonsOwnFolder) {
-  GuiProgram gui("tables", "elbow");
+  GuiProgram gui("tables", "elbow --set tissue.default=line");
   const std::filesystem::path own = gui.folder() / "home";
   ASSERT_TRUE(gui.wait_until([](const json& state) { return state["frame"]["time_s"] > 0.5; }));
   gui.click("tasks.plots");
@@ -86,7 +86,7 @@ void put_ffmpeg(const std::filesystem::path& folder, const std::string& script) 
 TEST_F(KeepTest, AFilmGoesIntoThePersonsOwnFolder) {
   const std::filesystem::path tools = std::filesystem::path(MYOTACT_GUI_PICTURES) / "film_tools";
   put_ffmpeg(tools, "cat > \"$last\"");
-  GuiProgram gui("film", "elbow", "PATH=" + tools.string() + ":$PATH");
+  GuiProgram gui("film", "elbow --set tissue.default=line", "PATH=" + tools.string() + ":$PATH");
   const std::string told = film_with(gui);
   const auto films = files_below(gui.folder() / "home", ".mp4");
   ASSERT_EQ(films.size(), 1u) << told;
@@ -101,7 +101,7 @@ TEST_F(KeepTest, AFilmGoesIntoThePersonsOwnFolder) {
 TEST_F(KeepTest, AnFfmpegThatDiesEndsTheFilmAndNothingElse) {
   const std::filesystem::path tools = std::filesystem::path(MYOTACT_GUI_PICTURES) / "film_dies_tools";
   put_ffmpeg(tools, "exit 1");
-  GuiProgram gui("film_dies", "elbow", "PATH=" + tools.string() + ":$PATH");
+  GuiProgram gui("film_dies", "elbow --set tissue.default=line", "PATH=" + tools.string() + ":$PATH");
   gui.click("keep.film");
   ASSERT_TRUE(gui.wait_until([&](const json&) { return !gui.value_of("news.message").empty(); }));
   EXPECT_NE(gui.value_of("news.message").find("ffmpeg"), std::string::npos) << gui.value_of("news.message");

@@ -36,7 +36,7 @@ std::filesystem::path data_with_quizzes() {
 
 TEST_F(LearnGui, AQuizOfOnesOwnIsAnsweredAndItsResultsAreKept) {
   const auto data = data_with_quizzes();
-  GuiProgram gui("learn_quiz", "elbow", "XDG_DATA_HOME=" + data.string());
+  GuiProgram gui("learn_quiz", "elbow --set tissue.default=line", "XDG_DATA_HOME=" + data.string());
   gui.click("tasks.learn");
   ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.shows("learn.refresh"); }));
   gui.screenshot("list");
@@ -108,7 +108,7 @@ TEST_F(LearnGui, TheMouseTouchesPressesAndPulls) {
 }
 
 TEST_F(LearnGui, ALessonOfAnotherSceneOpensIt) {
-  GuiProgram gui("learn_scene", "elbow");
+  GuiProgram gui("learn_scene", "elbow --set tissue.default=line");
   gui.click("tasks.learn");
   gui.click("learn.open_scene.5_hock");
   ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.shows("learn.start.5_hock"); }, 90.0));

@@ -14,7 +14,7 @@ using testing::GuiProgram;
 class SeePanel : public testing::GuiTest {};
 
 TEST_F(SeePanel, LayersNamesAndASectionAreSetAndTakenBack) {
-  GuiProgram gui("see", "elbow");
+  GuiProgram gui("see", "elbow --set tissue.default=line");
   gui.click("tasks.see");
   ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.shows("see.labels"); }));
   EXPECT_EQ(gui.value_of("see.labels"), "off");

@@ -107,7 +107,7 @@ TEST_F(WindowTest, AMuscleIsFoundThroughASlipIsolatedTouchedAndPulled) {
 }
 
 TEST_F(WindowTest, ANoteStaysWithItsMuscle) {
-  GuiProgram gui("note", "elbow");
+  GuiProgram gui("note", "elbow --set tissue.default=line");
   gui.click("find.biceps_brachii");
   gui.click("card.note");
   testing::pause_s(1.0);  // until it has the keyboard, in a slow picture too
@@ -184,7 +184,7 @@ TEST_F(WindowTest, ADisplayThatGoesAwayEndsTheProgramWithASentenceAndAWholeRecor
 }
 
 TEST_F(WindowTest, AWindowTooSmallForItsPanelsStillShowsTheLimb) {
-  GuiProgram gui("small", "elbow");
+  GuiProgram gui("small", "elbow --set tissue.default=line");
   gui.resize(200, 150);
   ASSERT_TRUE(gui.wait_until([](const json& state) { return state["scene_box"][2] <= 200.0; }));
   expect_drawn(gui, "small");

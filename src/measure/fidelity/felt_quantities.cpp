@@ -5,8 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Dense>
-
+#include "core/dense_matrix.h"
 #include "measure/fidelity/felt_masks.h"
 
 namespace myotact::measure {
@@ -179,7 +178,7 @@ std::optional<JointInHand> joint_in_hand(const scene::Scene& scene, const Device
     left.row(r) << row[0], row[1], row[2];
     right[r] = row[3];
   }
-  const Eigen::Vector3d fit = left.colPivHouseholderQr().solve(right);
+  const Eigen::Vector3d fit = least_squares(left, right);
   return JointInHand{fit[0], read_Nm_rad / static_cast<double>(rows.size()), most_rad - least_rad};
 }
 

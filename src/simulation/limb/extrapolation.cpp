@@ -1,6 +1,6 @@
 #include "simulation/limb/extrapolation.h"
 
-#include <Eigen/QR>
+#include "core/dense_matrix.h"
 
 namespace myotact::simulation {
 namespace {
@@ -24,7 +24,7 @@ Eigen::VectorXd Extrapolation::next(const Eigen::VectorXd& from, const Eigen::Ve
     step_changes.col(static_cast<Eigen::Index>(k)) = steps_[k + 1] - steps_[k];
     end_changes.col(static_cast<Eigen::Index>(k)) = ends_[k + 1] - ends_[k];
   }
-  const Eigen::VectorXd shares = step_changes.colPivHouseholderQr().solve(steps_.back());
+  const Eigen::VectorXd shares = least_squares(step_changes, steps_.back());
   return shares.allFinite() ? Eigen::VectorXd(to - end_changes * shares) : to;
 }
 

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-
 #include "core/at.h"
+#include "core/dense_matrix.h"
 #include "simulation/element/muscle_batch.h"
 #include "simulation/line/line_segment.h"
 #include "simulation/material/fibre_family.h"
@@ -213,8 +212,7 @@ void make_definite(StrandState& strand) {
   const Eigen::Index joints = strand.torque_Nm.size();
   Eigen::MatrixXd whole(3 + joints, 3 + joints);
   whole << strand.stiffness_N_m, strand.coupling_N_rad, strand.coupling_N_rad.transpose(), strand.stiffness_Nm_rad;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> split(whole);
-  whole = split.eigenvectors() * split.eigenvalues().cwiseMax(0.0).asDiagonal() * split.eigenvectors().transpose();
+  whole = positive_part(symmetric_eigen(whole));
   strand.stiffness_N_m = whole.topLeftCorner<3, 3>();
   strand.coupling_N_rad = whole.topRightCorner(3, joints);
   strand.stiffness_Nm_rad = whole.bottomRightCorner(joints, joints);

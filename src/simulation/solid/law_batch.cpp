@@ -1,6 +1,6 @@
 #include "simulation/solid/law_batch.h"
 
-#include <Eigen/Eigenvalues>
+#include "core/dense_matrix.h"
 
 namespace myotact::simulation {
 namespace {
@@ -103,9 +103,9 @@ void make_definite(std::array<double, kPacked>& C) {
           whole(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(r)) = C[packed(r, c)];
     }
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> split(whole);
-  if (split.eigenvalues()[0] >= 0.0) return;
-  whole = split.eigenvectors() * split.eigenvalues().cwiseMax(0.0).asDiagonal() * split.eigenvectors().transpose();
+  const SymmetricEigen split = symmetric_eigen(whole);
+  if (split.values[0] >= 0.0) return;
+  whole = positive_part(split);
   for (std::size_t r = 0; r < 9; ++r) {
     for (std::size_t c = r; c < 9; ++c) {
       C[packed(r, c)] = whole(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c));

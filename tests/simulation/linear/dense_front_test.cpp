@@ -8,10 +8,9 @@
 #include <random>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include "core/dense_matrix.h"
 #include "simulation/simd/batch.h"
 
 // The dense kernels under every factor, on each kind of vector register that this processor has, against Eigen.
@@ -61,7 +60,7 @@ struct OwnedFront {
 Eigen::MatrixXd well_conditioned(int size, int negative, std::mt19937& random) {
   std::normal_distribution<double> normal;
   const Eigen::MatrixXd any = Eigen::MatrixXd::NullaryExpr(size, size, [&] { return normal(random); });
-  const Eigen::MatrixXd turn = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(any + any.transpose()).eigenvectors();
+  const Eigen::MatrixXd turn = symmetric_eigen(any + any.transpose()).vectors;
   Eigen::VectorXd values = Eigen::VectorXd::LinSpaced(size, 1.0, 3.0);
   values.head(negative) *= -1.0;
   return turn * values.asDiagonal() * turn.transpose();
@@ -99,7 +98,7 @@ TYPED_TEST(DenseFrontOf, EliminatingLeavesTheSchurComplementAndAProductThatIsThe
       EXPECT_LT((product - matrix).norm(), kFrontRounding<TypeParam> * matrix.norm()) << size << " " << own;
       const Eigen::MatrixXd below = matrix.bottomLeftCorner(size - own, own);
       const Eigen::MatrixXd schur = matrix.bottomRightCorner(size - own, size - own) -
-                                    below * matrix.topLeftCorner(own, own).lu().solve(below.transpose());
+                                    below * solve_dense(matrix.topLeftCorner(own, own), below.transpose());
       EXPECT_LT((rest - schur).norm(), kFrontRounding<TypeParam> * matrix.norm()) << size << " " << own;
     }
   }
@@ -129,11 +128,11 @@ TYPED_TEST(DenseFrontOf, SolvingForthAndBackIsTheInverseOfTheWholeMatrix) {
       for (int side = 0; side < kRightSides && own < size; ++side) {
         Eigen::VectorXd below(size - own);
         for (int row = own; row < size; ++row) below[row - own] = static_cast<double>(at(row, side));
-        below = rest.lu().solve(below).eval();
+        below = solve_dense(rest, below);
         for (int row = own; row < size; ++row) at(row, side) = static_cast<TypeParam>(below[row - own]);
       }
       solve_backward(owned.front, x.data());
-      const Eigen::MatrixXd expected = matrix.lu().solve(right);
+      const Eigen::MatrixXd expected = solve_dense(matrix, right);
       for (int side = 0; side < kRightSides; ++side) {
         for (int row = 0; row < size; ++row) {
           ASSERT_NEAR(static_cast<double>(at(row, side)), expected(row, side),
