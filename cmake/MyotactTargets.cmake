@@ -33,6 +33,14 @@ function(myotact_precompile headers)
   endforeach()
 endfunction()
 
+# myotact_unoptimised_if_sanitized(sources...): templates of a library that takes a minute to optimise under a sanitizer, in
+# sources whose own work is short or waits for somebody. They cannot share precompiled headers with the optimised ones.
+function(myotact_unoptimised_if_sanitized)
+  if(MYOTACT_SANITIZED)
+    set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS -O0 SKIP_PRECOMPILE_HEADERS ON)
+  endif()
+endfunction()
+
 set(MYOTACT_CORE_LINKS Eigen3::Eigen nlohmann_json::nlohmann_json fmt::fmt spdlog::spdlog OpenSSL::Crypto)
 set(MYOTACT_COMMON_HEADERS
   <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <functional> <map> <memory> <numbers> <optional> <span>

@@ -81,18 +81,18 @@ void add_odd_holes(std::vector<DirtyKind>& kinds) {
 void add_windings_and_copies(std::vector<DirtyKind>& kinds) {
   using enum Expected;
   kinds.push_back(
-      {"one triangle flipped", edit([](auto& m, auto&, auto&) { flip(m, 333); }), Repaired, "turned", 1e-9});
+      {"one triangle flipped", edit([](auto& m, auto&, auto&) { flip(m, 333); }), Repaired, "flipped", 1e-9});
   kinds.push_back({"half flipped at random", edit([](auto& m, auto&, auto& random) {
                      for (std::size_t t = 0; t < m.triangles.size(); ++t) {
                        if (random() % 2 == 0) flip(m, t);
                      }
                    }),
-                   Repaired, "turned", 1e-9});
+                   Repaired, "flipped", 1e-9});
   kinds.push_back({"inside out", [](const TubeBody& b, auto&) { return turned(b.mesh); }, Repaired, "outward", 1e-9});
   kinds.push_back({"half inside out", edit([](auto& m, auto&, auto&) {
                      for (std::size_t t = 0; t < m.triangles.size() / 2; ++t) flip(m, t);
                    }),
-                   Repaired, "turned", 1e-9});
+                   Repaired, "flipped", 1e-9});
   kinds.push_back({"triangles twice", edit([](auto& m, auto&, auto&) {
                      for (const std::size_t t : {5u, 50u, 500u}) m.triangles.push_back(m.triangles[t]);
                    }),
