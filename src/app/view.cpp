@@ -77,8 +77,7 @@ Options options_of(const Options& given, const view::SceneWish& wish) {
 /// The window and what it shows: one stage that runs and, after a wish for another, the next one being built.
 class WindowApp {
  public:
-  explicit WindowApp(const Options& options)
-      : options_(options), equipment_(options), report_(options.report_state) {
+  explicit WindowApp(const Options& options) : options_(options), equipment_(options), report_(options.report_state) {
     if (options.camera && equipment_.has(*options.camera)) {
       throw Error(ExitStatus::Usage, "--camera " + *options.camera + ": moves a tool already (--device)");
     }

@@ -87,7 +87,9 @@ TEST_F(OnTheTable, AHandIsGivenByName) {
   EXPECT_EQ(same.status, kUsage);
   EXPECT_THAT(same.output, HasSubstr("left hand gets two"));
   for (const std::string devices : {"left=simulated,inverse3", "inverse3,right=simulated"}) {
-    EXPECT_EQ(run("run bimanual --set tissue.default=line --realtime --seconds 1 --device " + devices + out()).status, 0) << devices;
+    EXPECT_EQ(run("run bimanual --set tissue.default=line --realtime --seconds 1 --device " + devices + out()).status,
+              0)
+        << devices;
   }
 }
 
