@@ -15,5 +15,5 @@ if [ -z "$base" ]; then
 fi
 mapfile -t files < <(git diff --name-only --diff-filter=d "$base" -- 'src/*.cpp' 'tools/*.cpp' 'tests/*.cpp' ':!tests/fuzz')
 if [ ${#files[@]} -eq 0 ]; then exit 0; fi
-cmake --preset release -B build/tidy -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON >&2
+cmake --preset clang -B build/tidy -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON >&2
 printf '%s\n' "${files[@]}" | xargs -P2 -n4 clang-tidy -p build/tidy --quiet
