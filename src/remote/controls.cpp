@@ -1,5 +1,8 @@
 #include "remote/controls.h"
 
+#include <string>
+#include <vector>
+
 #include <nlohmann/json.hpp>
 
 #include "core/json_reader.h"
@@ -10,23 +13,33 @@ namespace {
 
 using Json = nlohmann::json;
 
-messages::Order read_order(const std::string& what, JsonObject& fields) {
-  if (what == "levels") {
-    return messages::SetLevels{fields.at("flexors").number_between(0.0, 1.0),
-                               fields.at("extensors").number_between(0.0, 1.0)};
-  }
-  if (what == "co_contract") {
-    return messages::CoContract{fields.at("common").number_between(0.0, 1.0),
-                                fields.at("difference").number_between(-1.0, 1.0)};
-  }
-  if (what == "hold_posture") return messages::HoldPosture{fields.at("on").boolean()};
-  if (what == "gravity") return messages::SetGravity{fields.at("on").boolean()};
-  if (what == "pause") return messages::Pause{fields.at("on").boolean()};
-  if (what == "step") return messages::SingleStep{};
-  if (what == "reset") return messages::Reset{};
-  if (what == "shove") return messages::TestShove{};
-  return messages::FollowScript{};
-}
+/// An order by the name that the wire has for it.
+struct NamedOrder {
+  const char* name;
+  messages::Order (*read)(JsonObject& fields);
+};
+
+constexpr NamedOrder kOrders[] = {
+    {"levels",
+     [](JsonObject& fields) -> messages::Order {
+       return messages::SetLevels{fields.at("flexors").number_between(0.0, 1.0),
+                                  fields.at("extensors").number_between(0.0, 1.0)};
+     }},
+    {"co_contract",
+     [](JsonObject& fields) -> messages::Order {
+       return messages::CoContract{fields.at("common").number_between(0.0, 1.0),
+                                   fields.at("difference").number_between(-1.0, 1.0)};
+     }},
+    {"follow_script", [](JsonObject&) -> messages::Order { return messages::FollowScript{}; }},
+    {"hold_posture",
+     [](JsonObject& fields) -> messages::Order { return messages::HoldPosture{fields.at("on").boolean()}; }},
+    {"gravity", [](JsonObject& fields) -> messages::Order { return messages::SetGravity{fields.at("on").boolean()}; }},
+    {"pause", [](JsonObject& fields) -> messages::Order { return messages::Pause{fields.at("on").boolean()}; }},
+    {"step", [](JsonObject&) -> messages::Order { return messages::SingleStep{}; }},
+    {"reset", [](JsonObject&) -> messages::Order { return messages::Reset{}; }},
+    {"shove", [](JsonObject&) -> messages::Order { return messages::TestShove{}; }},
+};
+constexpr const char* kStop = "stop";  // no order: it goes beside every queue
 
 Json json_of(const messages::SetLevels& levels) {
   return {{"do", "levels"}, {"flexors", levels.flexors}, {"extensors", levels.extensors}};
@@ -62,10 +75,14 @@ std::optional<messages::Order> order_of(const std::string& control) {
   const std::string kWhere = "control";
   const Json parsed = parse_json(control, kWhere);
   JsonObject fields(JsonValue(parsed, kWhere));
-  const std::string what = fields.at("do").one_of(
-      {"levels", "co_contract", "follow_script", "hold_posture", "gravity", "pause", "step", "reset", "shove", "stop"});
+  std::vector<std::string> names;
+  for (const NamedOrder& known : kOrders) names.emplace_back(known.name);
+  names.emplace_back(kStop);
+  const std::string what = fields.at("do").one_of(names);
   std::optional<messages::Order> order;
-  if (what != "stop") order = read_order(what, fields);
+  for (const NamedOrder& known : kOrders) {
+    if (what == known.name) order = known.read(fields);
+  }
   fields.finish();
   return order;
 }
