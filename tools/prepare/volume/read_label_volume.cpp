@@ -9,7 +9,9 @@
 #include "core/at.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "prepare/volume/dicom.h"
 #include "prepare/volume/header_text.h"
+#include "prepare/volume/pieces.h"
 #include "prepare/volume/read_points.h"
 #include "prepare/volume/volume_formats.h"
 
@@ -26,7 +28,12 @@ struct Format {
   ReadHeader read_header;
 };
 
-constexpr std::array<Format, 2> kFormats = {{{".nrrd", read_nrrd_header}, {".nhdr", read_nrrd_header}}};
+constexpr std::array<Format, 6> kFormats = {{{".nrrd", read_nrrd_header},
+                                             {".nhdr", read_nrrd_header},
+                                             {".nii", read_nifti_header},
+                                             {".nii.gz", read_nifti_header},
+                                             {".mha", read_meta_image_header},
+                                             {".mhd", read_meta_image_header}}};
 
 const Format* format_of(const std::string& file) {
   const std::string name = lower(file);
@@ -95,12 +102,13 @@ void name_segments(LabelVolume& volume, std::vector<Segment> named, const std::s
   }
 }
 
-LabelVolume assemble(VolumeFile file_, std::vector<Labels> layers, const std::string& file) {
+LabelVolume assemble(VolumeFile read, std::vector<Labels> layers, const std::string& file) {
   LabelVolume volume;
-  volume.notes = std::move(file_.header.notes);
-  volume.lattice = lattice_of(file_.header, file, volume.notes);
+  volume.notes = std::move(read.header.notes);
+  volume.lattice = lattice_of(read.header, file, volume.notes);
   volume.layers = std::move(layers);
-  name_segments(volume, std::move(file_.header.segments), file);
+  name_segments(volume, std::move(read.header.segments), file);
+  for (std::string& note : piece_notes(volume)) volume.notes.push_back(std::move(note));
   return volume;
 }
 
@@ -121,6 +129,19 @@ VolumeFile checked_header(const Format& format, ByteSource& source, const std::s
   return volume;
 }
 
+/// `source` as it is, or unpacked where all of it is packed, the header too (NIfTI).
+class PlainSource {
+ public:
+  PlainSource(ByteSource& source, const std::string& file) : plain_(source) {
+    if (source.peek(2) == "\x1f\x8b") unpacked_ = unpacked(source, file);
+  }
+  ByteSource& get() { return unpacked_ ? *unpacked_ : plain_; }
+
+ private:
+  ByteSource& plain_;
+  std::unique_ptr<ByteSource> unpacked_;
+};
+
 }  // namespace
 
 bool is_label_volume(const fs::path& path) {
@@ -128,28 +149,31 @@ bool is_label_volume(const fs::path& path) {
 }
 
 LabelVolume read_label_volume(const fs::path& path) {
+  refuse_dicom(path);
   const std::string file = path.string();
   const Format& format = known_format(file);
-  const std::unique_ptr<ByteSource> source = open_bytes(path);
-  VolumeFile volume = checked_header(format, *source, file);
+  const std::unique_ptr<ByteSource> bytes = open_bytes(path);
+  PlainSource source(*bytes, file);
+  VolumeFile volume = checked_header(format, source.get(), file);
   if (volume.data_file.empty()) {
-    std::vector<Labels> layers = points_of(volume, *source, file);
+    std::vector<Labels> layers = points_of(volume, source.get(), file);
     return assemble(std::move(volume), std::move(layers), file);
   }
   const fs::path data = data_file_beside(path, volume.data_file, volume.data_file_field);
-  const std::unique_ptr<ByteSource> bytes = open_bytes(data);
-  std::vector<Labels> layers = points_of(volume, *bytes, data.string());
+  const std::unique_ptr<ByteSource> beside = open_bytes(data);
+  std::vector<Labels> layers = points_of(volume, *beside, data.string());
   return assemble(std::move(volume), std::move(layers), file);
 }
 
-LabelVolume parse_label_volume(std::string_view bytes, const std::string& file) {
+LabelVolume parse_label_volume(std::string_view text, const std::string& file) {
   const Format& format = known_format(file);
-  const std::unique_ptr<ByteSource> source = bytes_in_memory(bytes);
-  VolumeFile volume = checked_header(format, *source, file);
+  const std::unique_ptr<ByteSource> bytes = bytes_in_memory(text);
+  PlainSource source(*bytes, file);
+  VolumeFile volume = checked_header(format, source.get(), file);
   if (!volume.data_file.empty()) {
     throw bad_data(file, volume.data_file_field, "names another file; must hold its own points");
   }
-  std::vector<Labels> layers = points_of(volume, *source, file);
+  std::vector<Labels> layers = points_of(volume, source.get(), file);
   return assemble(std::move(volume), std::move(layers), file);
 }
 

@@ -24,6 +24,8 @@ struct VolumeFile {
 
 /// Each leaves `source` behind the header.
 VolumeFile read_nrrd_header(ByteSource& source, const std::string& file);
+VolumeFile read_nifti_header(ByteSource& source, const std::string& file);
+VolumeFile read_meta_image_header(ByteSource& source, const std::string& file);
 
 /// Text of a NRRD header, apart from what it means.
 struct NrrdText {
