@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include <Eigen/Geometry>
 
 #include "core/error.h"
+#include "geometry/pseudo_normals.h"
 #include "geometry/triangle_tree.h"
 
 namespace myotact::geometry {
@@ -18,48 +18,9 @@ constexpr double kMostSamples = 1e6;
 constexpr int kPadding = 3;
 /// Farther outside than this a sample holds a lower bound: no place that may be inside has it among its 64.
 constexpr double kFarCells = 6.0;
-/// A barycentric coordinate below this counts as zero when a place is classified as face, edge or corner.
-constexpr double kOnEdge = 1e-9;
-
 std::size_t index(int i) {
   return static_cast<std::size_t>(i);
 }
-
-/// Outward directions by which the sign of a distance follows from the nearest place alone: a face's normal, the sum of
-/// two faces' on an edge, weighted by angle at a corner (Baerentzen and Aanaes, IEEE TVCG 11:243, 2005).
-class PseudoNormals {
- public:
-  explicit PseudoNormals(const TriangleMesh& surface)
-      : triangles_(surface.triangles), corners_(surface.positions_m.size(), Vec3::Zero()) {
-    for (const auto& t : triangles_) {
-      const std::array<Vec3, 3> p{surface.positions_m[index(t[0])], surface.positions_m[index(t[1])],
-                                  surface.positions_m[index(t[2])]};
-      const Vec3 normal = (p[1] - p[0]).cross(p[2] - p[0]).normalized();
-      faces_.push_back(normal);
-      for (std::size_t c = 0; c < 3; ++c) {
-        const Vec3 a = p[(c + 1) % 3] - p[c], b = p[(c + 2) % 3] - p[c];
-        corners_[index(t[c])] += std::atan2(a.cross(b).norm(), a.dot(b)) * normal;
-        edges_.try_emplace(std::minmax(t[c], t[(c + 1) % 3]), Vec3::Zero()).first->second += normal;
-      }
-    }
-  }
-
-  Vec3 at(const SurfacePlace& place) const {
-    const std::array<int, 3>& t = triangles_[index(place.triangle)];
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (place.point.barycentric[c] > 1.0 - kOnEdge) return corners_[index(t[c])];
-    }
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (place.point.barycentric[c] < kOnEdge) return edges_.at(std::minmax(t[(c + 1) % 3], t[(c + 2) % 3]));
-    }
-    return faces_[index(place.triangle)];
-  }
-
- private:
-  const std::vector<std::array<int, 3>>& triangles_;
-  std::vector<Vec3> faces_, corners_;
-  std::map<std::pair<int, int>, Vec3> edges_;
-};
 
 /// Values of the four cubic B-splines that reach a place `t` (0 .. 1) in a cell, and their two slopes a cell.
 struct Splines {
