@@ -50,6 +50,10 @@ Simulation::Impl::Impl(const anatomy::Specimen& given, const SimulationSettings&
   read_out(limb);
 }
 
+void Simulation::Impl::place_followers() {
+  workers.run(static_cast<int>(limb.muscles.size()), [&](int m) { place_follower(limb, m); });
+}
+
 /// Two backward-Euler steps of half the length, or more parts where those fail too.
 bool Simulation::Impl::advance_in_parts(double dt_s, int halvings) {
   for (int half = 0; half < 2; ++half) {
@@ -114,6 +118,7 @@ bool Simulation::settle(std::span<const double> joint_angles_rad, std::span<cons
   }
   const bool settled = settle_limb(in.limb, joint_angles_rad, in.excitations, in.workers);
   refresh_stiffness(in.limb, in.workers);
+  in.place_followers();
   in.workers.run(in.surfaces.count(), [&](int surface) { in.surfaces.follow(in.limb, surface, true); });
   if (in.tether) in.tether->restart();
   in.whole_steps = 0;
@@ -142,6 +147,7 @@ void Simulation::step(std::span<const messages::ToolState> tools) {
     sound = in.advance_in_parts(dt_s, 1);
     if (!sound) stop_moving(in.limb);  // in the last usable pose
   }
+  in.place_followers();
   // One muscle's stiffness beside the surfaces: it reads the positions that they read.
   const bool refreshes = !in.limb.muscles.empty() && in.steps % kStepsPerRefresh == 0;
   in.workers.run(in.surfaces.count() + 1, [&](int task) {

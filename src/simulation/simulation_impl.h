@@ -47,6 +47,7 @@ struct Simulation::Impl {
   /// Repeats a failed step of dt_s in two halves, each of which is halved again where it fails; `halvings` counts how
   /// often it has been. False when the shortest part fails: the state is then the last usable one.
   bool advance_in_parts(double dt_s, int halvings);
+  void place_followers();          // where the bones are now
   Pose body_pose(int body) const;  // X_WL
   /// The muscle's line in the present pose, and what pulls along it at the present activation.
   LineGeometry line_geometry_of(int muscle) const;

@@ -39,6 +39,7 @@ Limb::Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> model
     const TissueModel model = models.empty() ? TissueModel::Fem : models[static_cast<std::size_t>(m)];
     muscle.tissue = build_muscle_tissue(specimen, m, model);
     muscle.rigid = model == TissueModel::Rigid || model == TissueModel::Line;
+    if (muscle.rigid) muscle.follower = make_follower(muscle.tissue.mesh, muscle.tissue.body, line_of(specimen, m));
     if (model == TissueModel::Line) {
       muscle.line =
           make_line_tissue(specimen.muscles[static_cast<std::size_t>(m)], line_of(specimen, m), skeleton, tendon);
@@ -86,19 +87,17 @@ Vec3 spring_slope(const Limb& limb, const ToolSpring& spring, int joint) {
 void follow_angles(Limb& limb) {
   limb.skeleton.set_pose(limb.angles());
   for (LimbMuscle& muscle : limb.muscles) {
-    if (!muscle.rigid) {
-      place_clamped(muscle.tissue, limb.skeleton, muscle.state);
-      continue;
-    }
-    for (std::size_t node = 0; node < muscle.tissue.body.size(); ++node) {
-      Vec3 p = Vec3::Zero();
-      for (std::size_t k = 0; k < muscle.tissue.bodies.size(); ++k) {
-        const double share = muscle.tissue.blend(static_cast<Eigen::Index>(node), static_cast<Eigen::Index>(k));
-        p += share * (limb.skeleton.body_pose(muscle.tissue.bodies[k]) * muscle.tissue.mesh.nodes_m[node]);
-      }
-      muscle.state.now.position_m.segment<3>(static_cast<Eigen::Index>(3 * node)) = p;
-    }
+    if (!muscle.rigid) place_clamped(muscle.tissue, limb.skeleton, muscle.state);
   }
+  for (const ToolSpring& spring : limb.springs) {
+    if (spring.muscle >= 0) place_follower(limb, spring.muscle);
+  }
+}
+
+void place_follower(Limb& limb, int index) {
+  LimbMuscle& muscle = limb.muscles[static_cast<std::size_t>(index)];
+  if (!muscle.follower) return;
+  place_follower(muscle.tissue.mesh, limb.skeleton, *muscle.follower, muscle.state.now.position_m);
 }
 
 void move_free_nodes(LimbMuscle& muscle, const Eigen::VectorXd& change_m) {

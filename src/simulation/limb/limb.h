@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "simulation/follower/follower.h"
 #include "simulation/line/line_tissue.h"
 #include "simulation/linear/block_factor.h"
 #include "simulation/muscle/tissue_system.h"
@@ -41,6 +42,7 @@ struct MuscleReadout {
 struct LimbMuscle {
   MuscleTissue tissue;                // what does not change
   bool rigid = false;                 // its shape follows the bones: no nodes to solve for
+  std::optional<Follower> follower;   // of a rigid muscle: how
   std::optional<LineTissue> line;     // of a Line muscle, which is rigid, too
   TissueState state;                  // the iterate and two instants before it
   TissueSystem system;                // of the last pass
@@ -101,8 +103,12 @@ Vec3 spring_point(const Limb& limb, const ToolSpring& spring);
 /// d(spring point)/d(angle) [m/rad] with the free nodes held: through clamped nodes or the body alone.
 Vec3 spring_slope(const Limb& limb, const ToolSpring& spring, int joint);
 
-/// Puts the bodies and all clamped nodes where the present angles say; rigid muscles whole.
+/// Puts the bodies and all clamped nodes where the present angles say; of the rigid muscles those that a spring pulls
+/// at.
 void follow_angles(Limb& limb);
+/// Puts a rigid muscle where the skeleton's pose has it; others stay. After a step or a settle, for nothing in a solve
+/// reads these nodes. Several muscles may be placed at once.
+void place_follower(Limb& limb, int muscle);
 
 /// Adds `change_m` (3 numbers a free node, world) to the present positions.
 void move_free_nodes(LimbMuscle& muscle, const Eigen::VectorXd& change_m);

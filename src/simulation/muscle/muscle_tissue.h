@@ -72,7 +72,7 @@ struct FibreMap {
 /// A muscle as the solver sees it: everything that does not change while it moves. n nodes, of which some are clamped
 /// to bodies and move exactly with them; the rest are free and numbered in the order of the nodes.
 struct MuscleTissue {
-  TissueModel model = TissueModel::Fem;  // Line and Rigid: only mesh, clamps and blend are used
+  TissueModel model = TissueModel::Fem;  // Line and Rigid: only mesh and clamps are used
   geometry::TetMesh mesh;                // rest position; linear for a mass-spring muscle, else quadratic
   std::vector<int> body;                 // n: body that clamps the node, or -1
   std::vector<int> free_index;           // n: number among the free nodes, or -1
