@@ -98,7 +98,7 @@ const std::map<std::string, Rooms> kRooms = {
        {"field", {"surface"}},
        {"remesh", {"field"}},
        {"repair", {"field", "remesh", "surface"}},
-       {"volume", {}},
+       {"volume", {"recipe"}},
        {"recipe", {}},
        {"guess", {"recipe", "surface"}},
        {"loft", {"recipe"}},
