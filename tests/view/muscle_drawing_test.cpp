@@ -69,8 +69,10 @@ TEST_F(MuscleDrawing, OriginAndInsertionAreTheEndsOfTheBar) {
 TEST_F(MuscleDrawing, AtRestIsCalmAndFullIsTheEndOfTheScaleWithTheDensestStripes) {
   EXPECT_EQ(tint(MuscleColour::Activation).colour, kIdleMuscle);
   EXPECT_EQ(tint(MuscleColour::Activation).stripe_m, 0.0f);
+  EXPECT_EQ(tint(MuscleColour::Activation).share, 0.0f);  // the muscle's own look
   frame_.activations[0] = 1.0;
-  EXPECT_EQ(tint(MuscleColour::Activation).colour, cividis(1.0));
+  EXPECT_EQ(tint(MuscleColour::Activation).colour, red_yellow(1.0));
+  EXPECT_GT(tint(MuscleColour::Activation).share, 0.5f);
   const float densest_m = tint(MuscleColour::Activation).stripe_m;
   frame_.activations[0] = 0.4;
   EXPECT_NEAR(tint(MuscleColour::Activation).stripe_m, 2.5f * densest_m, 1e-6f);

@@ -50,7 +50,7 @@ void draw_mechanics(const PanelContext& context, const Part& part) {
   ui::paragraph(ui::tr(estimated ? "card.mechanics_estimated" : "card.mechanics", muscle.peak_force_N,
                        1e3 * muscle.optimal_fibre_m));
   if (m >= context.frame.activations.size()) return;
-  const glm::vec3 c = cividis(context.frame.activations[m]);
+  const glm::vec3 c = red_yellow(context.frame.activations[m]);
   ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImVec4(c.r, c.g, c.b, 1.0f));
   const std::string now = ui::tr("card.now", 100.0 * context.frame.activations[m], context.frame.tensions_N[m]);
   ui::bar(context.frame.activations[m], now);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -7,6 +9,7 @@
 #include "messages/scene_frame.h"
 #include "view/look/part.h"
 #include "view/render/fibre_strokes.h"
+#include "view/render/seam_normals.h"
 #include "view/render/sky_exposure.h"
 #include "view/render/surface_set.h"
 
@@ -37,16 +40,21 @@ class LimbSurfaces {
  private:
   void add_muscle(std::size_t m, const LimbShade::Vertices& shade, std::vector<FixedVertex>& fixed,
                   std::vector<std::uint32_t>& indices);
+  void add_tissue(std::size_t m, std::vector<FixedVertex>& fixed);
   void add_attachments(std::size_t m, const std::vector<FixedVertex>& fixed, std::vector<std::uint32_t>& indices);
   void prepare_bones(const LimbShade& shade);
-  std::span<MovingVertex> skin(std::size_t m);
+  void pack(std::size_t vertex, float level);
 
   const anatomy::Specimen* specimen_;
   SurfaceSet skins_, bones_;
   std::vector<SurfaceSet::Run> muscle_runs_, bone_runs_, attachment_runs_;
   std::vector<std::size_t> first_vertex_;  // of a muscle
-  std::vector<MovingVertex> moving_;       // of all skins
-  std::vector<glm::mat4> poses_;           // of bones
+  // Of all skins, as they are now:
+  std::vector<glm::vec3> positions_m_, normals_;
+  std::vector<MovingVertex> moving_;
+  SeamNormals seams_;
+  std::vector<std::array<std::uint32_t, 2>> along_;  // of all skins: the vertices ahead and behind along the fibres
+  std::vector<glm::mat4> poses_;                     // of bones
   std::vector<glm::vec3> bone_middles_m_, muscle_middles_world_m_, bone_middles_world_m_;
   std::vector<bool> superficial_;
 };

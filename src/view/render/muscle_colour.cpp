@@ -12,6 +12,8 @@ namespace {
 // Okabe and Ito's blue and vermillion, lightened as far as muscle needs to show its shape.
 constexpr glm::vec3 kFlexor{0.25f, 0.53f, 0.78f}, kExtensor{0.89f, 0.50f, 0.22f};
 constexpr float kFlexorStripe_m = 0.010f;
+/// Of a tint that says what a muscle is or has: enough that its colour is the legend's.
+constexpr float kTintShare = 0.85f;
 /// Below this share of its range a muscle counts as idle: noise of excitation, no person's doing.
 constexpr double kIdleShare = 0.01;
 /// Stripes at full level; half the level has half as many. Five steps, or they would swim as the level moves.
@@ -28,14 +30,14 @@ float stripe_of(double level) {
 
 MuscleTint tint_of_level(double level) {
   if (level < kIdleShare) return {kIdleMuscle, 0.0f};
-  // The first few percent come out of the idle colour, so that nothing flickers at the border.
+  // The first few percent come out of the muscle's own look, so that nothing flickers at the border.
   const auto share = static_cast<float>(std::min((level - kIdleShare) / 0.04, 1.0));
-  return {glm::mix(kIdleMuscle, cividis(level), share), stripe_of(level)};
+  return {red_yellow(level), stripe_of(level), kTintShare * share};
 }
 
 /// `level`: -1 .. 1. Stripes mark the positive side.
 MuscleTint tint_of_signed_level(double level) {
-  return {blue_orange(level), level > 0.0 ? stripe_of(level) : 0.0f};
+  return {blue_orange(level), level > 0.0 ? stripe_of(level) : 0.0f, kTintShare};
 }
 
 double value_at(const std::vector<double>& values, std::size_t i, double otherwise) {
@@ -60,8 +62,8 @@ MuscleTint tint_of_kind(const anatomy::Specimen& specimen, std::size_t m, int jo
   for (const auto& group : specimen.groups) groups.push_back(&group);
   std::stable_partition(groups.begin(), groups.end(), [&](const auto* group) { return group->joint == joint; });
   for (const auto* group : groups) {
-    if (holds(group->flexors, m)) return {kFlexor, kFlexorStripe_m};
-    if (holds(group->extensors, m)) return {kExtensor, 0.0f};
+    if (holds(group->flexors, m)) return {kFlexor, kFlexorStripe_m, kTintShare};
+    if (holds(group->extensors, m)) return {kExtensor, 0.0f, kTintShare};
   }
   return {kIdleMuscle, 0.0f};
 }
@@ -109,7 +111,7 @@ namespace {
 Legend legend_of_colour(const anatomy::Specimen& specimen, MuscleColour colour) {
   const auto levels = [](const char* title, const char* unit, double highest) {
     Legend legend{title, unit, 0.0, highest, {}, {{"see.idle", {kIdleMuscle, 0.0f}}}};
-    for (std::size_t i = 0; i < kScaleColours; ++i) legend.scale.push_back(cividis(double(i) / (kScaleColours - 1)));
+    for (std::size_t i = 0; i < kScaleColours; ++i) legend.scale.push_back(red_yellow(double(i) / (kScaleColours - 1)));
     return legend;
   };
   const auto signed_levels = [](const char* title, const char* unit, double lowest, double highest) {

@@ -10,11 +10,12 @@
 
 namespace myotact::view {
 
-/// How one muscle is painted: its colour, and stripes across it as a second cue for those who cannot distinguish the
-/// colours.
+/// What is laid over a muscle's own look: a tint through which its strands and tendons show, and stripes across it as a
+/// second cue for those who cannot distinguish the colours.
 struct MuscleTint {
   glm::vec3 colour{0.0f};
   float stripe_m = 0.0f;  // from stripe to stripe along the muscle; 0: none
+  float share = 0.0f;     // of the tint, 0 .. 1
 };
 
 /// What the colours mean.
@@ -31,8 +32,8 @@ struct Legend {
   std::vector<Entry> entries;    // named colours
 };
 
-/// Of no activation, no tension: calm, so that what is at work stands out.
-inline constexpr glm::vec3 kIdleMuscle{0.82f, 0.64f, 0.58f};
+/// A muscle's own look, on the average: of no activation, no tension, so that what is at work stands out.
+inline constexpr glm::vec3 kIdleMuscle{0.596f, 0.243f, 0.204f};
 
 /// Atlases paint origins red and insertions blue; these are Okabe and Ito's.
 inline constexpr glm::vec3 kOriginColour{0.84f, 0.37f, 0.00f}, kInsertionColour{0.00f, 0.45f, 0.70f};

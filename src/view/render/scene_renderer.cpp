@@ -17,16 +17,20 @@ namespace myotact::view {
 
 namespace {
 
-constexpr glm::vec3 kBone{0.90f, 0.86f, 0.76f};
+// What is under the tints: fresh muscle, tendon and bone, as in a preparation and not as in wax.
+constexpr glm::vec3 kBelly{0.64f, 0.215f, 0.17f}, kTendon{0.89f, 0.85f, 0.77f}, kBone{0.90f, 0.83f, 0.68f};
+/// Muscles differ a little in brightness, or neighbours would run into one another.
+constexpr float kBellyVariation = 0.06f;
 constexpr glm::vec4 kLine{0.72f, 0.13f, 0.10f, 1.0f};
-constexpr glm::vec4 kFibre{0.33f, 0.10f, 0.08f, 0.75f};
+constexpr glm::vec4 kFibre{0.98f, 0.92f, 0.84f, 0.80f};
 constexpr glm::vec4 kSelected{0.76f, 0.18f, 0.52f, 1.0f}, kHovered{0.36f, 0.36f, 0.42f, 0.9f};
 constexpr float kLineRadius_m = 0.8e-3f;
 constexpr float kSeenThroughLine = 0.30f;  // opacity of what of a line or tool lies inside the limb
 constexpr float kOpaque = 0.995f;          // above this nothing shines through
 constexpr float kLeast = 0.02f;            // below this nothing is drawn
 constexpr float kGlassOpacity = 0.30f;     // of a muscle whose attachments are shown
-constexpr float kMuscleGloss = 0.16f, kBoneGloss = 0.07f;
+constexpr float kMuscleGloss = 0.20f, kBoneGloss = 0.06f;
+constexpr float kMapShare = 0.9f;  // of a map on the skin
 constexpr float kGlowRadius_m = 0.016f, kFullGlow_N = 2.0f;
 
 /// Squares of 50 mm on the ground.
@@ -54,6 +58,13 @@ DrawMesh grid_mesh(const ViewBox& bounds) {
 /// Over the viewer's left shoulder, from above: what stands out is lit from the upper left, as in atlases.
 glm::vec3 key_light_of(const Camera& camera) {
   return glm::normalize(-0.75f * camera.forward_world() - 0.45f * camera.right_world() + 0.65f * camera.up_world());
+}
+
+/// Evenly spread over the muscles, neighbours in the list far apart (golden ratio).
+glm::vec3 belly_colour(int muscle) {
+  const double place = 0.6180339887498949 * muscle;
+  const auto share = static_cast<float>(place - std::floor(place));
+  return kBelly * (1.0f + kBellyVariation * (2.0f * share - 1.0f));
 }
 
 /// Where tools press, the skin glows: place and radius, colour and strength.
@@ -182,7 +193,8 @@ void SceneRenderer::move_limb(const Picture& picture) {
     limb_program_.set(i == 0 ? "glow_place[0]" : "glow_place[1]", glows[i].place);
     limb_program_.set(i == 0 ? "glow_colour[0]" : "glow_colour[1]", glows[i].colour);
   }
-  limb_program_.set("map_colours", cividis_table());
+  limb_program_.set("map_colours", red_yellow_table());
+  limb_program_.set("mapped_share", 0.0f);
 }
 
 /// What is opaque first, from the near side, so that little is painted twice; then lines and tools; then what shines
@@ -223,12 +235,16 @@ void SceneRenderer::draw_limb(const Picture& picture) {
 
 void SceneRenderer::draw_part(const Picture& picture, const Part& part, float opacity) {
   const bool bone = part.kind == PartKind::Bone;
-  const MuscleTint tint = bone ? MuscleTint{kBone, 0.0f} : picture.tints[static_cast<std::size_t>(part.index)];
+  const MuscleTint tint = bone ? MuscleTint{} : picture.tints[static_cast<std::size_t>(part.index)];
+  const glm::vec3 belly = belly_colour(part.index);
   limb_program_.set("world_from_model", limb_.pose_of(part));
-  limb_program_.set("colour", glm::vec4(tint.colour, opacity));
-  limb_program_.set("finish",
-                    glm::vec4(tint.stripe_m, bone ? kBoneGloss : kMuscleGloss, picture.view.section.on ? 1.0f : 0.0f,
-                              !bone && !levels_.empty() ? 1.0f : 0.0f));
+  limb_program_.set("tissues[0]", bone ? kBone : belly);
+  limb_program_.set("tissues[1]", bone ? kBone : kTendon);
+  limb_program_.set("overlay", glm::vec4(tint.colour, tint.share));
+  limb_program_.set("mapped_share", !bone && !levels_.empty() ? kMapShare : 0.0f);
+  limb_program_.set("opacity", opacity);
+  limb_program_.set("finish", glm::vec4(tint.stripe_m, bone ? kBoneGloss : kMuscleGloss,
+                                        picture.view.section.on ? 1.0f : 0.0f, bone ? 0.0f : 1.0f));
   limb_.draw(part);
   ++statistics_.draw_calls;
 }
@@ -238,7 +254,9 @@ void SceneRenderer::draw_attachments(const Picture& picture) {
   limb_program_.set("world_from_model", glm::mat4(1.0f));
   limb_program_.set("show_ends", 1.0f);
   limb_program_.set("finish", glm::vec4(0.0f));
-  limb_program_.set("colour", glm::vec4(1.0f));
+  limb_program_.set("overlay", glm::vec4(0.0f));
+  limb_program_.set("mapped_share", 0.0f);
+  limb_program_.set("opacity", 1.0f);
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(-2.0f, -2.0f);  // before the bone that they lie on
   std::vector<bool> shown;

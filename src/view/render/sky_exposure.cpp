@@ -2,17 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <numbers>
 
+#include "core/at.h"
 #include "view/look/posing.h"
 #include "view/render/depth_grid.h"
+#include "view/render/seam_normals.h"
 
 namespace myotact::view {
 
 namespace {
 
-// Enough that steps in the shade are not seen: 64 sides of 20 degrees each; cells of about 2 mm on a whole limb.
-constexpr int kDirections = 64, kLimbCells = 288, kPartCells = 96;
+// Enough that steps in the shade are not seen: 64 sides of 20 degrees each. Cells of a millimetre: grooves between
+// muscles are a few wide.
+constexpr int kDirections = 64, kFewestCells = 96, kMostCells = 640;
+constexpr float kCell_m = 1.0e-3f;
+/// About half of a limb's thickness: what is deeper inside stays dark, the next segment of the limb casts no shade.
+constexpr float kReach_m = 0.06f;
+/// Directions are shared out in so many parts, whatever the number of processors: sums have the same bits.
+constexpr int kShares = 4;
 /// A vertex sees the outside when half of the light reaches it; a muscle is superficial when this share of its skin
 /// does. In the limbs at hand shares crowd below 0.21 and above 0.24.
 constexpr float kSeesOutside = 0.5f, kSuperficialShare = 0.225f;
@@ -30,18 +39,18 @@ std::vector<glm::vec3> spread_directions(int count) {
 
 /// A surface with what the loop over directions reads.
 struct Receiver {
-  std::vector<glm::vec3> positions_m, normals;
-  const std::vector<std::array<int, 3>>* triangles = nullptr;
-  std::vector<float> seen, whole;  // sums of cosines
+  std::vector<glm::vec3> positions_m;
+  const ShadedSurface* shaded = nullptr;
 };
 
-Receiver receiver_of(const geometry::TriangleMesh& surface) {
-  Receiver receiver;
-  for (const Vec3& p : surface.positions_m) receiver.positions_m.push_back(to_glm(p));
-  for (const Vec3& n : geometry::vertex_normals(surface)) receiver.normals.push_back(to_glm(n));
-  receiver.triangles = &surface.triangles;
-  receiver.seen.resize(surface.positions_m.size());
-  receiver.whole.resize(surface.positions_m.size());
+/// Sums of cosines over directions, one a vertex: of the light that comes, and of all that would come.
+struct Light {
+  std::vector<float> seen, whole;
+};
+
+Receiver receiver_of(const ShadedSurface& shaded) {
+  Receiver receiver{{}, &shaded};
+  for (const Vec3& p : shaded.surface->positions_m) receiver.positions_m.push_back(to_glm(p));
   return receiver;
 }
 
@@ -68,24 +77,73 @@ void draw_depths(const std::vector<Receiver>& receivers, const SideView& side, D
   for (std::size_t r = 0; r < receivers.size(); ++r) {
     seen.clear();
     for (const glm::vec3& p : receivers[r].positions_m) seen.push_back(side.see(p));
-    for (const auto& [a, b, c] : *receivers[r].triangles) {
-      grid.add(seen[static_cast<std::size_t>(a)], seen[static_cast<std::size_t>(b)], seen[static_cast<std::size_t>(c)],
-               static_cast<int>(r));
+    for (const auto& [a, b, c] : receivers[r].shaded->surface->triangles) {
+      grid.add(seen[at(a)], seen[at(b)], seen[at(c)], static_cast<int>(r));
     }
   }
 }
 
-void gather_light(const SideView& side, const DepthGrid& grid, Receiver& receiver) {
+/// 0 .. 1 of the light that passes what lies `above_m` towards it.
+float passes(float above_m, float reach_m) {
+  if (above_m < 0.0f) return 1.0f;
+  const float share = std::clamp(2.0f * above_m / reach_m - 1.0f, 0.0f, 1.0f);
+  return share * share * (3.0f - 2.0f * share);
+}
+
+void gather_light(const SideView& side, const DepthGrid& grid, const Receiver& receiver, float reach_m, Light& light) {
   for (std::size_t i = 0; i < receiver.positions_m.size(); ++i) {
-    const float cosine = glm::dot(receiver.normals[i], side.towards);
+    const glm::vec3& normal = receiver.shaded->normals[i];
+    const float cosine = glm::dot(normal, side.towards);
     if (cosine <= 0.0f) continue;
-    receiver.whole[i] += cosine;
+    light.whole[i] += cosine;
     // Looked at from a cell and a half above the surface, or it would shade itself.
-    const glm::vec3 at = side.see(receiver.positions_m[i] + 1.5f * side.cell_m * receiver.normals[i]);
-    const int x = std::clamp(static_cast<int>(at.x), 0, grid.width() - 1);
-    const int y = std::clamp(static_cast<int>(at.y), 0, grid.height() - 1);
-    if (at.z <= grid.depth(x, y)) receiver.seen[i] += cosine;
+    const glm::vec3 place = side.see(receiver.positions_m[i] + 1.5f * side.cell_m * normal);
+    const int x = std::clamp(static_cast<int>(place.x), 0, grid.width() - 1);
+    const int y = std::clamp(static_cast<int>(place.y), 0, grid.height() - 1);
+    light.seen[i] += cosine * passes(place.z - grid.depth(x, y), reach_m);
   }
+}
+
+/// The light of every kShares-th direction from `first` on.
+std::vector<Light> light_of_share(const std::vector<Receiver>& receivers, const glm::vec3& centre_m, float radius_m,
+                                  const SkySampling& sampling, std::size_t first) {
+  std::vector<Light> lights;
+  for (const Receiver& receiver : receivers) {
+    const std::vector<float> dark(receiver.positions_m.size(), 0.0f);
+    lights.push_back({dark, dark});
+  }
+  DepthGrid grid(sampling.cells, sampling.cells);
+  const std::vector<glm::vec3> directions = spread_directions(sampling.directions);
+  for (std::size_t d = first; d < directions.size(); d += kShares) {
+    const SideView side(directions[d], centre_m, radius_m, sampling.cells);
+    draw_depths(receivers, side, grid);
+    for (std::size_t r = 0; r < receivers.size(); ++r) {
+      gather_light(side, grid, receivers[r], sampling.reach_m, lights[r]);
+    }
+  }
+  return lights;
+}
+
+struct Ball {
+  glm::vec3 centre_m{0.0f};
+  float radius_m = 1e-6f;
+};
+Ball ball_round(const std::vector<Receiver>& receivers) {
+  glm::vec3 lowest_m(1e9f), highest_m(-1e9f);
+  for (const Receiver& receiver : receivers) {
+    for (const glm::vec3& p : receiver.positions_m) {
+      lowest_m = glm::min(lowest_m, p);
+      highest_m = glm::max(highest_m, p);
+    }
+  }
+  return {0.5f * (lowest_m + highest_m), std::max(0.5f * glm::length(highest_m - lowest_m), 1e-6f)};
+}
+
+SkySampling sampling_of(std::span<const ShadedSurface> surfaces) {
+  std::vector<Receiver> receivers;
+  for (const ShadedSurface& shaded : surfaces) receivers.push_back(receiver_of(shaded));
+  const float cells = 2.0f * ball_round(receivers).radius_m / kCell_m;
+  return {kDirections, std::clamp(static_cast<int>(std::min(cells, 1e6f)), kFewestCells, kMostCells), kReach_m};
 }
 
 bool is_superficial(const std::vector<float>& exposure) {
@@ -95,51 +153,73 @@ bool is_superficial(const std::vector<float>& exposure) {
 
 }  // namespace
 
-std::vector<std::vector<float>> sky_exposure(std::span<const geometry::TriangleMesh* const> surfaces, int directions,
-                                             int cells) {
+std::vector<std::vector<float>> sky_exposure(std::span<const ShadedSurface> surfaces, const SkySampling& sampling) {
   std::vector<Receiver> receivers;
-  glm::vec3 lowest_m(1e9f), highest_m(-1e9f);
-  for (const geometry::TriangleMesh* surface : surfaces) {
-    receivers.push_back(receiver_of(*surface));
-    for (const glm::vec3& p : receivers.back().positions_m) {
-      lowest_m = glm::min(lowest_m, p);
-      highest_m = glm::max(highest_m, p);
+  for (const ShadedSurface& shaded : surfaces) receivers.push_back(receiver_of(shaded));
+  const Ball ball = ball_round(receivers);
+  std::vector<std::future<std::vector<Light>>> shares;
+  for (std::size_t s = 0; s < kShares; ++s) {
+    shares.push_back(std::async(std::launch::async, [&receivers, &ball, &sampling, s] {
+      return light_of_share(receivers, ball.centre_m, ball.radius_m, sampling, s);
+    }));
+  }
+  std::vector<Light> sums = shares.front().get();
+  for (std::size_t s = 1; s < kShares; ++s) {
+    const std::vector<Light> lights = shares[s].get();
+    for (std::size_t r = 0; r < sums.size(); ++r) {
+      for (std::size_t i = 0; i < sums[r].seen.size(); ++i) {
+        sums[r].seen[i] += lights[r].seen[i];
+        sums[r].whole[i] += lights[r].whole[i];
+      }
     }
   }
-  const float radius_m = std::max(0.5f * glm::length(highest_m - lowest_m), 1e-6f);
-  DepthGrid grid(cells, cells);
-  for (const glm::vec3& direction : spread_directions(directions)) {
-    const SideView side(direction, 0.5f * (lowest_m + highest_m), radius_m, cells);
-    draw_depths(receivers, side, grid);
-    for (Receiver& receiver : receivers) gather_light(side, grid, receiver);
-  }
   std::vector<std::vector<float>> exposure;
-  for (const Receiver& receiver : receivers) {
+  for (const Light& light : sums) {
     exposure.emplace_back();
-    for (std::size_t i = 0; i < receiver.seen.size(); ++i) {
-      exposure.back().push_back(receiver.whole[i] > 0.0f ? receiver.seen[i] / receiver.whole[i] : 1.0f);
+    for (std::size_t i = 0; i < light.seen.size(); ++i) {
+      exposure.back().push_back(light.whole[i] > 0.0f ? light.seen[i] / light.whole[i] : 1.0f);
     }
   }
   return exposure;
 }
 
-LimbShade shade_limb(const anatomy::Specimen& specimen) {
-  std::vector<const geometry::TriangleMesh*> all, bones;
-  for (const auto& muscle : specimen.muscles) all.push_back(&muscle.skin);
-  for (const auto& bone : specimen.bones) {
-    all.push_back(&bone.surface);
-    bones.push_back(&bone.surface);
+std::vector<ShadedSurface> shaded_surfaces(const anatomy::Specimen& specimen) {
+  std::vector<const geometry::TriangleMesh*> skins;
+  std::vector<glm::vec3> positions_m, normals;
+  for (const auto& muscle : specimen.muscles) {
+    skins.push_back(&muscle.skin);
+    for (const Vec3& p : muscle.skin.positions_m) positions_m.push_back(to_glm(p));
   }
-  auto together = sky_exposure(all, kDirections, kLimbCells);
-  auto among_bones = sky_exposure(bones, kDirections, kLimbCells);
+  SeamNormals(skins).compute(positions_m, normals);
+  std::vector<ShadedSurface> shaded;
+  auto from = normals.begin();
+  for (const auto* skin : skins) {
+    const auto to = from + static_cast<std::ptrdiff_t>(skin->positions_m.size());
+    shaded.push_back({skin, {from, to}});
+    from = to;
+  }
+  for (const auto& bone : specimen.bones) {
+    shaded.push_back({&bone.surface, {}});
+    for (const Vec3& n : geometry::vertex_normals(bone.surface)) shaded.back().normals.push_back(to_glm(n));
+  }
+  return shaded;
+}
+
+LimbShade shade_limb(const anatomy::Specimen& specimen) {
+  const std::vector<ShadedSurface> all = shaded_surfaces(specimen);
+  const std::size_t muscle_count = specimen.muscles.size();
+  const std::span<const ShadedSurface> bones = std::span(all).subspan(muscle_count);
+  auto together = sky_exposure(all, sampling_of(all));
+  auto among_bones = sky_exposure(bones, sampling_of(bones));
   LimbShade shade;
-  for (std::size_t m = 0; m < specimen.muscles.size(); ++m) {
+  for (std::size_t m = 0; m < muscle_count; ++m) {
     shade.superficial.push_back(is_superficial(together[m]));
-    const std::vector<const geometry::TriangleMesh*> one{all[m]};
-    shade.muscles.push_back({std::move(sky_exposure(one, kDirections, kPartCells)[0]), std::move(together[m])});
+    const std::span<const ShadedSurface> one = std::span(all).subspan(m, 1);
+    shade.muscles.push_back(
+        {std::move(sky_exposure(one, {kDirections, kFewestCells, kReach_m})[0]), std::move(together[m])});
   }
   for (std::size_t b = 0; b < specimen.bones.size(); ++b) {
-    shade.bones.push_back({std::move(among_bones[b]), std::move(together[specimen.muscles.size() + b])});
+    shade.bones.push_back({std::move(among_bones[b]), std::move(together[muscle_count + b])});
   }
   return shade;
 }

@@ -155,12 +155,29 @@ TEST(Camera, TurnsToAnotherViewByTheShorterWay) {
 }
 
 TEST(ColourMap, RisesInBrightnessFromEndToEnd) {
-  const auto brightness = [](double level) {
-    const glm::vec3 c = cividis(level);
-    return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
-  };
-  for (double level = 0.05; level <= 1.0; level += 0.05) EXPECT_GT(brightness(level), brightness(level - 0.05));
-  EXPECT_EQ(cividis(-1.0), cividis(0.0));
+  for (glm::vec3 (*map)(double) : {cividis, red_yellow}) {
+    const auto brightness = [map](double level) {
+      const glm::vec3 c = map(level);
+      return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
+    };
+    for (double level = 0.05; level <= 1.0; level += 0.05) EXPECT_GT(brightness(level), brightness(level - 0.05));
+    EXPECT_EQ(map(-1.0), map(0.0));
+  }
+}
+
+/// CIE 1976 L* of an sRGB colour (CIE 15; IEC 61966-2-1).
+double lightness(const glm::vec3& srgb) {
+  const auto linear = [](double x) { return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4); };
+  const double y = 0.2126 * linear(double(srgb.r)) + 0.7152 * linear(double(srgb.g)) + 0.0722 * linear(double(srgb.b));
+  return 116.0 * std::cbrt(y) - 16.0;
+}
+
+TEST(ColourMap, FromRedToYellowLightnessRisesEvenly) {
+  constexpr double kLowest = 38.5, kHighest = 91.4;
+  for (int i = 0; i <= 9; ++i) {
+    const double level = i / 9.0;
+    EXPECT_NEAR(lightness(red_yellow(level)), kLowest + level * (kHighest - kLowest), 1.5) << level;
+  }
 }
 
 TEST(Camera, ADevicePushesTheViewAsIfItsCapWereTheLimb) {

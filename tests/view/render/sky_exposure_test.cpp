@@ -1,5 +1,6 @@
 #include "view/render/sky_exposure.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -9,6 +10,7 @@
 #include "geometry/plain_surfaces.h"
 #include "support/synthetic_specimen.h"
 #include "view/look/limb_bounds.h"
+#include "view/look/posing.h"
 #include "view/look/start_view.h"
 #include "view/overlay/seen_parts.h"
 #include "view/render/depth_grid.h"
@@ -36,10 +38,16 @@ TEST(DepthGrid, KeepsTheNearestAtTheMiddlesOfItsCells) {
   EXPECT_EQ(grid.owner(0, 0), 8);
 }
 
+ShadedSurface shaded(const geometry::TriangleMesh& surface) {
+  ShadedSurface made{&surface, {}};
+  for (const Vec3& n : geometry::vertex_normals(surface)) made.normals.push_back(to_glm(n));
+  return made;
+}
+
 TEST(SkyExposure, AFreeBallSeesAllOfTheSky) {
   const geometry::TriangleMesh ball = geometry::make_ball(0.05, 4);
-  const std::vector<const geometry::TriangleMesh*> scene{&ball};
-  const auto exposure = sky_exposure(scene, 64, 200);
+  const std::vector<ShadedSurface> scene{shaded(ball)};
+  const auto exposure = sky_exposure(scene, {64, 200});
   for (const float seen : exposure[0]) EXPECT_GT(seen, 0.97f);
 }
 
@@ -49,8 +57,8 @@ TEST(SkyExposure, BetweenTwoWideWallsTheFormFactorOfParallelDisksIsMissing) {
   geometry::TriangleMesh lower = geometry::make_plane(kSide_m, 40), upper = lower;
   for (Vec3& p : upper.positions_m) p.z() += kAway_m;
   for (auto& triangle : upper.triangles) std::swap(triangle[1], triangle[2]);
-  const std::vector<const geometry::TriangleMesh*> scene{&lower, &upper};
-  const auto exposure = sky_exposure(scene, 512, 300);
+  const std::vector<ShadedSurface> scene{shaded(lower), shaded(upper)};
+  const auto exposure = sky_exposure(scene, {512, 300});
   std::size_t middle = 0;
   for (std::size_t i = 0; i < lower.positions_m.size(); ++i) {
     if (lower.positions_m[i].norm() < lower.positions_m[middle].norm()) middle = i;
@@ -59,6 +67,23 @@ TEST(SkyExposure, BetweenTwoWideWallsTheFormFactorOfParallelDisksIsMissing) {
   const auto missing = [&](double radius) { return radius * radius / (radius * radius + kAway_m * kAway_m); };
   EXPECT_GT(1.0 - double(exposure[0][middle]), missing(0.5 * kSide_m) - 0.03);
   EXPECT_LT(1.0 - double(exposure[0][middle]), missing(std::sqrt(0.5) * kSide_m) + 0.03);
+}
+
+TEST(SkyExposure, WhatIsFartherThanTheReachCastsNoShadeAndWhatIsNearerThanHalfOfItAllOfIt) {
+  constexpr double kAway_m = 0.02;
+  geometry::TriangleMesh lower = geometry::make_plane(0.2, 40), upper = lower;
+  for (Vec3& p : upper.positions_m) p.z() += kAway_m;
+  for (auto& triangle : upper.triangles) std::swap(triangle[1], triangle[2]);
+  const std::vector<ShadedSurface> scene{shaded(lower), shaded(upper)};
+  const auto middle =
+      static_cast<std::size_t>(std::min_element(lower.positions_m.begin(), lower.positions_m.end(),
+                                                [](const Vec3& a, const Vec3& b) { return a.norm() < b.norm(); }) -
+                               lower.positions_m.begin());
+  // Seen from the middle, the farthest of the other wall is 0.143 m away.
+  const auto seen = [&](float reach_m) { return sky_exposure(scene, {64, 200, reach_m})[0][middle]; };
+  EXPECT_GT(seen(0.9f * float(kAway_m)), 0.99f);
+  EXPECT_EQ(seen(2.1f * 0.143f), seen(std::numeric_limits<float>::infinity()));
+  EXPECT_LT(seen(0.08f), 0.5f);
 }
 
 TEST(SkyExposure, InTheElbowTheDeepMusclesOfTheAnatomyBooksAreDeep) {
