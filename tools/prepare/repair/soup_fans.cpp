@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include <Eigen/Geometry>
 
+#include "prepare/repair/fan_pull.h"
 #include "prepare/repair/soup.h"
 #include "prepare/surface/edge_table.h"
 #include "prepare/surface/edge_wheel.h"
@@ -13,23 +15,48 @@ namespace {
 
 using geometry::TriangleMesh;
 
-/// Fans that met in one vertex are pulled this far apart [diagonals], a hundredth of a millimetre on a muscle, but no
-/// farther than this part of their shortest edge.
+/// Fans that met in one vertex are pulled this far apart [diagonals], a hundredth of a millimetre on a muscle.
 constexpr double kPull = 1e-4;
-constexpr double kPullOfEdge = 0.1;
 
-/// Joins the corners of triangles that are neighbours around a vertex, and marks corners with an open edge.
+/// An edge with more than two triangles.
+struct CrowdedEdge {
+  int low = 0, high = 0;
+  std::vector<SpokeTriangle> wheel;
+};
+
+std::vector<CrowdedEdge> crowded_edges(const TriangleMesh& mesh) {
+  std::vector<CrowdedEdge> edges;
+  EdgeTable(mesh).for_each_edge([&](int low, int high, std::span<const EdgeUse> uses) {
+    if (uses.size() > 2) edges.push_back({low, high, wheel_around(mesh, low, high, uses)});
+  });
+  return edges;
+}
+
+/// Joins the corners of triangles that are neighbours around a vertex, and marks corners with an open edge. At a
+/// crowded edge triangles are neighbours that have the inside between them: bodies that touch there come apart. Where
+/// `joined` says so of its lower vertex, those with the outside between them: the body is one there.
 class Fans {
  public:
-  explicit Fans(const TriangleMesh& mesh) : mesh_(mesh), corners_(3 * mesh.triangles.size()), open_(corner_count()) {
-    EdgeTable(mesh).for_each_edge([&](int low, int high, std::span<const EdgeUse> uses) {
+  Fans(const TriangleMesh& mesh, const std::vector<CrowdedEdge>& crowded, const std::vector<bool>& joined)
+      : mesh_(mesh), corners_(3 * mesh.triangles.size()), open_(corner_count()) {
+    EdgeTable(mesh).for_each_edge([&](int, int, std::span<const EdgeUse> uses) {
       if (uses.size() == 2) return join(uses[0].side, uses[1].side);
       if (uses.size() == 1) return mark_open(uses[0].side);
-      join_wedges(wheel_around(mesh_, low, high, uses));
     });
+    for (const CrowdedEdge& edge : crowded) join_wedges(edge.wheel, joined[at(edge.low)]);
   }
 
   int fan_of(int corner) { return corners_.group_of(corner); }
+
+  /// Whether all triangles at the edge that start, or end, at one of its vertices are of one fan there.
+  bool is_one_fan(const CrowdedEdge& edge, bool at_low) {
+    const auto corner = [&](const SpokeTriangle& spoke) {
+      return spoke.forward == at_low ? spoke.side : next_corner(spoke.side);
+    };
+    const int first = fan_of(corner(edge.wheel.front()));
+    return std::all_of(edge.wheel.begin(), edge.wheel.end(),
+                       [&](const SpokeTriangle& spoke) { return fan_of(corner(spoke)) == first; });
+  }
 
   /// The fans around each vertex of which some, but not all alike, must part: groups of corners by vertex. All fans
   /// with open edges count as one.
@@ -67,13 +94,14 @@ class Fans {
 
   void mark_open(int side) { open_[at(side)] = open_[at(next_corner(side))] = true; }
 
-  /// Triangles with the inside between them belong to one body: a backward one and the forward one after it.
-  void join_wedges(const std::vector<SpokeTriangle>& wheel) {
+  /// A backward triangle has the inside between it and the forward one after it; the outside lies before it.
+  void join_wedges(const std::vector<SpokeTriangle>& wheel, bool joined) {
     for (std::size_t i = 0; i < wheel.size(); ++i) {
       const SpokeTriangle& next = wheel[(i + 1) % wheel.size()];
       const SpokeTriangle& before = wheel[(i + wheel.size() - 1) % wheel.size()];
-      if (!wheel[i].forward && next.forward) join(wheel[i].side, next.side);
-      const bool alone = wheel[i].forward ? before.forward : !next.forward;
+      const bool first = wheel[i].forward == joined;  // of a pair; the other one of it comes after
+      if (first && next.forward != joined) join(wheel[i].side, next.side);
+      const bool alone = first ? next.forward == joined : before.forward != joined;
       if (alone) mark_open(wheel[i].side);
     }
   }
@@ -83,37 +111,42 @@ class Fans {
   std::vector<bool> open_;
 };
 
-/// The vertex of the fan, moved a little towards the middle of its rim.
-Vec3 pulled(const TriangleMesh& mesh, const std::vector<int>& corners) {
-  const Vec3 p = mesh.positions_m[at(tail_of(mesh, corners.front()))];
-  std::set<int> rim;
-  for (const int c : corners) {
-    rim.insert(head_of(mesh, c));
-    rim.insert(head_of(mesh, next_corner(c)));
+/// Where a body that touches itself along edges holds together at both ends of their chain, coming apart would leave a
+/// tunnel of no width, or, along a single edge, would not even be possible: there it is joined. One a vertex.
+std::vector<bool> where_bodies_join(const TriangleMesh& mesh, const std::vector<CrowdedEdge>& crowded) {
+  std::vector<bool> joined(mesh.positions_m.size(), false);
+  Fans apart(mesh, crowded, joined);
+  Groups chains(mesh.positions_m.size());
+  std::map<int, std::set<int>> held_at;  // chain -> vertices
+  for (const CrowdedEdge& edge : crowded) chains.join(edge.low, edge.high);
+  for (const CrowdedEdge& edge : crowded) {
+    if (apart.is_one_fan(edge, true)) held_at[chains.group_of(edge.low)].insert(edge.low);
+    if (apart.is_one_fan(edge, false)) held_at[chains.group_of(edge.low)].insert(edge.high);
   }
-  Vec3 middle = Vec3::Zero();
-  double shortest = 1.0;
-  for (const int v : rim) {
-    const Vec3 spoke = mesh.positions_m[at(v)] - p;
-    middle += spoke / static_cast<double>(rim.size());
-    shortest = std::min(shortest, spoke.norm());
+  for (const CrowdedEdge& edge : crowded) {
+    const auto held = held_at.find(chains.group_of(edge.low));
+    if (held == held_at.end() || held->second.size() < 2) continue;
+    joined[at(edge.low)] = joined[at(edge.high)] = true;
   }
-  return p + std::min(kPull, kPullOfEdge * shortest) * middle.normalized();
+  return joined;
 }
 
 }  // namespace
 
 void split_shared_vertices(RepairJob& job) {
-  const auto shared = Fans(job.mesh).shared_vertices();
+  const std::vector<CrowdedEdge> crowded = crowded_edges(job.mesh);
+  const auto shared = Fans(job.mesh, crowded, where_bodies_join(job.mesh, crowded)).shared_vertices();
   const TriangleMesh before = job.mesh;
   int split = 0;
   Vec3 place = Vec3::Zero();
   for (std::size_t v = 0; v < shared.size(); ++v) {
     if (shared[v].empty()) continue;
     if (split++ == 0) place = before.positions_m[v];
-    for (std::size_t fan = 1; fan < shared[v].size(); ++fan) {
+    const std::vector<Vec3> places = pulled_apart(before, shared[v], kPull);
+    for (std::size_t fan = 0; fan < shared[v].size(); ++fan) {
+      if (places[fan] == before.positions_m[v]) continue;
       const int copy = static_cast<int>(job.mesh.positions_m.size());
-      job.mesh.positions_m.push_back(pulled(before, shared[v][fan]));
+      job.mesh.positions_m.push_back(places[fan]);
       job.vertex_source.push_back(-1);
       for (const int c : shared[v][fan]) job.mesh.triangles[at(c / 3)][at(c % 3)] = copy;
     }
