@@ -103,7 +103,7 @@ std::optional<std::string> ByteSource::line(std::size_t longest) {
     const std::size_t part = end ? static_cast<std::size_t>(end - first) : end_ - begin_;
     text.append(first, std::min(part, longest - text.size()));
     begin_ += part + (end ? 1 : 0);
-    if (end || text.size() == longest) break;
+    if (end) break;
   }
   if (text.ends_with('\r')) text.pop_back();
   return text;

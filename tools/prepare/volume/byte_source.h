@@ -21,7 +21,7 @@ class ByteSource {
 
   /// Fills `out` with the next bytes and returns how many there were: fewer than `wanted` only at the end.
   std::size_t read(char* out, std::size_t wanted);
-  /// The next line without its end (LF or CR LF), nothing at the end; only the first `longest` bytes of a longer one.
+  /// The next line without its end (LF or CR LF), nothing at the end; of a longer one only the first `longest` bytes.
   std::optional<std::string> line(std::size_t longest);
   /// Passes over bytes and returns how many there were.
   std::uint64_t skip(std::uint64_t wanted);

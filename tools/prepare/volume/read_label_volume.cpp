@@ -59,11 +59,9 @@ void skip_to_points(const VolumeFile& volume, ByteSource& source, const std::str
 }
 
 std::vector<Labels> points_of(const VolumeFile& volume, ByteSource& source, const std::string& file) {
-  constexpr std::size_t kNoMatter = 1;  // lines that are passed over are not kept
   for (std::int64_t line = 0; line < volume.skip_lines; ++line) {
-    auto text = source.line(kNoMatter);
-    while (text && text->size() == kNoMatter) text = source.line(kNoMatter);
-    if (!text) throw bad_data(file, "line skip", fmt::format("is {}, but the file ends before", volume.skip_lines));
+    if (source.line(0)) continue;
+    throw bad_data(file, "line skip", fmt::format("is {}, but the file ends before; correct it", volume.skip_lines));
   }
   if (!volume.packed) {
     skip_to_points(volume, source, file);
