@@ -2,17 +2,22 @@
 
 #include <algorithm>
 #include <iostream>
+#include <optional>
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include "core/data_folder.h"
 #include "core/error.h"
+#include "core/file.h"
 #include "prepare/check/specimen_check.h"
 #include "prepare/finish_limb.h"
 #include "prepare/loft/loft.h"
+#include "prepare/prepare_unknown.h"
 #include "prepare/recipe/make_limb.h"
 #include "prepare/recipe/read_recipe.h"
 #include "prepare/recipe/read_scan.h"
+#include "prepare/recipe/surface_files.h"
 #include "prepare/recipe/units_and_frame.h"
 
 namespace myotact::prepare {
@@ -25,37 +30,71 @@ fs::path canine(const char* limb) {
   return data_folder() / "assets" / "canine" / (std::string(limb) + ".json");
 }
 
-/// The built-in recipe that knows more of the files' names.
-fs::path choose_recipe(const std::vector<fs::path>& inputs) {
+/// How many bones and how many muscles of a recipe the inputs' names mean.
+struct KnownNames {
+  int bones = 0, muscles = 0;
+};
+
+KnownNames known_names(const fs::path& recipe_file, const std::vector<std::string>& stems) {
+  const AnatomyData recipe = read_recipe(recipe_file);
+  const auto is_stem = [&](const std::string& key) {
+    return std::find(stems.begin(), stems.end(), key) != stems.end() ? 1 : 0;
+  };
+  KnownNames known;
+  for (const BoneData& bone : recipe.bones) known.bones += is_stem(bone.key);
+  for (const MuscleData& muscle : recipe.muscles) known.muscles += is_stem(muscle.mechanics.key);
+  return known;
+}
+
+/// The built-in recipe that knows more of the files' names; none where neither knows both a bone and a muscle, while
+/// there are files.
+std::optional<fs::path> choose_recipe(const std::vector<fs::path>& inputs) {
   std::vector<std::string> stems;
   for (const fs::path& input : inputs) {
     if (!fs::is_directory(input)) {
       stems.push_back(input.stem().string());
       continue;
     }
-    for (const auto& entry : fs::recursive_directory_iterator(input)) stems.push_back(entry.path().stem().string());
+    for (const auto& entry : fs::recursive_directory_iterator(input)) {
+      if (is_surface_file(entry.path())) stems.push_back(entry.path().stem().string());
+    }
   }
-  const auto known = [&](const fs::path& file) {
-    const AnatomyData recipe = read_recipe(file);
-    const auto names = [&](const std::string& stem) {
-      return std::any_of(recipe.bones.begin(), recipe.bones.end(), [&](const auto& b) { return b.key == stem; }) ||
-             std::any_of(recipe.muscles.begin(), recipe.muscles.end(),
-                         [&](const auto& m) { return m.mechanics.key == stem; });
-    };
-    return std::count_if(stems.begin(), stems.end(), names);
-  };
-  return known(canine("hindlimb")) > known(canine("forelimb")) ? canine("hindlimb") : canine("forelimb");
+  const KnownNames fore = known_names(canine("forelimb"), stems), hind = known_names(canine("hindlimb"), stems);
+  const bool is_hind = hind.bones + hind.muscles > fore.bones + fore.muscles;
+  const KnownNames& best = is_hind ? hind : fore;
+  if (!stems.empty() && (best.bones == 0 || best.muscles == 0)) return {};
+  return canine(is_hind ? "hindlimb" : "forelimb");
+}
+
+/// A person's recipe goes into the specimen that it made, so that it can be edited there and is not lost when the
+/// folder is replaced.
+anatomy::CompanionFiles companions_of(const Options& options) {
+  if (options.recipe.empty()) return {};
+  return {{"recipe.json", read_file(options.recipe)}};
 }
 
 void prepare_folder(const Options& options, const fs::path& recipe_file, const std::vector<fs::path>& inputs,
-                    const fs::path& output) {
+                    const fs::path& output, anatomy::CompanionFiles companions = {}) {
   const AnatomyData recipe = read_recipe(recipe_file);
   Scan scan = read_scan(inputs, recipe);
   set_units_and_frame(scan, recipe, options.units);
   for (const std::string& note : scan.notes) spdlog::info("{}", note);
   LimbWork limb = make_limb(recipe, scan.bones, scan.muscles, options.settings);
   limb.notes = std::move(scan.notes);
-  finish_limb(limb, options, output);
+  finish_limb(limb, options, output, std::move(companions));
+}
+
+/// A recipe says all that would be guessed or asked.
+void check_ways(const Options& options) {
+  if (options.recipe.empty()) return;
+  const char* other = options.guess                   ? "--guess"
+                      : options.ask                   ? "--ask"
+                      : !options.bones.empty()        ? "--bones"
+                      : !options.write_recipe.empty() ? "--write-recipe"
+                                                      : nullptr;
+  if (!other) return;
+  throw Error(ExitStatus::Usage,
+              fmt::format("{}: does not go with --recipe, which says it all; edit the recipe", other));
 }
 
 }  // namespace
@@ -64,12 +103,24 @@ int prepare_scan(const Options& options) {
   if (options.inputs.empty()) {
     throw Error(ExitStatus::Usage, "the scan is missing; name a folder that holds bones/ and muscles/, or files");
   }
-  check_output(options.output, "specimen");
+  const bool recipe_only = options.output.empty() && !options.write_recipe.empty();
+  if (!recipe_only) check_output(options.output, "specimen");
   for (const fs::path& input : options.inputs) {
     if (!fs::exists(input)) throw Error(ExitStatus::NoInput, input.string() + ": is not there");
   }
-  const fs::path recipe = options.recipe.empty() ? choose_recipe(options.inputs) : options.recipe;
-  return unless_interrupted([&] { prepare_folder(options, recipe, options.inputs, options.output); });
+  check_ways(options);
+  const bool guessing = options.guess || options.ask || recipe_only || !options.bones.empty();
+  std::optional<fs::path> recipe;
+  if (!options.recipe.empty())
+    recipe = options.recipe;
+  else if (!guessing)
+    recipe = choose_recipe(options.inputs);
+  return unless_interrupted([&] {
+    if (recipe)
+      prepare_folder(options, *recipe, options.inputs, options.output, companions_of(options));
+    else
+      prepare_unknown(options);
+  });
 }
 
 int prepare_loft(const Options& options) {

@@ -14,8 +14,12 @@ struct Options {
   std::vector<std::filesystem::path> inputs;
   std::filesystem::path recipe;  // empty: the built-in one that knows the inputs' names
   std::filesystem::path output;
-  std::string units;  // empty: guessed
-  std::string until;  // last stage, whose result is written instead of a specimen; empty: all of them
+  std::string units;                   // empty: guessed
+  std::vector<std::string> bones;      // parts that are bones, all others muscles; empty: told from folders and names
+  std::filesystem::path write_recipe;  // where the guessed recipe goes as well; empty: nowhere
+  bool guess = false;                  // no recipe, even if one knows some of the names
+  bool ask = false;                    // on the terminal, what the surfaces do not say
+  std::string until;                   // last stage, whose result is written instead of a specimen; empty: all of them
   bool mirror = false;
   bool json = false;
   PrepareSettings settings;
@@ -24,7 +28,7 @@ struct Options {
 /// What `until` may be: "read", and the stages after it.
 std::vector<std::string> stages_to_stop_at();
 
-/// Surfaces and a recipe in, a specimen out.
+/// Surfaces and a recipe in, a specimen out; surfaces that no recipe knows in, the same by guessing one.
 int prepare_scan(const Options& options);
 /// The recipe's own sections and outlines in, a specimen out.
 int prepare_loft(const Options& options);

@@ -44,10 +44,14 @@ int main(int argc, char** argv) {
   add_common(program, options);
   add_until(program, options);
   program.add_option("scan", options.inputs,
-                     "folder with bones/ and muscles/, or surface files: STL, OBJ, PLY, OFF, VTK");
+                     "folder with bones/ and muscles/, or surface files (STL, OBJ, PLY, OFF, VTK), and .mrk.json");
   program.add_option("--recipe", options.recipe, "JSON file that names parts, joints and attachments");
   program.add_option("--units", options.units, "of the scan; guessed from its size when left out")
       ->check(CLI::IsMember({"m", "cm", "mm", "in"}));
+  program.add_flag("--guess", options.guess, "take the names as they are, with no built-in recipe");
+  program.add_option("--bones", options.bones, "parts that are bones; all others are muscles: A,B,...")->delimiter(',');
+  program.add_flag("--ask", options.ask, "ask on the terminal what the surfaces do not say");
+  program.add_option("--write-recipe", options.write_recipe, "JSON file for the guessed recipe, to be edited");
   CLI::App* loft = program.add_subcommand("loft", "make the surfaces from a recipe's own sections and outlines");
   loft->add_option("recipe", options.recipe, "RECIPE.json")->required();
   add_common(*loft, options);

@@ -78,6 +78,7 @@ struct GroupData {
 
 struct AnatomyData {
   std::string name, species, breed, side, source, licence;
+  std::string units;             // of the scan's files: "m", "cm", "mm" or "in"; empty: guessed from their size
   std::string published_source;  // of MuscleData::published
   std::vector<BoneData> bones;
   std::vector<anatomy::Body> bodies;

@@ -25,7 +25,7 @@ LimbWork make_limb(const AnatomyData& recipe, const std::vector<NamedSurface>& b
   for (const BoneData& data : recipe.bones) {
     if (const auto* surface = find_surface(bones, data.key)) limb.bones.push_back({data, surface->surface, {}, {}});
   }
-  if (limb.bones.empty()) {
+  if (limb.bones.empty() && !recipe.bones.empty()) {
     throw Error(ExitStatus::BadData, "bones: none of the input's is named in the recipe; rename the surfaces");
   }
   for (const MuscleData& data : recipe.muscles) {
@@ -36,7 +36,7 @@ LimbWork make_limb(const AnatomyData& recipe, const std::vector<NamedSurface>& b
     muscle.surface = surface->surface;
     muscle.middle_m = surface->middle_m;
   }
-  if (limb.muscles.empty()) {
+  if (limb.muscles.empty() && !recipe.muscles.empty()) {
     throw Error(ExitStatus::BadData, "muscles: none of the input's is named in the recipe; rename the surfaces");
   }
   for (const BandData& band : recipe.built) {

@@ -8,7 +8,7 @@
 namespace myotact::prepare {
 
 /// The parts of the recipe that the input has surfaces for, in the recipe's order, and the parts to be built. Throws
-/// Error BadData when no bone or no muscle of the recipe is among the surfaces.
+/// Error BadData when the recipe has bones, or muscles, and none of them is among the surfaces.
 LimbWork make_limb(const AnatomyData& recipe, const std::vector<NamedSurface>& bones,
                    const std::vector<NamedSurface>& muscles, const PrepareSettings& settings);
 

@@ -182,6 +182,7 @@ AnatomyData read_recipe(const std::filesystem::path& file) {
   data.side = root.at("side").one_of({"left", "right"});
   data.source = root.at("source").string();
   data.licence = root.at("licence").string();
+  if (const auto units = root.find("units")) data.units = units->one_of({"m", "cm", "mm", "in"});
   data.published_source = root.string_or("published_source", "");
   for (const JsonValue& v : root.at("bodies").elements()) data.bodies.push_back(anatomy::read_body(v));
   for (const JsonValue& v : root.at("bones").elements()) data.bones.push_back(read_bone(v, data));

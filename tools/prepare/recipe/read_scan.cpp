@@ -10,14 +10,13 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "geometry/mesh_files.h"
+#include "prepare/recipe/surface_files.h"
 
 namespace myotact::prepare {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-const std::set<std::string> kExtensions = {".stl", ".obj", ".ply", ".off", ".vtk", ".ele", ".mesh"};
 
 /// A part of the recipe and the name its file should have, without extension: "muscles/brachialis".
 struct Wanted {
@@ -40,23 +39,6 @@ std::vector<Wanted> wanted_by(const AnatomyData& recipe) {
     wanted.push_back({muscle.file.empty() ? "muscles/" + key : without_extension(muscle.file), key, true});
   }
   return wanted;
-}
-
-/// All surface files of a folder's bones/ and muscles/, by name, so that the order never depends on the disk.
-std::vector<fs::path> files_in(const fs::path& folder) {
-  std::vector<fs::path> files;
-  for (const char* kind : {"bones", "muscles"}) {
-    if (!fs::is_directory(folder / kind)) {
-      throw Error(ExitStatus::NoInput, (folder / kind).string() +
-                                           ": is not a folder; a scan holds bones/ and muscles/ with one surface "
-                                           "file a part");
-    }
-    for (const auto& entry : fs::directory_iterator(folder / kind)) {
-      if (kExtensions.contains(lower(entry.path().extension().string()))) files.push_back(entry.path());
-    }
-  }
-  std::sort(files.begin(), files.end());
-  return files;
 }
 
 /// Whether a file's path ends like the wanted name ("muscles/brachialis"), or is named after the key.
@@ -101,7 +83,8 @@ class Collector {
       for (const std::string& note : file.notes) scan_.notes.push_back(wanted_[i].name + ": " + note);
       (wanted_[i].muscle ? scan_.muscles : scan_.bones).push_back({wanted_[i].key, std::move(file.mesh)});
     }
-    if (!strangers_.empty()) scan_.notes.push_back("not in the recipe, left alone: " + join(strangers_));
+    if (!strangers_.empty())
+      scan_.notes.push_back("not in the recipe, left alone (--guess takes all parts as they are): " + join(strangers_));
     return std::move(scan_);
   }
 
@@ -131,11 +114,12 @@ Scan read_scan(const std::vector<fs::path>& inputs, const AnatomyData& recipe) {
       collector.add(input);
       continue;
     }
-    for (const fs::path& file : files_in(input)) collector.add(file);
+    for (const fs::path& file : surface_files_in(input)) collector.add(file);
   }
   Scan scan = collector.read();
   for (const bool muscles : {false, true}) {
-    if (!(muscles ? scan.muscles : scan.bones).empty()) continue;
+    const bool wanted = muscles ? !recipe.muscles.empty() : !recipe.bones.empty();
+    if (!wanted || !(muscles ? scan.muscles : scan.bones).empty()) continue;
     throw Error(ExitStatus::NoInput,
                 fmt::format("{}: holds none of the recipe's {}; rename the files, or name another recipe. It knows {}",
                             inputs.front().string(), muscles ? "muscles" : "bones", collector.names(muscles)));

@@ -28,8 +28,8 @@ constexpr std::array<Unit, 4> kUnits = {{{"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}
 constexpr double kSmallest = 0.4, kLargest = 4.0;
 /// Attachments that lie nearer to each other say little of a muscle's size [m].
 constexpr double kLeastSpread_m = 5e-3;
-/// Smallest and largest diagonal of a dog's limb [m].
-constexpr double kSmallestLimb_m = 0.05, kLargestLimb_m = 3.0;
+/// Smallest and largest diagonal of a dog's limb [m], and the smallest of a muscle alone, whose unit somebody named.
+constexpr double kSmallestLimb_m = 0.05, kLargestLimb_m = 3.0, kSmallestPart_m = 5e-3;
 /// Attachments of a muscle lie on it, but for what the model lacks [m].
 constexpr double kNearMuscle_m = 0.03;
 
@@ -77,6 +77,7 @@ double attachment_distance_m(const Scan& scan, const AnatomyData& recipe, double
       }
     }
   }
+  if (distances_m.empty()) return 0.0;  // bones alone
   std::sort(distances_m.begin(), distances_m.end());
   return distances_m[distances_m.size() / 2];
 }
@@ -123,7 +124,8 @@ void scale(Scan& scan, double factor) {
 
 }  // namespace
 
-void set_units_and_frame(Scan& scan, const AnatomyData& recipe, const std::string& units) {
+void set_units_and_frame(Scan& scan, const AnatomyData& recipe, const std::string& named_units) {
+  const std::string& units = named_units.empty() ? recipe.units : named_units;
   const Unit unit = unit_of(scan, recipe, units);
   scale(scan, unit.metres);
   const Eigen::AlignedBox3d box = box_of(scan);
@@ -131,10 +133,11 @@ void set_units_and_frame(Scan& scan, const AnatomyData& recipe, const std::strin
   if (units.empty()) {
     scan.notes.push_back(fmt::format("units: taken as {}: the limb is then {:.3f} m across", unit.name, diagonal_m));
   }
-  if (diagonal_m < kSmallestLimb_m || diagonal_m > kLargestLimb_m) {
+  const double smallest_m = units.empty() ? kSmallestLimb_m : kSmallestPart_m;
+  if (diagonal_m < smallest_m || diagonal_m > kLargestLimb_m) {
     throw bad_data("units", "",
                    fmt::format("in {} the limb is {} m across; must be {} .. {} m. Name the unit with --units",
-                               unit.name, to_text(diagonal_m), to_text(kSmallestLimb_m), to_text(kLargestLimb_m)));
+                               unit.name, to_text(diagonal_m), to_text(smallest_m), to_text(kLargestLimb_m)));
   }
   const double away_m = attachment_distance_m(scan, recipe, 1.0);
   if (away_m <= kNearMuscle_m) return;
@@ -149,7 +152,7 @@ void set_units_and_frame(Scan& scan, const AnatomyData& recipe, const std::strin
       "frame", "",
       fmt::format("the recipe's attachments lie {:.3f} m from their muscles (half of them farther): the scan "
                   "is about ({:.3f}, {:.3f}, {:.3f}) m, the recipe about ({:.3f}, {:.3f}, {:.3f}) m. Export "
-                  "the scan in the recipe's frame and pose",
+                  "the scan in the recipe's frame and pose, or take it as it is with --guess",
                   away_m, there.x(), there.y(), there.z(), wanted.x(), wanted.y(), wanted.z()));
 }
 

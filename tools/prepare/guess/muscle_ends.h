@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "prepare/guess/decision.h"
+#include "prepare/guess/guess_skeleton.h"
+#include "prepare/guess/markups.h"
+#include "prepare/guess/muscle_contacts.h"
+#include "prepare/recipe/anatomy_data.h"
+
+namespace myotact::prepare {
+
+/// All that the ends of muscles hang on.
+struct EndBones {
+  const std::vector<NamedSurface>& bones;
+  const std::vector<BoneDistance>& distances;  // one a bone
+  const GuessedSkeleton& skeleton;             // without bones: one body, which carries everything
+};
+
+/// What was marked of one muscle.
+struct MuscleMarks {
+  std::vector<Vec3> origins_m, insertions_m, line_m;
+};
+
+/// Fills in origins, insertions and the marked line of the muscle. `pointer` is its place in the recipe.
+void guess_ends(const NamedSurface& muscle, const LongAxis& axis, const EndBones& bones, const MuscleMarks& marks,
+                const std::string& pointer, MuscleData& data, std::vector<Decision>& decisions);
+
+}  // namespace myotact::prepare
