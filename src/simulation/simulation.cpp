@@ -6,6 +6,7 @@
 #include "core/at.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "simulation/follower/bone_fit.h"
 #include "simulation/limb/calibration.h"
 #include "simulation/limb/settle.h"
 #include "simulation/limb/step.h"
@@ -45,9 +46,23 @@ Simulation::Impl::Impl(const anatomy::Specimen& given, const SimulationSettings&
     measure_line(*found, limb.skeleton, geometry);
     lines.push_back({&*found, arc_fractions(line_points_W(*found, limb.skeleton)), geometry.length_m});
   }
+  fit_followers();
   workers.run(surfaces.count(), [&](int surface) { surfaces.follow(limb, surface, true); });
   if (settings.tether) tether.emplace(*settings.tether, specimen);
   read_out(limb);
+}
+
+void Simulation::Impl::fit_followers() {
+  const bool any = std::any_of(limb.muscles.begin(), limb.muscles.end(), [](const auto& m) { return m.rigid; });
+  if (!any) return;
+  const BoneSurfaces bones = make_bone_surfaces(specimen);
+  workers.run(static_cast<int>(limb.muscles.size()), [&](int m) {
+    LimbMuscle& muscle = limb.muscles[at(m)];
+    if (!muscle.follower) return;
+    const MuscleTissue& tissue = muscle.tissue;
+    fit_to_bones({tissue.mesh, tissue.body, specimen.muscles[at(m)].skin, surfaces.skins()[at(m)], bones},
+                 limb.skeleton, *muscle.follower);
+  });
 }
 
 void Simulation::Impl::place_followers() {

@@ -25,7 +25,7 @@ struct LineReading {
 /// State and private steps of a Simulation. Built in the order of its members: surfaces and lines
 /// refer to the specimen here.
 struct Simulation::Impl {
-  /// Both are copied. Calibrates the fibres of all soft muscles. Throws Error BadData as Limb, Surfaces and Tether do.
+  /// Both are copied. Calibrates the fibres of all soft muscles, fits the others to the bones. Throws Error BadData as Limb, Surfaces and Tether do.
   Impl(const anatomy::Specimen& given, const SimulationSettings& chosen);
 
   anatomy::Specimen specimen;   // never changes: lines and surfaces point into it
@@ -47,6 +47,7 @@ struct Simulation::Impl {
   /// Repeats a failed step of dt_s in two halves, each of which is halved again where it fails; `halvings` counts how
   /// often it has been. False when the shortest part fails: the state is then the last usable one.
   bool advance_in_parts(double dt_s, int halvings);
+  void fit_followers();            // to the bones, over the joints' ranges
   void place_followers();          // where the bones are now
   Pose body_pose(int body) const;  // X_WL
   /// The muscle's line in the present pose, and what pulls along it at the present activation.

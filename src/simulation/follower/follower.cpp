@@ -109,7 +109,6 @@ struct Cell {
 };
 
 Cell cell_of(const std::vector<double>& angles_rad, double angle_rad) {
-  if (angles_rad.size() < 2) return {};
   const double angle = std::clamp(angle_rad, angles_rad.front(), angles_rad.back());
   std::size_t i = 0;
   while (i + 2 < angles_rad.size() && angle > angles_rad[i + 1]) ++i;
@@ -117,15 +116,8 @@ Cell cell_of(const std::vector<double>& angles_rad, double angle_rad) {
 }
 
 void add_shift(const FollowerTable& table, std::span<const double> angles_rad, Eigen::Matrix3Xf& shift_m) {
-  const std::size_t row = table.angles_rad[0].size();
-  const Cell a = cell_of(table.angles_rad[0], angles_rad[at(table.joints[0])]);
-  const Cell b = table.joints[1] < 0 ? Cell{} : cell_of(table.angles_rad[1], angles_rad[at(table.joints[1])]);
-  for (std::size_t k = 0; k < 4; ++k) {
-    const float share = (k % 2 == 0 ? 1.0f - a.share : a.share) * (k / 2 == 0 ? 1.0f - b.share : b.share);
-    if (share == 0.0f) continue;
-    const Eigen::Matrix3Xf& sample = table.rest_shift_m[a.first + k % 2 + row * (b.first + k / 2)];
-    if (sample.cols() > 0) shift_m += share * sample;
-  }
+  const Cell cell = cell_of(table.angles_rad, angles_rad[at(table.joint)]);
+  shift_m += (1.0f - cell.share) * table.rest_shift_m[cell.first] + cell.share * table.rest_shift_m[cell.first + 1];
 }
 
 }  // namespace

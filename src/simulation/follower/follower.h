@@ -22,12 +22,11 @@ struct FollowerNode {
   std::array<double, kMostBodies> body_shares{};  // 0 where there is none
 };
 
-/// Displacements of the rest position at sampled angles of one joint or two, between them linear. Zero at the file
-/// pose; of two joints zero where either is there: it holds what the two single tables do not add up to.
+/// Displacements of the rest position at sampled angles of one joint, between them linear. Zero at the file pose.
 struct FollowerTable {
-  std::array<int, 2> joints{-1, -1};              // the second is -1 in a table of one joint
-  std::array<std::vector<double>, 2> angles_rad;  // rising; of a missing joint a single 0
-  std::vector<Eigen::Matrix3Xf> rest_shift_m;     // one a sample, the first joint's angles fastest; one column a node
+  int joint = -1;
+  std::vector<double> angles_rad;              // rising, at least 2
+  std::vector<Eigen::Matrix3Xf> rest_shift_m;  // one a sample, one column a node
 };
 
 /// A muscle that nothing solves for and that follows the bones. p = M(q) (x + shift(q)): x the node's rest position,

@@ -1,0 +1,35 @@
+#include "simulation/follower/bone_gaps.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace myotact::simulation {
+
+BoneSurfaces make_bone_surfaces(const anatomy::Specimen& specimen) {
+  BoneSurfaces bones;
+  for (const anatomy::Bone& bone : specimen.bones) {
+    if (!bone.surface.triangles.empty()) bones.push_back({bone.body, geometry::SignedDistance(bone.surface)});
+  }
+  return bones;
+}
+
+BoneGap gap_to_bones(const BoneSurfaces& bones, const Skeleton& skeleton, const Vec3& p_W, double radius_m) {
+  BoneGap gap{radius_m, Vec3::Zero()};
+  for (const BoneSurface& bone : bones) {
+    const Pose& X_WB = skeleton.body_pose(bone.body);
+    const Vec3 p_B = X_WB.rotation.transpose() * (p_W - X_WB.translation_m);
+    if (bone.surface.box_distance_m(p_B) >= gap.distance_m) continue;
+    const geometry::SignedPlace place = bone.surface.nearest(p_B, radius_m);
+    if (place.found && place.distance_m < gap.distance_m) gap = {place.distance_m, X_WB.rotation * place.outward};
+  }
+  return gap;
+}
+
+BoneBounds bounds_at_rest(const BoneSurfaces& bones, const Skeleton& at_file_pose, const Vec3& rest_m) {
+  constexpr double kDeepest_m = 0.02;
+  const double rest_gap_m = gap_to_bones(bones, at_file_pose, rest_m, kDeepest_m).distance_m;
+  const bool touches = rest_gap_m <= kTouchingGap_m;
+  return {std::min(0.0, rest_gap_m), touches ? std::max(0.0, rest_gap_m) : std::numeric_limits<double>::infinity()};
+}
+
+}  // namespace myotact::simulation
