@@ -10,18 +10,18 @@ uniform vec4 finish;      // metres between stripes or 0; gloss; 1: a cut is see
 
 out vec4 fragment;
 
-/// Waves across the strands, of 4 lengths and directions, periods a metre: bundles of 5 mm down to fibres of 1 mm. Near
-/// no rational ratio, so that they never repeat on a muscle.
-const vec4 kWaveX = vec4(89.0, -237.0, 196.0, 633.0);
-const vec4 kWaveY = vec4(-126.0, 142.0, 337.0, -605.0);
-const vec4 kWaveZ = vec4(138.0, 221.0, -186.0, 455.0);
-const vec4 kWaveLength = vec4(207.0, 354.0, 432.0, 987.0);  // of these three together
-const vec4 kWaveShare = vec4(0.20, 0.28, 0.26, 0.26);
-const vec3 kBend = vec3(0.22, 0.37, 0.55);  // of the finer waves by the first: else they would look woven
+/// Waves across the strands, of 4 lengths and directions, periods a metre: bundles of 5 mm down to fibres of 0.7 mm.
+/// Near no rational ratio, so that they never repeat on a muscle.
+const vec4 kWaveX = vec4(92.0, -288.0, 361.0, 962.0);
+const vec4 kWaveY = vec4(-131.0, 172.0, 623.0, -917.0);
+const vec4 kWaveZ = vec4(144.0, 267.0, -347.0, 689.0);
+const vec4 kWaveLength = vec4(215.0, 429.0, 799.0, 1497.0);  // of these three together
+const vec4 kWaveShare = vec4(0.20, 0.29, 0.28, 0.23);
+const vec3 kBend = vec3(0.5, 0.9, 1.3);  // of the finer waves by the first: else they would look woven
 
-/// -1 .. 1 across the strands. A wave that is shorter than three pixels has faded out: no moire at any distance.
+/// -1 .. 1 across the strands. A wave that is shorter than two and a half pixels has faded out: no moire at any distance.
 float strands(float pixel_m) {
-  vec4 shown = clamp(1.5 - 4.5 * pixel_m * kWaveLength, 0.0, 1.0) * kWaveShare;
+  vec4 shown = clamp(1.5 - 2.6 * pixel_m * kWaveLength, 0.0, 1.0) * kWaveShare;
   vec4 periods = strand_along.x * kWaveX + strand_along.y * kWaveY + strand_along.z * kWaveZ;
   periods.yzw += kBend * abs(fract(periods.x) - 0.5);
   // Near a sine, and cheaper without a graphics card.
@@ -36,7 +36,7 @@ void main() {
     return;
   }
   vec3 right = dFdx(strand_along.xyz), up = dFdy(strand_along.xyz);
-  float pixel_m = sqrt(max(dot(right, right), dot(up, up)));
+  float pixel_m = sqrt(dot(right, right) + dot(up, up));  // its diagonal
   float strand = finish.w * strands(pixel_m);
   // Strands of tendon reach in between those of the belly.
   float tendon = tendon_covers.x;
@@ -46,7 +46,7 @@ void main() {
   vec3 colour = mix(own, laid_over.rgb * (1.0 + 0.15 * strand), laid_over.a * (1.0 - 0.45 * tendon * finish.w));
   const float kHalfWidth_m = 0.0006;
   float away_m = finish.x > 0.0 ? abs(fract(strand_along.w / finish.x) - 0.5) * finish.x : 1.0;
-  colour *= 0.62 + 0.38 * smoothstep(kHalfWidth_m, kHalfWidth_m + 1.5 * pixel_m, away_m);
+  colour *= 0.70 + 0.30 * smoothstep(kHalfWidth_m, kHalfWidth_m + pixel_m, away_m);
   colour *= light_shine.rgb;
   colour += (1.0 - min(colour, 1.0)) * light_shine.a * (1.0 + 0.6 * strand);
   fragment = vec4(colour, tendon_covers.y);

@@ -43,9 +43,10 @@ struct Receiver {
   const ShadedSurface* shaded = nullptr;
 };
 
-/// Sums of cosines over directions, one a vertex: of the light that comes, and of all that would come.
+/// Sums of cosines over directions, one a vertex: of the light that comes past what is near, past everything, and of
+/// all that would come.
 struct Light {
-  std::vector<float> seen, whole;
+  std::vector<float> seen, outside, whole;
 };
 
 Receiver receiver_of(const ShadedSurface& shaded) {
@@ -100,7 +101,9 @@ void gather_light(const SideView& side, const DepthGrid& grid, const Receiver& r
     const glm::vec3 place = side.see(receiver.positions_m[i] + 1.5f * side.cell_m * normal);
     const int x = std::clamp(static_cast<int>(place.x), 0, grid.width() - 1);
     const int y = std::clamp(static_cast<int>(place.y), 0, grid.height() - 1);
-    light.seen[i] += cosine * passes(place.z - grid.depth(x, y), reach_m);
+    const float above_m = place.z - grid.depth(x, y);
+    light.seen[i] += cosine * passes(above_m, reach_m);
+    if (above_m <= 0.0f) light.outside[i] += cosine;
   }
 }
 
@@ -110,7 +113,7 @@ std::vector<Light> light_of_share(const std::vector<Receiver>& receivers, const 
   std::vector<Light> lights;
   for (const Receiver& receiver : receivers) {
     const std::vector<float> dark(receiver.positions_m.size(), 0.0f);
-    lights.push_back({dark, dark});
+    lights.push_back({dark, dark, dark});
   }
   DepthGrid grid(sampling.cells, sampling.cells);
   const std::vector<glm::vec3> directions = spread_directions(sampling.directions);
@@ -146,6 +149,12 @@ SkySampling sampling_of(std::span<const ShadedSurface> surfaces) {
   return {kDirections, std::clamp(static_cast<int>(std::min(cells, 1e6f)), kFewestCells, kMostCells), kReach_m};
 }
 
+std::vector<float> shares_of(const std::vector<float>& parts, const std::vector<float>& wholes) {
+  std::vector<float> shares;
+  for (std::size_t i = 0; i < parts.size(); ++i) shares.push_back(wholes[i] > 0.0f ? parts[i] / wholes[i] : 1.0f);
+  return shares;
+}
+
 bool is_superficial(const std::vector<float>& exposure) {
   const auto seeing = std::count_if(exposure.begin(), exposure.end(), [](float x) { return x > kSeesOutside; });
   return static_cast<float>(seeing) >= kSuperficialShare * static_cast<float>(exposure.size());
@@ -153,7 +162,7 @@ bool is_superficial(const std::vector<float>& exposure) {
 
 }  // namespace
 
-std::vector<std::vector<float>> sky_exposure(std::span<const ShadedSurface> surfaces, const SkySampling& sampling) {
+SkyExposure sky_exposure(std::span<const ShadedSurface> surfaces, const SkySampling& sampling) {
   std::vector<Receiver> receivers;
   for (const ShadedSurface& shaded : surfaces) receivers.push_back(receiver_of(shaded));
   const Ball ball = ball_round(receivers);
@@ -169,16 +178,15 @@ std::vector<std::vector<float>> sky_exposure(std::span<const ShadedSurface> surf
     for (std::size_t r = 0; r < sums.size(); ++r) {
       for (std::size_t i = 0; i < sums[r].seen.size(); ++i) {
         sums[r].seen[i] += lights[r].seen[i];
+        sums[r].outside[i] += lights[r].outside[i];
         sums[r].whole[i] += lights[r].whole[i];
       }
     }
   }
-  std::vector<std::vector<float>> exposure;
+  SkyExposure exposure;
   for (const Light& light : sums) {
-    exposure.emplace_back();
-    for (std::size_t i = 0; i < light.seen.size(); ++i) {
-      exposure.back().push_back(light.whole[i] > 0.0f ? light.seen[i] / light.whole[i] : 1.0f);
-    }
+    exposure.seen.push_back(shares_of(light.seen, light.whole));
+    exposure.outside.push_back(shares_of(light.outside, light.whole));
   }
   return exposure;
 }
@@ -213,13 +221,13 @@ LimbShade shade_limb(const anatomy::Specimen& specimen) {
   auto among_bones = sky_exposure(bones, sampling_of(bones));
   LimbShade shade;
   for (std::size_t m = 0; m < muscle_count; ++m) {
-    shade.superficial.push_back(is_superficial(together[m]));
+    shade.superficial.push_back(is_superficial(together.outside[m]));
     const std::span<const ShadedSurface> one = std::span(all).subspan(m, 1);
     shade.muscles.push_back(
-        {std::move(sky_exposure(one, {kDirections, kFewestCells, kReach_m})[0]), std::move(together[m])});
+        {std::move(sky_exposure(one, {kDirections, kFewestCells, kReach_m}).seen[0]), std::move(together.seen[m])});
   }
   for (std::size_t b = 0; b < specimen.bones.size(); ++b) {
-    shade.bones.push_back({std::move(among_bones[b]), std::move(together[muscle_count + b])});
+    shade.bones.push_back({std::move(among_bones.seen[b]), std::move(together.seen[muscle_count + b])});
   }
   return shade;
 }

@@ -26,8 +26,14 @@ struct ShadedSurface {
 };
 
 /// How much of the sky each vertex sees past all the surfaces, one list a surface: 0 walled in .. 1 free, weighted by
-/// the cosine to its normal as diffuse light is. The same bits with any number of processors.
-std::vector<std::vector<float>> sky_exposure(std::span<const ShadedSurface> surfaces, const SkySampling& sampling);
+/// the cosine to its normal as diffuse light is.
+struct SkyExposure {
+  std::vector<std::vector<float>> seen;     // past what lies within reach
+  std::vector<std::vector<float>> outside;  // past everything
+};
+
+/// The same bits with any number of processors.
+SkyExposure sky_exposure(std::span<const ShadedSurface> surfaces, const SkySampling& sampling);
 
 /// What light and layers need to know of a specimen, from its file pose.
 struct LimbShade {

@@ -47,7 +47,7 @@ ShadedSurface shaded(const geometry::TriangleMesh& surface) {
 TEST(SkyExposure, AFreeBallSeesAllOfTheSky) {
   const geometry::TriangleMesh ball = geometry::make_ball(0.05, 4);
   const std::vector<ShadedSurface> scene{shaded(ball)};
-  const auto exposure = sky_exposure(scene, {64, 200});
+  const auto exposure = sky_exposure(scene, {64, 200}).seen;
   for (const float seen : exposure[0]) EXPECT_GT(seen, 0.97f);
 }
 
@@ -58,7 +58,7 @@ TEST(SkyExposure, BetweenTwoWideWallsTheFormFactorOfParallelDisksIsMissing) {
   for (Vec3& p : upper.positions_m) p.z() += kAway_m;
   for (auto& triangle : upper.triangles) std::swap(triangle[1], triangle[2]);
   const std::vector<ShadedSurface> scene{shaded(lower), shaded(upper)};
-  const auto exposure = sky_exposure(scene, {512, 300});
+  const auto exposure = sky_exposure(scene, {512, 300}).seen;
   std::size_t middle = 0;
   for (std::size_t i = 0; i < lower.positions_m.size(); ++i) {
     if (lower.positions_m[i].norm() < lower.positions_m[middle].norm()) middle = i;
@@ -80,10 +80,12 @@ TEST(SkyExposure, WhatIsFartherThanTheReachCastsNoShadeAndWhatIsNearerThanHalfOf
                                                 [](const Vec3& a, const Vec3& b) { return a.norm() < b.norm(); }) -
                                lower.positions_m.begin());
   // Seen from the middle, the farthest of the other wall is 0.143 m away.
-  const auto seen = [&](float reach_m) { return sky_exposure(scene, {64, 200, reach_m})[0][middle]; };
+  const auto seen = [&](float reach_m) { return sky_exposure(scene, {64, 200, reach_m}).seen[0][middle]; };
   EXPECT_GT(seen(0.9f * float(kAway_m)), 0.99f);
   EXPECT_EQ(seen(2.1f * 0.143f), seen(std::numeric_limits<float>::infinity()));
   EXPECT_LT(seen(0.08f), 0.5f);
+  const SkyExposure short_of = sky_exposure(scene, {64, 200, 0.9f * float(kAway_m)});
+  EXPECT_EQ(short_of.outside[0][middle], seen(std::numeric_limits<float>::infinity()));
 }
 
 TEST(SkyExposure, InTheElbowTheDeepMusclesOfTheAnatomyBooksAreDeep) {
