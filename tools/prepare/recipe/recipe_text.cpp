@@ -100,7 +100,7 @@ std::string recipe_text(const AnatomyData& anatomy) {
                {"source", anatomy.source},
                {"licence", anatomy.licence}};
   if (!anatomy.units.empty()) json["units"] = anatomy.units;
-  json["bodies"] = json["bones"] = json["joints"] = json["muscles"] = json["groups"] = Json::array();
+  for (const char* list : {"bodies", "bones", "joints", "muscles", "groups"}) json[list] = Json::array();
   for (const anatomy::Body& body : anatomy.bodies) json["bodies"].push_back(json_of(body));
   for (const BoneData& bone : anatomy.bones) json["bones"].push_back(json_of(bone, anatomy));
   for (const anatomy::Joint& joint : anatomy.joints) json["joints"].push_back(json_of(joint, anatomy));
