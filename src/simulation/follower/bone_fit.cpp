@@ -33,7 +33,7 @@ constexpr double kClampReach_m = 2e-3;
 constexpr double kAnchor_m = 0.03;
 /// This part of the tissue's resistance is to leaving the sample before, the rest to leaving line and bodies: what
 /// samples have in common is what the way between them keeps.
-constexpr double kKept = 0.5;
+constexpr double kKept = 0.8;
 /// Corrections of one sample at most.
 constexpr int kMostRounds = 12;
 /// A round has gained something when what is out of bounds fell to this part.

@@ -75,6 +75,10 @@ void LineFrames::lay_stations() {
 
 void LineFrames::open_windows(double window_m) {
   const std::size_t last = stations_.size() - 1;
+  std::vector<double> chords_m(stations_.size(), 0.0);  // corners of the line cut off, as in every other pose
+  for (std::size_t s = 1; s <= last; ++s) {
+    chords_m[s] = chords_m[s - 1] + (stations_[s].rest_m - stations_[s - 1].rest_m).norm();
+  }
   for (std::size_t s = 0; s <= last; ++s) {
     Station& station = stations_[s];
     station.before = s > 0 ? s - 1 : 0;
@@ -83,6 +87,7 @@ void LineFrames::open_windows(double window_m) {
     while (station.after < last && stations_[station.after].arc_m - station.arc_m < window_m) ++station.after;
     const Vec3 way = stations_[station.after].rest_m - stations_[station.before].rest_m;
     if (way.squaredNorm() > 0.0) station.tangent = way.normalized();
+    station.window_m = chords_m[station.after] - chords_m[station.before];
   }
 }
 
@@ -126,12 +131,12 @@ void LineFrames::follow(const Skeleton& skeleton, std::vector<Affine>& maps) con
     }
     const Vec3 way = places_m[station.after] - places_m[station.before];
     const double now_m = arc_m[station.after] - arc_m[station.before];
-    const double rest_m = stations_[station.after].arc_m - stations_[station.before].arc_m;
-    const bool turns = way.norm() > 1e-6 && rest_m > 0.0;
+    const bool turns = way.norm() > 1e-6 && station.window_m > 0.0;
     const Vec3 tangent = turns ? Vec3(way.normalized()) : station.tangent;
     const Mat3 rotation =
         turns ? rotation_at(station, tangent, skeleton) : skeleton.body_pose(segment.from_body).rotation;
-    const double wide = turns ? std::clamp(std::sqrt(rest_m / std::max(now_m, 1e-6)), kNarrowest, kWidest) : 1.0;
+    const double wide =
+        turns ? std::clamp(std::sqrt(station.window_m / std::max(now_m, 1e-6)), kNarrowest, kWidest) : 1.0;
     maps[s].linear =
         rotation * (wide * Mat3::Identity() + (1.0 - wide) * station.tangent * station.tangent.transpose());
     maps[s].offset_m = places_m[s] - maps[s].linear * station.rest_m;

@@ -55,6 +55,7 @@ class LineFrames {
     Vec3 rest_m = Vec3::Zero();
     Vec3 tangent = Vec3::UnitX();       // at rest, over the window
     std::size_t before = 0, after = 0;  // stations at the window's ends
+    double window_m = 0.0;              // from the one to the other at rest, station by station
   };
   void lay_stations();
   void open_windows(double window_m);
