@@ -117,7 +117,7 @@ TEST(LabelVolume, TellsPiecesEmptySegmentsAndMirrors) {
   // The first and the last of four points of label 2 touch no other by a face.
   const LabelVolume volume = parse_label_volume(file + std::string("\2\0\0\0\2\2\0\0\0\2\0\0", 12), "p.nrrd");
   EXPECT_THAT(volume.notes, ElementsAre(HasSubstr("3 x 2 x 2 points"), HasSubstr("left-handed"),
-                                        HasSubstr("segment \"lost\" (label 9, layer 0) holds no point"),
+                                        HasSubstr("no point of their own, left out: \"lost\""),
                                         HasSubstr("segment \"both\" is in 3 pieces of 2, 1, 1 points")));
 }
 

@@ -16,7 +16,7 @@ namespace myotact::prepare {
 
 namespace {
 
-constexpr std::size_t kLongestLine = std::size_t{1} << 16;
+constexpr std::size_t kLongestField = std::size_t{1} << 16;
 constexpr int kMostLines = 10'000;
 
 using Fields = std::vector<std::pair<std::string, std::string>>;
@@ -24,11 +24,11 @@ using Fields = std::vector<std::pair<std::string, std::string>>;
 Fields read_fields(ByteSource& source, const std::string& file) {
   Fields fields;
   for (int number = 1; number <= kMostLines; ++number) {
-    const auto line = source.line(kLongestLine);
+    const auto line = source.line(kLongestField);
     if (!line) break;
     if (trimmed(*line).empty()) continue;
     const std::size_t sign = line->find('=');
-    if (sign == std::string::npos || line->size() == kLongestLine) {
+    if (sign == std::string::npos || line->size() == kLongestField) {
       throw bad_data(file, fmt::format("line {}", number),
                      fmt::format("\"{}\" is not \"Key = value\"; no MetaImage?", line->substr(0, 60)));
     }

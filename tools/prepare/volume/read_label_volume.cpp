@@ -91,10 +91,9 @@ void name_segments(LabelVolume& volume, std::vector<Segment> named, const std::s
       volume.segments.push_back(std::move(segment));
     }
   }
-  for (const Segment& empty : named) {
-    volume.notes.push_back(fmt::format("segment \"{}\" (label {}, layer {}) holds no point of its own; left out",
-                                       empty.name, empty.label, empty.layer));
-  }
+  std::vector<std::string> empty;
+  for (const Segment& segment : named) empty.push_back("\"" + segment.name + "\"");
+  if (!empty.empty()) volume.notes.push_back("segments that hold no point of their own, left out: " + join(empty));
   if (volume.segments.empty()) {
     throw bad_data(file, "data", "holds no segment: every point is 0. Save the segmentation, not an empty volume");
   }
