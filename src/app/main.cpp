@@ -57,6 +57,8 @@ CLI::App* add_run(CLI::App& program, Options& options) {
   run->add_flag("--realtime", options.realtime,
                 "run free on the wall clock, as the window does, and report the timing");
   run->add_option("--png", options.png, "write a picture of the scene at the end to this file");
+  run->add_option("--sheet", options.sheet,
+                  "write small pictures from four sides, with each joint at both ends of its range, to this file");
   run->add_option("--view", options.view,
                   "from where pictures look: lateral, medial, cranial, caudal, dorsal, palmar, or azimuth,elevation "
                   "[degrees]")

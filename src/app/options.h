@@ -27,7 +27,8 @@ struct Options {
   bool json = false;
   std::string log_level = "info";
   bool realtime = false;
-  std::optional<std::filesystem::path> png;  // run, as the three below
+  std::optional<std::filesystem::path> sheet;  // run, as the four below
+  std::optional<std::filesystem::path> png;
   std::string view = "lateral";
   std::vector<std::string> show;
   std::string size = "900x1200";

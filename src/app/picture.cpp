@@ -4,6 +4,7 @@
 
 #include "view/look/limb_bounds.h"
 #include "view/look/start_view.h"
+#include "view/pictures/contact_sheet.h"
 #include "view/pictures/offscreen.h"
 
 namespace myotact::app {
@@ -12,6 +13,7 @@ namespace {
 
 /// Of the picture's width, for the limb when names stand at its sides.
 constexpr float kShareBesideNames = 0.62f;
+constexpr int kSheetWidth_px = 240, kSheetHeight_px = 320;  // of a picture on a sheet
 
 view::ViewState look_of(const scene::Scene& scene, const messages::SceneFrame& frame, const PictureWish& wish) {
   const float aspect = static_cast<float>(wish.size.width) / static_cast<float>(wish.size.height);
@@ -20,6 +22,22 @@ view::ViewState look_of(const scene::Scene& scene, const messages::SceneFrame& f
   const float limb_aspect = look.labels ? kShareBesideNames * aspect : aspect;
   look.camera = view::camera_of(wish.view, scene.specimen, view::bounds_of(scene.specimen, frame), limb_aspect);
   return look;
+}
+
+/// One pose a row: angles, one a joint.
+std::vector<std::vector<double>> poses_of_sheet(const scene::Scene& scene) {
+  std::vector<double> own_rad;
+  for (const scene::JointSetting& joint : scene.joints) own_rad.push_back(joint.angle_rad);
+  std::vector<std::vector<double>> poses{own_rad};
+  for (std::size_t j = 0; j < scene.specimen.joints.size(); ++j) {
+    const anatomy::Joint& joint = scene.specimen.joints[j];
+    if (joint.axes.empty() || joint.range_rad.empty()) continue;
+    for (const double angle_rad : {joint.range_rad.front().first, joint.range_rad.front().second}) {
+      poses.push_back(own_rad);
+      poses.back()[j] = angle_rad;
+    }
+  }
+  return poses;
 }
 
 }  // namespace
@@ -38,6 +56,23 @@ void write_picture(const scene::Scene& scene, const simulation::Simulation& simu
   extras.joint = watched_joint(scene);
   view::OffscreenRenderer renderer(scene.specimen, wish.size.width, wish.size.height);
   view::write_png(path, renderer.render_with_text(frame, look_of(scene, frame, wish), extras));
+}
+
+void write_sheet(const scene::Scene& scene, const std::vector<std::string>& show, const std::filesystem::path& path) {
+  simulation::Simulation simulation(scene.specimen, scene.settings);
+  std::vector<messages::SceneFrame> rows;
+  for (const std::vector<double>& angles_rad : poses_of_sheet(scene)) {
+    simulation.settle(angles_rad, {});
+    simulation.write_frame(rows.emplace_back());
+  }
+  const std::vector<std::string> sides{"cranial", "caudal", "lateral", "medial"};
+  const view::ContactSheet sheet{rows, sides, {kSheetWidth_px, kSheetHeight_px}};
+  view::ViewState look = view::start_view(scene.specimen, 1.0f);
+  look.lines = false;
+  view::apply_show_options(show, scene.specimen, look);
+  view::SceneExtras extras;
+  extras.joint = watched_joint(scene);
+  view::write_png(path, view::draw_contact_sheet(scene.specimen, sheet, look, extras));
 }
 
 int watched_joint(const scene::Scene& scene) {

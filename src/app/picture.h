@@ -28,6 +28,12 @@ void write_picture(const scene::Scene& scene, const simulation::Simulation& simu
                    const std::vector<messages::ToolFrame>& tools, const PictureWish& wish,
                    const std::filesystem::path& path);
 
+/// Small pictures of the limb on one (view/pictures/contact_sheet.h): in the scene's own pose, and with each joint at
+/// the lowest and the highest angle of its range while the others keep theirs; a row each, from cranial, caudal,
+/// lateral and medial. Everything at rest, nothing active. Throws as write_picture(), and as
+/// view::draw_contact_sheet().
+void write_sheet(const scene::Scene& scene, const std::vector<std::string>& show, const std::filesystem::path& path);
+
 /// The joint that is watched: co-contracted, else the first that rotates.
 int watched_joint(const scene::Scene& scene);
 

@@ -230,6 +230,7 @@ int run(const Options& options) {
   make_writable_folder(options.out);
   if (!scene.note.empty()) spdlog::info("{}: {}", scene.name, scene.note);
   watch_for_interruption();
+  if (options.sheet) write_sheet(scene, options.show, *options.sheet);
   RunSummary summary;
   {
     simulation::Simulation simulation(scene.specimen, scene.settings);

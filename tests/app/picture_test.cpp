@@ -41,6 +41,19 @@ TEST(Picture, IsWrittenAtItsSizeOrTheProgramSaysWhyNot) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "scene.png"));
 }
 
+TEST(Picture, ASheetHasFourSidesOfEachEndOfEachJointsRange) {
+  TemporaryFolder folder;
+  const auto png = folder.path() / "sheet.png";
+  const Outcome outcome = run_program("run bimanual --set tissue.default=rigid --seconds 0.02 --sheet " + png.string() +
+                                      " --out " + folder.path().string());
+  if (outcome.status == 69) GTEST_SKIP() << outcome.output;
+  ASSERT_EQ(outcome.status, 0) << outcome.output;
+  const auto [width, height] = size_of_png(png);
+  EXPECT_EQ(width, 4u * 240u);
+  EXPECT_EQ(height % (2u * 320u), 320u) << "the scene's own pose, and two a joint";
+  EXPECT_GT(height, 320u);
+}
+
 TEST(Picture, AWrongWordEndsWithUsageAndTheNearestKnownOne) {
   TemporaryFolder folder;
   const std::string run = "run elbow --seconds 3600 --out " + folder.path().string() + " ";

@@ -35,6 +35,7 @@ void DepthGrid::add(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, 
   if (!(std::abs(area) > 1e-12f) || !std::isfinite(area)) return;  // seen from its edge, or not a number
   const int x0 = first_cell(std::min({a.x, b.x, c.x}), width_), x1 = last_cell(std::max({a.x, b.x, c.x}), width_);
   const int y0 = first_cell(std::min({a.y, b.y, c.y}), height_), y1 = last_cell(std::max({a.y, b.y, c.y}), height_);
+  if (x0 > x1 || y0 > y1) return;  // between the middles of cells, as most triangles of a fine surface
   // Shares of b and c at (x, y), and the depth, are linear in x and y.
   const glm::vec2 b_slope((c.y - a.y) / area, -(c.x - a.x) / area), c_slope(-(b.y - a.y) / area, (b.x - a.x) / area);
   for (int y = y0; y <= y1; ++y) {
