@@ -88,7 +88,7 @@ const std::map<std::string, Rooms> kRooms = {
        {"state", {"look"}},
        {"render", {"charts", "look"}},
        {"overlay", {"look", "render", "ui"}},
-       {"pictures", {"overlay", "render", "ui"}},
+       {"pictures", {"look", "overlay", "render", "ui"}},
        {"session", {"input", "look", "state", "ui"}},
        {"panels", {"charts", "input", "look", "render", "session", "state", "ui"}},
        {"window", {"input", "look", "overlay", "panels", "pictures", "render", "session", "sound", "state", "ui"}}}}},
