@@ -165,7 +165,7 @@ TEST(ColourMap, RisesInBrightnessFromEndToEnd) {
   }
 }
 
-/// CIE 1976 L* of an sRGB colour (CIE 15; IEC 61966-2-1).
+/// L* of CIELAB of an sRGB colour (IEC 61966-2-1).
 double lightness(const glm::vec3& srgb) {
   const auto linear = [](double x) { return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4); };
   const double y = 0.2126 * linear(double(srgb.r)) + 0.7152 * linear(double(srgb.g)) + 0.0722 * linear(double(srgb.b));
