@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -102,8 +103,23 @@ TEST(GuessRecipe, HoldsAMuscleWithoutBonesAtBothTips) {
   EXPECT_NEAR(apart_m, 0.10, 0.011);
 }
 
-TEST(GuessRecipe, RefusesNothingAtAll) {
+TEST(GuessRecipe, RefusesNothingAtAllAndWhatIsNoSurface) {
   EXPECT_THROW(guess_recipe({}, {}), Error);
+  const auto refuses = [](auto&& spoil) {
+    Strangers strangers = two_boxes_and_a_rod();
+    spoil(strangers.bones[1].surface);
+    EXPECT_THROW(guess_recipe(strangers, {}), Error);
+  };
+  refuses([](geometry::TriangleMesh& mesh) { mesh.triangles.clear(); });
+  refuses([](geometry::TriangleMesh& mesh) { mesh.triangles[3][1] = 99; });
+  refuses([](geometry::TriangleMesh& mesh) { mesh.positions_m[2].y() = std::numeric_limits<double>::quiet_NaN(); });
+}
+
+/// All triangles in one point: no axis, no area. The repair refuses it by name; nothing may break before.
+TEST(GuessRecipe, BearsAMuscleWithoutExtent) {
+  Strangers strangers = two_boxes_and_a_rod();
+  for (Vec3& p : strangers.muscles[0].surface.positions_m) p = Vec3::Constant(0.01);
+  EXPECT_EQ(guess_recipe(strangers, {}).anatomy.muscles.size(), 1u);
 }
 
 Strangers with_markup(MarkupKind kind, const std::string& name, const std::vector<Vec3>& points_m) {

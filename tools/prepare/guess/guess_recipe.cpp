@@ -35,6 +35,24 @@ double muscle_volume_m3(const geometry::TriangleMesh& surface) {
   return enclosed_m3 > 0.0 && enclosed_m3 < 1.001 * boxed_m3 ? enclosed_m3 : kFilled * boxed_m3;
 }
 
+/// What the rest relies on; how good the surface is else is for the repair to say.
+void check_surface(const NamedSurface& part) {
+  const int vertices = static_cast<int>(part.surface.positions_m.size());
+  if (part.surface.triangles.empty()) {
+    throw bad_data(part.key, "surface", "is empty: it has no triangles; export the surface again");
+  }
+  for (const auto& triangle : part.surface.triangles) {
+    for (const int v : triangle) {
+      if (v >= 0 && v < vertices) continue;
+      throw bad_data(part.key, "surface",
+                     fmt::format("names vertex {}; must be 0 .. {}. Export it again", v, vertices - 1));
+    }
+  }
+  for (const Vec3& p : part.surface.positions_m) {
+    if (!p.allFinite()) throw bad_data(part.key, "surface", "has a vertex that is not finite; export it again");
+  }
+}
+
 const KnownPart* named(const std::string& key, const KnownParts& known) {
   const auto found = std::find_if(known.begin(), known.end(), [&](const KnownPart& part) { return part.key == key; });
   return found == known.end() ? nullptr : &*found;
@@ -128,6 +146,9 @@ class Guesser {
     if (strangers_.bones.empty() && strangers_.muscles.empty()) {
       throw bad_data(strangers_.name, "", "holds no surface; name a folder with one file a part, or files");
     }
+    for (const auto* parts : {&strangers_.bones, &strangers_.muscles}) {
+      for (const NamedSurface& part : *parts) check_surface(part);
+    }
     AnatomyData& anatomy = result_.anatomy;
     anatomy.name = strangers_.name;
     anatomy.species = anatomy.breed = "not stated";
@@ -175,7 +196,7 @@ class Guesser {
     MuscleData data;
     data.mechanics = mechanics_of(surface, axis.length_m(), known_);
     tell_of_name(surface.key, pointer + "/key");
-    guess_ends(surface, axis, {strangers_.bones, distances_, skeleton_}, marks_of(m, marks), pointer, data,
+    guess_ends({surface, axis, marks_of(m, marks), pointer}, {strangers_.bones, distances_, skeleton_}, data,
                result_.decisions);
     const double mass_kg = kFlesh_kg_m3 * muscle_volume_m3(surface.surface);
     for (const auto* sites : {&data.origins, &data.insertions}) {

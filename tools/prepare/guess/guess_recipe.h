@@ -29,7 +29,8 @@ struct GuessedRecipe {
 /// marked; a muscle's ends where its surface lies on bone, far apart, else its tips along its longest direction; forces
 /// and lengths by rule of thumb, which `sources` states. Names come from `known`, where a key is one of its. The result
 /// goes through make_limb() like any recipe, and through recipe_text() unchanged. Deterministic. Throws Error BadData
-/// for markups that fit no part, and where there is no surface.
+/// for markups that fit no part, and where there is no surface, or one that is empty, names vertices that it has not,
+/// or has such that are not finite.
 GuessedRecipe guess_recipe(const Strangers& strangers, const KnownParts& known);
 
 }  // namespace myotact::prepare

@@ -29,13 +29,13 @@ struct End {
 
 class EndFinder {
  public:
-  EndFinder(const NamedSurface& muscle, const LongAxis& axis, const EndBones& bones)
-      : muscle_(muscle), axis_(axis), bones_(bones) {}
+  EndFinder(const LooseMuscle& muscle, const EndBones& bones)
+      : surface_(muscle.surface.surface), axis_(muscle.axis), bones_(bones) {}
 
   /// Origin first.
   std::array<End, 2> find() const {
-    const auto contacts = find_contacts(muscle_.surface, axis_, bones_.distances, kReach_m);
-    const ContactPair pair = choose_ends(contacts, muscle_.surface, axis_);
+    const auto contacts = find_contacts(surface_, axis_, bones_.distances, kReach_m);
+    const ContactPair pair = choose_ends(contacts, surface_, axis_);
     const auto on_bone = [&](int c) {
       return End{contacts[at(c)].bone, contacts[at(c)].centre_m, contacts[at(c)].area_m2, 0.0};
     };
@@ -74,14 +74,14 @@ class EndFinder {
   End at_tip(std::size_t tip) const {
     Vec3 point_m = axis_.tips_m[tip];
     double nearest_m = std::numeric_limits<double>::infinity();
-    for (const Vec3& p : muscle_.surface.positions_m) {
+    for (const Vec3& p : surface_.positions_m) {
       const double distance_m = (p - axis_.tips_m[tip]).norm();
       if (distance_m < nearest_m) nearest_m = distance_m, point_m = p;
     }
     return at_place(point_m);
   }
 
-  const NamedSurface& muscle_;
+  const geometry::TriangleMesh& surface_;
   const LongAxis& axis_;
   const EndBones& bones_;
 };
@@ -98,9 +98,7 @@ AttachmentSite site_of(const End& end, const EndBones& bones) {
   return site;
 }
 
-void tell(const NamedSurface& muscle, const char* which, const End& end, const EndBones& bones,
-          const std::string& pointer, std::vector<Decision>& decisions) {
-  if (bones.bones.empty()) return;
+Decision decision_on(const LooseMuscle& muscle, const char* which, const End& end, const EndBones& bones) {
   const std::string& bone = bones.bones[at(end.bone)].key;
   std::string text = fmt::format("{} taken on {}, where its surface lies on it", which, bone);
   if (end.gap_m > kReach_m) {
@@ -108,10 +106,10 @@ void tell(const NamedSurface& muscle, const char* which, const End& end, const E
         "its {} touches no bone: the nearest, {}, is {:.1f} mm away, and it {}. Mark the place (a point "
         "named \"{} {}\"), name the bone in the recipe, or segment the tendon",
         which, bone, 1e3 * end.gap_m, end.gap_m <= kHangs_m ? "was led there" : "moves with it and hangs in the air",
-        which, muscle.key);
+        which, muscle.surface.key);
   }
-  decisions.push_back(
-      {"attachments", muscle.key, std::move(text), {bone}, pointer + "/" + which, end.gap_m <= kReach_m});
+  return {"attachments", muscle.surface.key,           std::move(text),
+          {bone},        muscle.pointer + "/" + which, end.gap_m <= kReach_m};
 }
 
 /// Points of a marked line, from origin to insertion, on the bodies of its ends, whichever bone is nearer.
@@ -138,9 +136,9 @@ std::vector<anatomy::LinePoint> line_of(std::vector<Vec3> points_m, const std::a
 
 }  // namespace
 
-void guess_ends(const NamedSurface& muscle, const LongAxis& axis, const EndBones& bones, const MuscleMarks& marks,
-                const std::string& pointer, MuscleData& data, std::vector<Decision>& decisions) {
-  const EndFinder finder(muscle, axis, bones);
+void guess_ends(const LooseMuscle& muscle, const EndBones& bones, MuscleData& data, std::vector<Decision>& decisions) {
+  const EndFinder finder(muscle, bones);
+  const MuscleMarks& marks = muscle.marks;
   std::array<End, 2> ends = finder.find();
   if (!marks.line_m.empty()) {
     ends = {finder.at_place(marks.line_m.front()), finder.at_place(marks.line_m.back())};
@@ -149,9 +147,8 @@ void guess_ends(const NamedSurface& muscle, const LongAxis& axis, const EndBones
   const std::array<const std::vector<Vec3>*, 2> marked = {&marks.origins_m, &marks.insertions_m};
   const std::array<std::vector<AttachmentSite>*, 2> sites = {&data.origins, &data.insertions};
   for (const std::size_t e : {0u, 1u}) {
-    const char* which = e == 0 ? "origin" : "insertion";
     if (!marked[e]->empty()) ends[e] = finder.at_place(marked[e]->front());
-    tell(muscle, which, ends[e], bones, pointer, decisions);
+    if (!bones.bones.empty()) decisions.push_back(decision_on(muscle, e == 0 ? "origin" : "insertion", ends[e], bones));
     sites[e]->push_back(site_of(ends[e], bones));
     for (std::size_t more = 1; more < marked[e]->size(); ++more) {
       sites[e]->push_back(site_of(finder.at_place((*marked[e])[more]), bones));
@@ -159,10 +156,10 @@ void guess_ends(const NamedSurface& muscle, const LongAxis& axis, const EndBones
   }
   if (bones.bones.empty()) {
     decisions.push_back({"attachments",
-                         muscle.key,
+                         muscle.surface.key,
                          "there is no bone: both tips along its longest direction are held fast",
                          {},
-                         pointer + "/origin"});
+                         muscle.pointer + "/origin"});
   }
   if (!marks.line_m.empty()) data.line = line_of(marks.line_m, ends, bones);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "prepare/guess/decision.h"
@@ -22,8 +23,15 @@ struct MuscleMarks {
   std::vector<Vec3> origins_m, insertions_m, line_m;
 };
 
-/// Fills in origins, insertions and the marked line of the muscle. `pointer` is its place in the recipe.
-void guess_ends(const NamedSurface& muscle, const LongAxis& axis, const EndBones& bones, const MuscleMarks& marks,
-                const std::string& pointer, MuscleData& data, std::vector<Decision>& decisions);
+/// A muscle before it has ends.
+struct LooseMuscle {
+  const NamedSurface& surface;
+  const LongAxis& axis;
+  MuscleMarks marks;
+  std::string pointer;  // its place in the recipe
+};
+
+/// Fills in origins, insertions and the marked line of the muscle.
+void guess_ends(const LooseMuscle& muscle, const EndBones& bones, MuscleData& data, std::vector<Decision>& decisions);
 
 }  // namespace myotact::prepare
