@@ -15,7 +15,7 @@ namespace {
 
 constexpr float kStrokeLift_m = 0.25e-3f;  // above the skin, or it would sink in where the skin bends
 /// Where muscles meet, fascia dips in between them: finer than a surface of a volume is, and what tells them apart.
-constexpr float kSeamExposure = 0.55f;
+constexpr float kSeamExposure = 0.4f;
 constexpr std::size_t kThreads = 4;  // that prepare muscles, each on its own
 
 SurfaceSet::Run append_triangles(const geometry::TriangleMesh& surface, std::size_t first_vertex,

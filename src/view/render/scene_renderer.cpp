@@ -18,9 +18,9 @@ namespace myotact::view {
 namespace {
 
 // What is under the tints: fresh muscle, tendon and bone, as in a preparation and not as in wax.
-constexpr glm::vec3 kBelly{0.62f, 0.225f, 0.18f}, kTendon{0.89f, 0.85f, 0.77f}, kBone{0.90f, 0.83f, 0.68f};
+constexpr glm::vec3 kBelly{0.62f, 0.225f, 0.18f}, kTendon{0.89f, 0.85f, 0.77f}, kBone{0.92f, 0.87f, 0.76f};
 /// Muscles differ a little in brightness, or neighbours would run into one another.
-constexpr float kBellyVariation = 0.06f;
+constexpr float kBellyVariation = 0.08f;
 constexpr glm::vec4 kLine{0.13f, 0.13f, 0.22f, 1.0f};  // darker than flesh, tendon and all that is laid over them
 constexpr glm::vec4 kFibre{0.98f, 0.92f, 0.84f, 0.80f};
 constexpr glm::vec4 kSelected{0.76f, 0.18f, 0.52f, 1.0f}, kHovered{0.36f, 0.36f, 0.42f, 0.9f};
