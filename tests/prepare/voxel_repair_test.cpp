@@ -1,11 +1,12 @@
 // Surfaces of voxels: edges with four triangles, vertices with several fans.
 
+#include <filesystem>
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include "core/at.h"
-#include "core/error.h"
+#include "geometry/mesh_files.h"
 #include "prepare/repair/repair_surface.h"
 #include "prepare/repair/surface_check.h"
 #include "prepare/shapes.h"
@@ -70,6 +71,19 @@ TEST(VoxelRepair, JoinsABodyThatHoldsTogetherAtBothEndsOfAnEdge) {
     EXPECT_NEAR(geometry::enclosed_volume_m3(result.mesh), (8.0 + 2.0 * layers) * kVoxel_m3, 2e-2 * kVoxel_m3);
     EXPECT_LT(result.hausdorff_m, kPulled_m);
   }
+}
+
+/// The same between two slabs as a foreign program cuts it: three edges with four triangles, one after the other.
+TEST(VoxelRepair, TakesTheSurfaceNetsOfAForeignProgram) {
+  const auto file = std::filesystem::path(MYOTACT_SOURCE_DIR) / "tests/prepare/fixtures_surface/surface_nets.off";
+  const TriangleMesh mesh = geometry::read_surface(file).mesh;
+  ASSERT_EQ(count_edges(mesh).crowded, 3);
+  const RepairResult result = repaired(mesh);
+  EXPECT_FALSE(find_defect(result.mesh));
+  EXPECT_EQ(pieces_of(result.mesh).size(), 1u);
+  EXPECT_EQ(euler_characteristic(result.mesh), 2);
+  EXPECT_NEAR(geometry::enclosed_volume_m3(result.mesh) / geometry::enclosed_volume_m3(mesh), 1.0, 1e-4);
+  EXPECT_LT(result.hausdorff_m, kPulled_m);
 }
 
 /// A ball with holes of all shapes in it, from a few to a sponge: edges and corners of every kind.

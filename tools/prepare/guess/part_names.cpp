@@ -17,23 +17,24 @@ constexpr std::size_t kLongestKey = 100;
 constexpr double kMostSlips = 0.4;
 constexpr std::size_t kMostSuggestions = 3;
 
-const std::set<std::string> kSides = {"l", "r", "left", "right", "sin", "dex", "sinister", "dexter", "sinistra"};
-const std::set<std::string> kKindWords = {"m", "musculus", "muscle", "musc", "os", "bone", "ossa"};
+const std::set<std::string> kSides = {"l",      "r",        "left", "right", "sin",   "dex",   "sinister",
+                                      "dexter", "sinistra", "li",   "re",    "links", "rechts"};
+const std::set<std::string> kKindWords = {"muskel", "knochen", "m", "musculus", "muscle", "musc", "os", "bone", "ossa"};
 const std::set<std::string> kBoneWords = {
-    "os",       "ossa",     "bone",      "bones",     "femur",     "tibia", "fibula",  "humerus",   "radius",  "ulna",
-    "scapula",  "pelvis",   "patella",   "calcaneus", "calcaneum", "talus", "carpus",  "tarsus",    "sacrum",  "skull",
-    "cranium",  "mandible", "mandibula", "rib",       "ribs",      "costa", "sternum", "ilium",     "ischium", "coxae",
-    "sesamoid", "fabella",  "clavicle",  "clavicula", "manus",     "pes",   "kneecap", "astragalus"};
+    "knochen", "os",       "ossa",      "bone",    "bones",  "femur",   "tibia",     "fibula",
+    "humerus", "radius",   "ulna",      "scapula", "pelvis", "patella", "calcaneus", "calcaneum",
+    "talus",   "carpus",   "tarsus",    "sacrum",  "skull",  "cranium", "mandible",  "mandibula",
+    "rib",     "ribs",     "costa",     "sternum", "ilium",  "ischium", "coxae",     "sesamoid",
+    "fabella", "clavicle", "clavicula", "manus",   "pes",    "kneecap", "astragalus"};
 const std::array<const char*, 4> kBoneBeginnings = {"metacarp", "metatars", "phalan", "vertebra"};
 const std::set<std::string> kMuscleWords = {
-    "m",         "musculus",       "muscle",          "muscles",       "musc",
-    "flexor",    "extensor",       "abductor",        "adductor",      "rotator",
-    "levator",   "tensor",         "supinator",       "pronator",      "biceps",
-    "triceps",   "quadriceps",     "vastus",          "gluteus",       "glutaeus",
-    "rectus",    "semitendinosus", "semimembranosus", "gastrocnemius", "soleus",
-    "popliteus", "brachialis",     "deltoid",         "deltoideus",    "pectoralis",
-    "trapezius", "sartorius",      "gracilis",        "tibialis",      "peroneus",
-    "fibularis", "belly",          "tendon"};
+    "muskel",        "m",         "musculus",  "muscle",     "muscles",        "musc",
+    "flexor",        "extensor",  "abductor",  "adductor",   "rotator",        "levator",
+    "tensor",        "supinator", "pronator",  "biceps",     "triceps",        "quadriceps",
+    "vastus",        "gluteus",   "glutaeus",  "rectus",     "semitendinosus", "semimembranosus",
+    "gastrocnemius", "soleus",    "popliteus", "brachialis", "deltoid",        "deltoideus",
+    "pectoralis",    "trapezius", "sartorius", "gracilis",   "tibialis",       "peroneus",
+    "fibularis",     "belly",     "tendon"};
 
 std::vector<std::string> plain_words(std::string_view name) {
   std::string plain = lower(name);
