@@ -33,6 +33,11 @@ constexpr double kInvertedShare = 0.02;
 constexpr double kSmoothStep_rad = 0.5 * 3.14159265358979323846 / 180.0;
 constexpr double kLargestKink_m = 2e-3;
 
+/// A line goes round a surface that stands for the bone, the skin round the bone itself: so far a point of the line may
+/// come out of the skin [m], and more than that in this share of all points and poses.
+constexpr double kLineOutside_m = 3e-3;
+constexpr double kLinesOutsideShare = 0.08;
+
 using Angles = std::vector<double>;
 
 std::size_t index(int i) {
@@ -123,6 +128,35 @@ TEST_P(Followers, StayOnTheirBonesAndOutOfOthersOverAllRanges) {
     exceptions += std::max(off_m, in_m) > kAllowed_m;
   }
   EXPECT_LE(exceptions, kExceptions);
+}
+
+/// Against the skin at the file pose: what lay inside may not come out.
+TEST_P(Followers, KeepTheirLinesInside) {
+  const auto outside_m = [&](int m) {
+    geometry::TriangleMesh skin = specimen_.muscles[index(m)].skin;
+    skin.positions_m.assign(simulation_.skin_world_m(m).begin(), simulation_.skin_world_m(m).end());
+    const geometry::SignedDistance surface(skin);
+    std::vector<double> distances_m;
+    for (const Vec3& p : simulation_.line_world_m(m)) distances_m.push_back(surface.nearest(p, 1.0).distance_m);
+    return distances_m;
+  };
+  std::vector<std::vector<double>> rest_m;
+  for (int m = 0; m < count(); ++m) rest_m.push_back(outside_m(m));
+  std::size_t points = 0, out = 0;
+  for (const Angles& angles : poses()) {
+    pose(angles);
+    for (int m = 0; m < count(); ++m) {
+      const std::vector<double> now_m = outside_m(m);
+      for (std::size_t i = 0; i < now_m.size(); ++i) {
+        if (rest_m[index(m)][i] > 0.0) continue;
+        ++points;
+        out += now_m[i] > kLineOutside_m;
+      }
+    }
+  }
+  const double share = static_cast<double>(out) / static_cast<double>(points);
+  std::printf("line points that came out of their skins: %.2f %%\n", 100.0 * share);
+  EXPECT_LE(share, kLinesOutsideShare);
 }
 
 TEST_P(Followers, AreAtRestAtTheFilePose) {

@@ -21,6 +21,8 @@ constexpr double kBetweenSamples_m = 1e-3;
 constexpr int kMostHalvings = 2;
 /// A vertex is looked at for bones this far away [m]; what has come off farther is not pulled back.
 constexpr double kReach_m = 0.03;
+/// One that touches none enters by less than this from one sample to the next [m]; farther out it is not looked at.
+constexpr double kEntersBy_m = 0.01;
 /// Out of bounds by less than this is left alone [m]; an eighth of what is asked for.
 constexpr double kFine_m = 0.25e-3;
 /// The surface's hold over the tissue's: a push fades into the tissue over about this length, inverted [1/m].
@@ -175,7 +177,8 @@ double Fitter::look() {
   for (Vertex& vertex : vertices_) {
     vertex.shift_m.setZero();
     if (vertex.free_m > 0.0 && (vertex.now_m - vertex.looked_at_m).norm() < vertex.free_m) continue;
-    const BoneGap gap = gap_to_bones(in_.bones, skeleton_, vertex.now_m, kReach_m);
+    const double reach_m = std::isfinite(vertex.bounds.farthest_m) ? kReach_m : kEntersBy_m;
+    const BoneGap gap = gap_to_bones(in_.bones, skeleton_, vertex.now_m, reach_m);
     vertex.looked_at_m = vertex.now_m;
     const double wanted_m = std::clamp(gap.distance_m, vertex.bounds.nearest_m, vertex.bounds.farthest_m);
     vertex.free_m = std::min(gap.distance_m - vertex.bounds.nearest_m, vertex.bounds.farthest_m - gap.distance_m);

@@ -18,8 +18,10 @@ BoneGap gap_to_bones(const BoneSurfaces& bones, const Skeleton& skeleton, const 
   for (const BoneSurface& bone : bones) {
     const Pose& X_WB = skeleton.body_pose(bone.body);
     const Vec3 p_B = X_WB.rotation.transpose() * (p_W - X_WB.translation_m);
-    if (bone.surface.box_distance_m(p_B) >= gap.distance_m) continue;
-    const geometry::SignedPlace place = bone.surface.nearest(p_B, radius_m);
+    const double box_m = bone.surface.box_distance_m(p_B);
+    if (box_m >= gap.distance_m) continue;
+    // Outside the box the point is outside the bone, and only a nearer one counts; inside, a deeper one may.
+    const geometry::SignedPlace place = bone.surface.nearest(p_B, box_m > 0.0 ? gap.distance_m : radius_m);
     if (place.found && place.distance_m < gap.distance_m) gap = {place.distance_m, X_WB.rotation * place.outward};
   }
   return gap;

@@ -141,6 +141,26 @@ void LineFrames::follow(const Skeleton& skeleton, std::vector<Affine>& maps) con
         rotation * (wide * Mat3::Identity() + (1.0 - wide) * station.tangent * station.tangent.transpose());
     maps[s].offset_m = places_m[s] - maps[s].linear * station.rest_m;
   }
+  round_off(maps);
+}
+
+/// Each map becomes the mean of those in its window, nearer ones counting more: a kink of the line, which holds at a
+/// via point what in nature slides there, becomes a bend that the tissue about it can follow.
+void LineFrames::round_off(std::vector<Affine>& maps) const {
+  const std::vector<Affine> sharp = maps;
+  for (std::size_t s = 0; s < maps.size(); ++s) {
+    const Station& station = stations_[s];
+    Affine sum{Mat3::Zero(), Vec3::Zero()};
+    double weights = 0.0;
+    for (std::size_t k = station.before; k <= station.after; ++k) {
+      const double reach = static_cast<double>(k < s ? s - station.before : station.after - s) + 1.0;
+      const double weight = 1.0 - static_cast<double>(k < s ? s - k : k - s) / reach;
+      sum.linear += weight * sharp[k].linear;
+      sum.offset_m += weight * sharp[k].offset_m;
+      weights += weight;
+    }
+    maps[s] = {sum.linear / weights, sum.offset_m / weights};
+  }
 }
 
 }  // namespace myotact::simulation

@@ -59,6 +59,7 @@ class LineFrames {
   };
   void lay_stations();
   void open_windows(double window_m);
+  void round_off(std::vector<Affine>& maps) const;
   Mat3 rotation_at(const Station& station, const Vec3& tangent, const Skeleton& skeleton) const;
 
   anatomy::MuscleLine line_;
