@@ -39,9 +39,12 @@ class Cubes {
 
  private:
   static constexpr float kCube_m = 2.0f * SeamNormals::kTouch_m;
+  static constexpr float kFarthest = 1e6f;  // cubes: 200 m, beyond which all lie together
 
-  glm::ivec3 cube_of(std::size_t i) const { return glm::ivec3(glm::floor(positions_m_[i] / kCube_m)); }
-  /// 21 bits each: four hundred metres to both sides.
+  glm::ivec3 cube_of(std::size_t i) const {
+    return glm::ivec3(glm::clamp(glm::floor(positions_m_[i] / kCube_m), -kFarthest, kFarthest));
+  }
+  /// 21 bits each.
   static std::uint64_t key(const glm::ivec3& cube) {
     const auto part = [](int value) { return static_cast<std::uint64_t>(value + (1 << 20)) & 0x1fffffu; };
     return part(cube.x) << 42 | part(cube.y) << 21 | part(cube.z);

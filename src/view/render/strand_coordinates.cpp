@@ -38,6 +38,7 @@ Triangle triangle_of(const Vec3& a, const Vec3& b, const Vec3& c) {
 }  // namespace
 
 std::vector<glm::vec3> strand_coordinates(const geometry::TriangleMesh& skin, const std::vector<Vec3>& fibres) {
+  if (skin.positions_m.empty()) return {};
   const auto n = static_cast<Eigen::Index>(skin.positions_m.size());
   Eigen::Matrix<double, Eigen::Dynamic, 3> places(n, 3), wanted(n, 3);
   for (Eigen::Index i = 0; i < n; ++i) places.row(i) = skin.positions_m[static_cast<std::size_t>(i)];
