@@ -262,24 +262,26 @@ class Mapper {
     }
   }
 
+  Error same_part(const SegmentChoice& first, const SegmentChoice& second) const {
+    return bad_data(rules_.table.file.empty() ? "segments" : rules_.table.file, first.key,
+                    fmt::format("is both {} (by {}) and {} (by {}). Join them in the segmentation, or put ignore for "
+                                "one in the table",
+                                shown(first.segment), first.why, shown(second.segment), second.why));
+  }
+
   /// Two segments cannot be one known part; keys made from names are numbered.
   void make_keys_unique() {
     std::map<std::string, const SegmentChoice*> first;
-    for (const bool known : {true, false}) {
-      for (SegmentChoice& choice : result_.choices) {
-        if (choice.key.empty() || choice.known != known) continue;
-        const std::string key = choice.key;
-        for (int number = 2; !first.emplace(choice.key, &choice).second; ++number) {
-          if (known) {
-            throw bad_data(
-                rules_.table.file.empty() ? "segments" : rules_.table.file, choice.key,
-                fmt::format("is both {} (by {}) and {} (by {}). Join them in the segmentation, or put ignore "
-                            "for one in the table",
-                            shown(first[choice.key]->segment), first[choice.key]->why, shown(choice.segment),
-                            choice.why));
-          }
-          choice.key = fmt::format("{}_{}", key, number);
-        }
+    for (const SegmentChoice& choice : result_.choices) {
+      if (choice.key.empty() || !choice.known) continue;
+      const auto [place, is_new] = first.emplace(choice.key, &choice);
+      if (!is_new) throw same_part(*place->second, choice);
+    }
+    for (SegmentChoice& choice : result_.choices) {
+      if (choice.known) continue;
+      const std::string key = choice.key;
+      for (int number = 2; !first.emplace(choice.key, &choice).second; ++number) {
+        choice.key = fmt::format("{}_{}", key, number);
       }
     }
   }
