@@ -44,6 +44,20 @@ std::size_t index(int i) {
   return static_cast<std::size_t>(i);
 }
 
+/// How far a vertex leaves the straight way over three frames, at most.
+double largest_kink_m(const std::vector<Vec3>& before, const std::vector<Vec3>& here, const std::vector<Vec3>& after) {
+  double largest_m = 0.0;
+  for (std::size_t v = 0; v < here.size(); ++v) {
+    largest_m = std::max(largest_m, (before[v] - 2.0 * here[v] + after[v]).norm());
+  }
+  return largest_m;
+}
+
+struct Kink {
+  double size_m = 0.0;
+  std::string where;
+};
+
 class Followers : public ::testing::TestWithParam<const char*> {
  protected:
   Followers() {
@@ -85,6 +99,15 @@ class Followers : public ::testing::TestWithParam<const char*> {
   void pose(const Angles& angles) {
     ASSERT_TRUE(simulation_.settle(angles, {}));
     skeleton_.set_pose(angles);
+  }
+
+  /// All muscles' skins as they are now.
+  std::vector<std::vector<Vec3>> skins() const {
+    std::vector<std::vector<Vec3>> all;
+    for (int m = 0; m < count(); ++m) {
+      all.emplace_back(simulation_.skin_world_m(m).begin(), simulation_.skin_world_m(m).end());
+    }
+    return all;
   }
 
   /// How far the worst vertex of a muscle came off what it touched, and how far one entered a bone [m].
@@ -169,8 +192,7 @@ TEST_P(Followers, AreAtRestAtTheFilePose) {
 }
 
 TEST_P(Followers, MoveWithoutJumps) {
-  double kink_m = 0.0;
-  std::string where;
+  Kink worst;
   for (std::size_t j = 0; j < specimen_.joints.size(); ++j) {
     if (!hinge(j)) continue;
     std::vector<std::vector<std::vector<Vec3>>> frames;  // the last three
@@ -179,24 +201,17 @@ TEST_P(Followers, MoveWithoutJumps) {
       Angles angles = file_pose();
       angles[j] = q;
       pose(angles);
-      frames.emplace_back();
-      for (int m = 0; m < count(); ++m) {
-        frames.back().emplace_back(simulation_.skin_world_m(m).begin(), simulation_.skin_world_m(m).end());
-      }
+      frames.push_back(skins());
       if (frames.size() < 3) continue;
       for (std::size_t m = 0; m < index(count()); ++m) {
-        for (std::size_t v = 0; v < frames[0][m].size(); ++v) {
-          const double here_m = (frames[0][m][v] - 2.0 * frames[1][m][v] + frames[2][m][v]).norm();
-          if (here_m <= kink_m) continue;
-          kink_m = here_m;
-          where = specimen_.muscles[m].key + " at " + std::to_string(q) + " rad of " + specimen_.joints[j].key;
-        }
+        const double here_m = largest_kink_m(frames[0][m], frames[1][m], frames[2][m]);
+        if (here_m > worst.size_m) worst = {here_m, specimen_.muscles[m].key + " at " + std::to_string(q) + " rad"};
       }
       frames.erase(frames.begin());
     }
   }
-  std::printf("largest kink %.2f mm in %s\n", 1e3 * kink_m, where.c_str());
-  EXPECT_LE(kink_m, kLargestKink_m) << where;
+  std::printf("largest kink %.2f mm in %s\n", 1e3 * worst.size_m, worst.where.c_str());
+  EXPECT_LE(worst.size_m, kLargestKink_m) << worst.where;
 }
 
 /// The same muscles outside a Simulation, for their meshes' sake.

@@ -25,7 +25,7 @@ struct Affine {
 /// Between points of one body the maps are that body's pose exactly. Between points of two bodies the section turns
 /// from the one's rotation to the other's (twist by a smooth step of the way along) and then with the line's own
 /// tangent, taken over a window so that a kink at a via point becomes a bend; across the line it is scaled by the root
-/// of rest length over length, which keeps its volume.
+/// of rest length over length, which keeps its volume. At the end the maps themselves are rounded off over the window.
 class LineFrames {
  public:
   /// At the file pose. `window_m` > 0: length along the line over which tangent and stretch are taken to either side.
