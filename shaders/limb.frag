@@ -32,7 +32,7 @@ float strands(float pixel_m) {
 void main() {
   if (finish.z > 0.5 && !gl_FrontFacing) {
     // The inside, seen through a section, is painted flat: it looks like the cut face.
-    fragment = vec4(mix(tissues[0], laid_over.rgb, laid_over.a) * 0.62, 1.0);
+    fragment = vec4(mix(tissues[0], laid_over.rgb, laid_over.a) * 0.75, 1.0);
     return;
   }
   vec3 right = dFdx(strand_along.xyz), up = dFdy(strand_along.xyz);

@@ -10,6 +10,7 @@
 #include "view/charts/colour_map.h"
 #include "view/look/posing.h"
 #include "view/look/visibility.h"
+#include "view/render/ground_shadow.h"
 #include "view/render/spring_drawing.h"
 #include "view/render/tool_drawing.h"
 
@@ -22,7 +23,7 @@ constexpr glm::vec3 kBelly{0.62f, 0.225f, 0.18f}, kTendon{0.89f, 0.85f, 0.77f}, 
 /// Muscles differ a little in brightness, or neighbours would run into one another.
 constexpr float kBellyVariation = 0.08f;
 constexpr glm::vec4 kLine{0.13f, 0.13f, 0.22f, 1.0f};  // darker than flesh, tendon and all that is laid over them
-constexpr glm::vec4 kFibre{0.98f, 0.92f, 0.84f, 0.80f};
+constexpr glm::vec4 kFibre{0.98f, 0.92f, 0.84f, 0.60f};
 constexpr glm::vec4 kSelected{0.76f, 0.18f, 0.52f, 1.0f}, kHovered{0.36f, 0.36f, 0.42f, 0.9f};
 constexpr float kLineRadius_m = 0.8e-3f;
 constexpr float kSeenThroughLine = 0.30f;  // opacity of what of a line or tool lies inside the limb
@@ -159,6 +160,11 @@ void SceneRenderer::begin(const Picture& picture) {
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
   flat_program_.use();
   flat_program_.set("clip_from_world", picture.clip_from_world);
+  glDepthMask(GL_FALSE);
+  scratch_ = {};
+  add_ground_shadow(scratch_, *specimen_, picture.frame, box_.lowest_m.z);
+  upload_and_draw(shadow_, GL_TRIANGLES);
+  glDepthMask(GL_TRUE);
   draw_again(grid_, GL_LINES);
 }
 

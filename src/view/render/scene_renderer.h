@@ -78,7 +78,7 @@ class SceneRenderer {
   LimbSurfaces limb_;
   std::vector<std::vector<FibreStroke>> strokes_;  // of the muscles
   std::vector<std::vector<float>> levels_;         // of pressure
-  Drawable lines_, tools_, marks_, fibres_, grid_;
+  Drawable lines_, tools_, marks_, fibres_, grid_, shadow_;
   DrawMesh scratch_;
   RenderStatistics statistics_;
 };
