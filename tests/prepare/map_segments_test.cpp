@@ -55,7 +55,7 @@ TEST(MapSegments, OverlooksSideCaseBlanksAndWordsForMuscle) {
 }
 
 TEST(MapSegments, ListsUnknownNamesWithTheNearest) {
-  const SegmentMap map = map_segments(segments_named({"femur", "rectus femoriss", "paw"}), hindlimb(), {});
+  const SegmentMap map = map_segments(segments_named({"femur", "rectus femoriss", "kneecap"}), hindlimb(), {});
   EXPECT_THAT(map.unknown, ElementsAre(1));
   EXPECT_EQ(map.choices[1].nearest.front(), "rectus_femoris");
   EXPECT_THAT([&] { require_all_known(map, "v.nrrd"); },

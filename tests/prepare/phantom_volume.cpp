@@ -69,19 +69,18 @@ std::string phantom_difference(const prepare::LabelVolume& volume, int layer, in
   const prepare::Lattice& lattice = volume.lattice;
   const prepare::Labels& labels = volume.layers[at(layer)];
   if (labels.size() != lattice.size()) return "other number of points";
-  std::size_t point = 0, parts = 0;
-  for (int k = 0; k < lattice.counts[2]; ++k) {
-    for (int j = 0; j < lattice.counts[1]; ++j) {
-      for (int i = 0; i < lattice.counts[0]; ++i, ++point) {
-        const Vec3 specimen_mm = 1e3 * (lattice.origin_m + lattice.steps_m * Vec3(i, j, k));
-        // Cranial is superior, left is left, up is posterior.
-        const int wanted = scale * phantom_label({specimen_mm.y(), specimen_mm.z(), specimen_mm.x()});
-        if (labels[point] != wanted) {
-          return fmt::format("point ({}, {}, {}): {} instead of {}", i, j, k, labels[point], wanted);
-        }
-        parts += wanted != 0 ? 1 : 0;
-      }
+  const std::size_t nx = at(lattice.counts[0]), ny = at(lattice.counts[1]);
+  std::size_t parts = 0;
+  for (std::size_t point = 0; point < labels.size(); ++point) {
+    const std::size_t i = point % nx, j = point / nx % ny, k = point / nx / ny;
+    const Vec3 index(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k));
+    const Vec3 specimen_mm = 1e3 * (lattice.origin_m + lattice.steps_m * index);
+    // Cranial is superior, left is left, up is posterior.
+    const int wanted = scale * phantom_label({specimen_mm.y(), specimen_mm.z(), specimen_mm.x()});
+    if (labels[point] != wanted) {
+      return fmt::format("point ({}, {}, {}): {} instead of {}", i, j, k, labels[point], wanted);
     }
+    parts += wanted != 0 ? 1 : 0;
   }
   return parts > 0 ? "" : "no part";
 }

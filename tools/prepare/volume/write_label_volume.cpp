@@ -101,6 +101,13 @@ struct Box {
   std::array<int, 3> low{std::numeric_limits<int>::max(), std::numeric_limits<int>::max(),
                          std::numeric_limits<int>::max()};
   std::array<int, 3> high{-1, -1, -1};
+
+  void extend(const std::array<int, 3>& point) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], point[axis]);
+      high[axis] = std::max(high[axis], point[axis]);
+    }
+  }
 };
 
 /// Of every label of a layer: the points that it reaches to. Slicer shows nothing outside.
@@ -111,12 +118,7 @@ std::vector<Box> boxes_of(const Labels& labels, const Lattice& lattice) {
   for (p[2] = 0; p[2] < lattice.counts[2]; ++p[2]) {
     for (p[1] = 0; p[1] < lattice.counts[1]; ++p[1]) {
       for (p[0] = 0; p[0] < lattice.counts[0]; ++p[0], ++point) {
-        if (labels[point] == 0) continue;
-        Box& box = boxes[labels[point]];
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          box.low[axis] = std::min(box.low[axis], p[axis]);
-          box.high[axis] = std::max(box.high[axis], p[axis]);
-        }
+        if (labels[point] != 0) boxes[labels[point]].extend(p);
       }
     }
   }
