@@ -29,14 +29,23 @@ double rest_length_m(const anatomy::MuscleLine& line) {
   return length_m;
 }
 
-/// The body that holds every clamped node, point and surface of the line; else -1.
-int only_body(const std::vector<int>& attachment, const anatomy::MuscleLine& line) {
+/// Whether no joint moves the two bodies against each other: one body, or several that are welded.
+bool move_together(const Skeleton& skeleton, int a, int b) {
+  for (int j = 0; j < skeleton.joint_count(); ++j) {
+    if (skeleton.is_distal(a, j) != skeleton.is_distal(b, j)) return false;
+  }
+  return true;
+}
+
+/// A body with which every clamped node, point and surface of the line moves; else -1.
+int only_body(const std::vector<int>& attachment, const anatomy::MuscleLine& line, const Skeleton& skeleton) {
   const int body = line.points.front().body;
-  const auto differs = [&](const auto& part) { return part.body != body; };
+  const auto differs = [&](const auto& part) { return !move_together(skeleton, part.body, body); };
   const bool line_differs = std::any_of(line.points.begin(), line.points.end(), differs) ||
                             std::any_of(line.wraps.begin(), line.wraps.end(), differs);
-  const bool clamps_differ =
-      std::any_of(attachment.begin(), attachment.end(), [&](int clamp) { return clamp >= 0 && clamp != body; });
+  const bool clamps_differ = std::any_of(attachment.begin(), attachment.end(), [&](int clamp) {
+    return clamp >= 0 && !move_together(skeleton, clamp, body);
+  });
   return line_differs || clamps_differ ? -1 : body;
 }
 
@@ -123,13 +132,13 @@ void add_shift(const FollowerTable& table, std::span<const double> angles_rad, E
 }  // namespace
 
 Follower make_follower(const geometry::TetMesh& mesh, const std::vector<int>& attachment,
-                       const anatomy::MuscleLine& line) {
+                       const anatomy::MuscleLine& line, const Skeleton& skeleton) {
   const MeshFields fields = make_mesh_fields(mesh);
   const double radius_m = mean_radius_m(fields, rest_length_m(line));
   const double fade_m = std::max(kShortestFade_m, radius_m);
   Follower follower{LineFrames(line, std::max(kShortestFade_m, radius_m)), {}, {}, -1, {}};
   follower.nodes.resize(mesh.nodes_m.size());
-  follower.only_body = only_body(attachment, line);
+  follower.only_body = only_body(attachment, line, skeleton);
   find_stations(mesh, fields, radius_m, follower);
   find_holds(attachment, fields, fade_m, follower);
   return follower;

@@ -37,13 +37,14 @@ struct Follower {
   LineFrames frames;
   std::vector<FollowerNode> nodes;    // one a node of the mesh
   std::vector<FollowerTable> tables;  // none: line and bodies alone
-  int only_body = -1;                 // the one that all of it rides on; else -1
+  int only_body = -1;                 // with which all of it moves; else -1
   std::vector<double> placed_rad;     // the angles it was placed at last; empty: not yet
 };
 
-/// `attachment`: one a node, body or -1. The mesh has tets with volume, the line at least 2 points.
+/// `attachment`: one a node, body or -1. `skeleton` in any pose. The mesh has tets with volume, the line at least 2
+/// points.
 Follower make_follower(const geometry::TetMesh& mesh, const std::vector<int>& attachment,
-                       const anatomy::MuscleLine& line);
+                       const anatomy::MuscleLine& line, const Skeleton& skeleton);
 
 /// Maps of all nodes in the skeleton's pose, without the tables.
 void follower_maps(const Follower& follower, const Skeleton& skeleton, std::vector<Affine>& maps);

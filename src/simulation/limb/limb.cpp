@@ -39,7 +39,8 @@ Limb::Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> model
     const TissueModel model = models.empty() ? TissueModel::Fem : models[static_cast<std::size_t>(m)];
     muscle.tissue = build_muscle_tissue(specimen, m, model);
     muscle.rigid = model == TissueModel::Rigid || model == TissueModel::Line;
-    if (muscle.rigid) muscle.follower = make_follower(muscle.tissue.mesh, muscle.tissue.body, line_of(specimen, m));
+    if (muscle.rigid)
+      muscle.follower = make_follower(muscle.tissue.mesh, muscle.tissue.body, line_of(specimen, m), skeleton);
     if (model == TissueModel::Line) {
       muscle.line =
           make_line_tissue(specimen.muscles[static_cast<std::size_t>(m)], line_of(specimen, m), skeleton, tendon);
