@@ -19,7 +19,8 @@ const vec4 kWaveLength = vec4(215.0, 429.0, 799.0, 1497.0);  // of these three t
 const vec4 kWaveShare = vec4(0.20, 0.29, 0.28, 0.23);
 const vec3 kBend = vec3(0.5, 0.9, 1.3);  // of the finer waves by the first: else they would look woven
 
-/// -1 .. 1 across the strands. A wave that is shorter than two and a half pixels has faded out: no moire at any distance.
+/// -1 .. 1 across the strands. A wave that is shorter than two and a half pixels has faded out: no moire at any
+/// distance.
 float strands(float pixel_m) {
   vec4 shown = clamp(1.5 - 2.6 * pixel_m * kWaveLength, 0.0, 1.0) * kWaveShare;
   vec4 periods = strand_along.x * kWaveX + strand_along.y * kWaveY + strand_along.z * kWaveZ;
