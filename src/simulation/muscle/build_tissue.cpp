@@ -177,6 +177,19 @@ void add_blend(MuscleTissue& tissue) {
   }
 }
 
+/// Where one body holds both ends, as that of a muscle alone, the nodes nearer to the insertion: else the pulls of both
+/// ends would cancel, and the muscle would seem to have no force.
+void find_insertion_nodes(const anatomy::LinePoint& origin, MuscleTissue& tissue) {
+  const bool one_body = origin.body == tissue.insertion_body;
+  for (int node = 0; node < static_cast<int>(tissue.body.size()); ++node) {
+    if (tissue.body[at(node)] != tissue.insertion_body) continue;
+    const Vec3& rest_m = tissue.mesh.nodes_m[at(node)];
+    const bool nearer_to_origin =
+        (rest_m - origin.position_m).squaredNorm() < (rest_m - tissue.insertion_rest_m).squaredNorm();
+    if (!one_body || !nearer_to_origin) tissue.insertion_nodes.push_back(node);
+  }
+}
+
 }  // namespace
 
 MuscleTissue build_muscle_tissue(const anatomy::Specimen& specimen, int index, TissueModel model) {
@@ -205,6 +218,7 @@ MuscleTissue build_muscle_tissue(const anatomy::Specimen& specimen, int index, T
   const anatomy::LinePoint& before = found->points[found->points.size() - 2];
   tissue.insertion_body = last.body;
   tissue.insertion_rest_m = last.position_m;
+  find_insertion_nodes(found->points.front(), tissue);
   tissue.before_insertion_body = before.body;
   tissue.before_insertion_rest_m = before.position_m;
   if (const auto* wrap = anatomy::wrap_after(*found, found->points.size() - 2)) tissue.insertion_wrap = *wrap;

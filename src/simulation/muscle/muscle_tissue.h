@@ -89,6 +89,7 @@ struct MuscleTissue {
   BoneContact bone_contact;              // none unless the limb puts it there
   int insertion_body = -1;               // of the last point of the muscle's line
   Vec3 insertion_rest_m = Vec3::Zero();  // where the muscle's line ends, and the point before it
+  std::vector<int> insertion_nodes;      // clamped to that body, at that end
   int before_insertion_body = -1;
   Vec3 before_insertion_rest_m = Vec3::Zero();
   std::optional<anatomy::LineWrap> insertion_wrap;  // the surface between the two

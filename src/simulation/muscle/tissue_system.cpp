@@ -289,9 +289,7 @@ void add_nodes(const Pass& pass) {
 void add_tension(const Pass& pass) {
   const MuscleTissue& tissue = pass.tissue;
   Vec3 hold = Vec3::Zero();  // holds the insertion's clamped nodes against the tissue
-  for (int node = 0; node < static_cast<int>(tissue.body.size()); ++node) {
-    if (tissue.body[at(node)] == tissue.insertion_body) hold += node_vector(pass.system.internal_N, node);
-  }
+  for (const int node : tissue.insertion_nodes) hold += node_vector(pass.system.internal_N, node);
   const auto stop = [&](int body, const Vec3& rest_m) {
     return LineStop{body, pass.skeleton.body_pose(body) * rest_m};
   };
