@@ -1,6 +1,6 @@
 #!/bin/sh
-# Makes the embedded specimens anew: plane, plate, pad, particle and spring; and from the figures in assets/canine the whole fore- and hindlimb
-# as far as one elliptical centreline describes their muscles. The same machine gives the same bytes. meshes/canine_elbow
+# Makes the embedded specimens anew: plane, plate, pad, particle and spring; both whole limbs from their volumes in
+# assets/canine; and, as far as one elliptical centreline describes their muscles, fore- and hindlimb from the figures there. The same machine gives the same bytes. meshes/canine_elbow
 # was made before neighbouring muscles were parted; tests and figures rest on it. Its lines are those that
 # `loft elbow.json` gives today. Tetrahedra and lines of meshes/canine_forelimb are of an earlier rule.
 # Usage: tools/make_specimens.sh [BUILD_FOLDER [OUTPUT]]      (build all first; default: build meshes)
@@ -17,6 +17,12 @@ loft() {
   "$prepare" loft "$root/assets/canine/$1.json" -o "$output/canine_$1"
   rm "$output/canine_$1/report.html" # pictures are no sources
 }
+whole() {
+  "$prepare" "$root/assets/canine/$1.seg.nrrd" --recipe "$root/assets/canine/$1.json" -o "$output/canine_whole_$1"
+  rm "$output/canine_whole_$1/report.html"
+}
 loft forelimb
 loft hindlimb
+whole forelimb
+whole hindlimb
 "$build/tools/plain_specimens/myotact-plain-specimens" "$output"

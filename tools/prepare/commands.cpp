@@ -14,11 +14,13 @@
 #include "prepare/finish_limb.h"
 #include "prepare/loft/loft.h"
 #include "prepare/prepare_unknown.h"
+#include "prepare/prepare_volume.h"
 #include "prepare/recipe/make_limb.h"
 #include "prepare/recipe/read_recipe.h"
 #include "prepare/recipe/read_scan.h"
 #include "prepare/recipe/surface_files.h"
 #include "prepare/recipe/units_and_frame.h"
+#include "prepare/volume/read_label_volume.h"
 
 namespace myotact::prepare {
 
@@ -116,7 +118,9 @@ int prepare_scan(const Options& options) {
   else if (!guessing)
     recipe = choose_recipe(options.inputs);
   return unless_interrupted([&] {
-    if (recipe)
+    if (is_label_volume(options.inputs.front()))
+      prepare_volume(options);
+    else if (recipe)
       prepare_folder(options, *recipe, options.inputs, options.output, companions_of(options));
     else
       prepare_unknown(options);

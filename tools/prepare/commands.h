@@ -19,7 +19,10 @@ struct Options {
   std::filesystem::path write_recipe;  // where the guessed recipe goes as well; empty: nowhere
   bool guess = false;                  // no recipe, even if one knows some of the names
   bool ask = false;                    // on the terminal, what the surfaces do not say
-  std::string until;                   // last stage, whose result is written instead of a specimen; empty: all of them
+  std::filesystem::path segments;      // table that says which part each segment of a volume is; empty: by their names
+  std::filesystem::path write_segments;  // where that table goes, to be edited; empty: nowhere
+  double step_mm = 1.0;                  // of a measured volume
+  std::string until;  // last stage, whose result is written instead of a specimen; empty: all of them
   bool mirror = false;
   bool json = false;
   PrepareSettings settings;
@@ -32,6 +35,8 @@ std::vector<std::string> stages_to_stop_at();
 int prepare_scan(const Options& options);
 /// The recipe's own sections and outlines in, a specimen out.
 int prepare_loft(const Options& options);
+/// Surfaces and a recipe in, a volume of parts out.
+int measure_volume(const Options& options);
 /// The canine data set's two whole limbs, from its full meshes.
 int import_canine(const Options& options);
 /// Every violation of a specimen, with file, place and value.

@@ -47,6 +47,7 @@ struct MuscleWork {
 struct LimbWork {
   AnatomyData anatomy;
   PrepareSettings settings;
+  bool shares_borders = false;  // cut from a volume: repaired, parted and remeshed, neighbours share their triangles
   std::vector<BoneWork> bones;
   std::vector<MuscleWork> muscles;
   std::vector<std::string> notes;                             // on reading, units and frame

@@ -44,7 +44,8 @@ int main(int argc, char** argv) {
   add_common(program, options);
   add_until(program, options);
   program.add_option("scan", options.inputs,
-                     "folder with bones/ and muscles/, or surface files (STL, OBJ, PLY, OFF, VTK), and .mrk.json");
+                     "folder with bones/ and muscles/, or surface files (STL, OBJ, PLY, OFF, VTK), and .mrk.json; "
+                     "or one segmented volume (NRRD, NIfTI, MetaImage)");
   program.add_option("--recipe", options.recipe, "JSON file that names parts, joints and attachments");
   program.add_option("--units", options.units, "of the scan; guessed from its size when left out")
       ->check(CLI::IsMember({"m", "cm", "mm", "in"}));
@@ -52,6 +53,20 @@ int main(int argc, char** argv) {
   program.add_option("--bones", options.bones, "parts that are bones; all others are muscles: A,B,...")->delimiter(',');
   program.add_flag("--ask", options.ask, "ask on the terminal what the surfaces do not say");
   program.add_option("--write-recipe", options.write_recipe, "JSON file for the guessed recipe, to be edited");
+  program.add_option("--segments", options.segments, "CSV table: which part each segment of a volume is");
+  program.add_option("--write-segments", options.write_segments, "where to write that table, to be edited");
+  CLI::App* measure = program.add_subcommand("measure", "make a segmented volume from surfaces");
+  measure->add_option("scan", options.inputs, "folder with bones/ and muscles/, or surface files")->required();
+  measure->add_option("-o,--output", options.output, "NAME.seg.nrrd to write; NAME.margins.nrrd goes beside it")
+      ->required();
+  measure->add_option("--recipe", options.recipe, "JSON file that names the parts")->required();
+  measure->add_option("--units", options.units, "of the scan; guessed from its size when left out")
+      ->check(CLI::IsMember({"m", "cm", "mm", "in"}));
+  measure->add_option("--step", options.step_mm, "between lattice points [mm]")
+      ->check(CLI::Range(0.1, 10.0))
+      ->capture_default_str();
+  measure->add_option("--threads", options.settings.threads, "the result does not depend on their number")
+      ->check(CLI::Range(1, 64));
   CLI::App* loft = program.add_subcommand("loft", "make the surfaces from a recipe's own sections and outlines");
   loft->add_option("recipe", options.recipe, "RECIPE.json")->required();
   add_common(*loft, options);
@@ -69,6 +84,7 @@ int main(int argc, char** argv) {
   try {
     start_log("info");
     prepare::watch_for_interruption();
+    if (measure->parsed()) return prepare::measure_volume(options);
     if (loft->parsed()) return prepare_loft(options);
     if (import->parsed()) return import_canine(options);
     if (check->parsed()) return check_specimen(options);

@@ -14,18 +14,19 @@ namespace {
 struct Stage {
   const char* name;
   void (*run)(LimbWork&, const PartDone&);
-  bool with_bones;  // bones are parts of it, too
-  double share;     // of the whole time, measured on the canine forelimb
+  bool with_bones;   // bones are parts of it, too
+  bool for_volumes;  // parts that were cut from a volume need it, too
+  double share;      // of the whole time, measured on the canine forelimb
 };
 
-constexpr std::array<Stage, 8> kStages = {{{"repair", repair_surfaces, true, 0.02},
-                                           {"part", part_muscles, false, 0.30},
-                                           {"remesh", remesh_surfaces, true, 0.40},
-                                           {"tetrahedralise", fill_cages, false, 0.20},
-                                           {"attach", attach_muscles, false, 0.01},
-                                           {"fibres", lay_fibres, false, 0.01},
-                                           {"lines", trace_lines, false, 0.01},
-                                           {"skins", settle_skins, false, 0.05}}};
+constexpr std::array<Stage, 8> kStages = {{{"repair", repair_surfaces, true, false, 0.02},
+                                           {"part", part_muscles, false, false, 0.30},
+                                           {"remesh", remesh_surfaces, true, false, 0.40},
+                                           {"tetrahedralise", fill_cages, false, true, 0.20},
+                                           {"attach", attach_muscles, false, true, 0.01},
+                                           {"fibres", lay_fibres, false, true, 0.01},
+                                           {"lines", trace_lines, false, true, 0.01},
+                                           {"skins", settle_skins, false, false, 0.05}}};
 
 std::vector<int> muscles_of(const anatomy::Specimen& specimen, const std::vector<std::string>& keys) {
   std::vector<int> muscles;
@@ -102,6 +103,11 @@ std::vector<std::string> stage_names() {
 void run_stages(LimbWork& limb, const std::string& last, const OnProgress& on_progress) {
   double before = 0.0;
   for (const Stage& stage : kStages) {
+    if (limb.shares_borders && !stage.for_volumes) {
+      before += stage.share;
+      if (stage.name == last) return;
+      continue;
+    }
     std::mutex mutex;
     Progress progress{stage.name, 0, static_cast<int>(limb.muscles.size()), before};
     if (stage.with_bones) progress.parts += static_cast<int>(limb.bones.size());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -22,6 +23,7 @@ class BlockLattice {
 
   std::size_t size() const { return static_cast<std::size_t>(counts_.cast<std::ptrdiff_t>().prod()); }
   double spacing_m() const { return spacing_m_; }
+  std::array<int, 3> counts() const { return {counts_[0], counts_[1], counts_[2]}; }
   /// All but the outermost layer.
   Eigen::AlignedBox3d inner_box() const { return {place_of(Eigen::Array3i::Ones()), place_of(counts_ - 2)}; }
   Vec3 place_of(std::size_t node) const { return place_of(index_of(node)); }

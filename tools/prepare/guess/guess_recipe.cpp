@@ -53,14 +53,14 @@ void check_surface(const NamedSurface& part) {
   }
 }
 
-const KnownPart* named(const std::string& key, const KnownParts& known) {
-  const auto found = std::find_if(known.begin(), known.end(), [&](const KnownPart& part) { return part.key == key; });
+const NamedPart* named(const std::string& key, const KnownParts& known) {
+  const auto found = std::find_if(known.begin(), known.end(), [&](const NamedPart& part) { return part.key == key; });
   return found == known.end() ? nullptr : &*found;
 }
 
 anatomy::Muscle mechanics_of(const NamedSurface& muscle, double length_m, const KnownParts& known) {
   anatomy::Muscle m;
-  const KnownPart* part = named(muscle.key, known);
+  const NamedPart* part = named(muscle.key, known);
   m.key = muscle.key;
   m.name_la = part ? part->name_la : spoken_name(muscle.key);
   m.name_en = part ? part->name_en : spoken_name(muscle.key);
@@ -174,9 +174,9 @@ class Guesser {
     const auto& bones = strangers_.bones;
     for (int b = 0; b < static_cast<int>(bones.size()); ++b) {
       const std::string& key = bones[at(b)].key;
-      const KnownPart* part = named(key, known_);
+      const NamedPart* part = named(key, known_);
       const std::string name = spoken_name(key);
-      result_.anatomy.bones.push_back({key, part ? part->name_la : name, part ? part->name_en : name, b, ""});
+      result_.anatomy.bones.push_back({key, part ? part->name_la : name, part ? part->name_en : name, b, "", {}});
       distances_.emplace_back(bones[at(b)].surface);
       tell_of_name(key, fmt::format("/bones/{}/key", b));
     }

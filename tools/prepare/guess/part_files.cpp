@@ -68,21 +68,21 @@ void check_names(const std::vector<std::string>& bones, const std::vector<fs::pa
   }
 }
 
-void set_kind(PartFile& part, const std::vector<std::string>& bones, const KnownPart* known) {
+void set_kind(PartFile& part, const std::vector<std::string>& bones, const NamedPart* known) {
   if (!bones.empty()) {
     part.bone = std::any_of(bones.begin(), bones.end(),
                             [&](const std::string& bone) { return part_key(bone) == part_key(part.name); });
     part.sure = true;
     return;
   }
-  const PartKind kind = kind_by_name(part.name);
+  const LikelyKind kind = kind_by_name(part.name);
   part.sure = true;
   if (lies_sorted(part.path))
     part.bone = holder_of(part.path) == "bones";
   else if (known)
     part.bone = known->bone;
   else
-    part.bone = kind == PartKind::Bone, part.sure = kind != PartKind::Unknown;
+    part.bone = kind == LikelyKind::Bone, part.sure = kind != LikelyKind::Unknown;
 }
 
 /// Keys become names of files: a second one of a kind gets a number.

@@ -55,7 +55,7 @@ std::string bare(std::string_view name) {
   return text.substr(0, kLongestKey);
 }
 
-std::vector<std::string> all_names(const KnownPart& part) {
+std::vector<std::string> all_names(const NamedPart& part) {
   std::vector<std::string> names = {part.key, part.name_la, part.name_en};
   names.insert(names.end(), part.synonyms.begin(), part.synonyms.end());
   // "fore.flexor_digitorum_profundus": the limb is no part of the name.
@@ -73,19 +73,19 @@ std::string part_key(std::string_view name) {
   return key.empty() ? "part" : key.substr(0, kLongestKey);
 }
 
-PartKind kind_by_name(std::string_view name) {
+LikelyKind kind_by_name(std::string_view name) {
   const std::vector<std::string> words = plain_words(name);
   const auto is_one_of = [&](const std::set<std::string>& set) {
     return std::any_of(words.begin(), words.end(), [&](const std::string& word) { return set.contains(word); });
   };
-  if (is_one_of(kMuscleWords)) return PartKind::Muscle;  // "flexor carpi radialis", "tendon of the patella"
-  if (is_one_of(kBoneWords)) return PartKind::Bone;
+  if (is_one_of(kMuscleWords)) return LikelyKind::Muscle;  // "flexor carpi radialis", "tendon of the patella"
+  if (is_one_of(kBoneWords)) return LikelyKind::Bone;
   for (const std::string& word : words) {
     for (const char* beginning : kBoneBeginnings) {
-      if (word.starts_with(beginning)) return PartKind::Bone;
+      if (word.starts_with(beginning)) return LikelyKind::Bone;
     }
   }
-  return PartKind::Unknown;
+  return LikelyKind::Unknown;
 }
 
 std::optional<std::size_t> find_known(std::string_view name, const KnownParts& known) {
@@ -104,7 +104,7 @@ std::optional<std::size_t> find_known(std::string_view name, const KnownParts& k
 std::vector<std::string> similar_parts(std::string_view name, const KnownParts& known) {
   const std::string wanted = bare(name);
   std::vector<std::pair<double, std::string>> ranked;
-  for (const KnownPart& part : known) {
+  for (const NamedPart& part : known) {
     double least = 1.0;
     for (const std::string& other : all_names(part)) {
       const std::string there = bare(other);

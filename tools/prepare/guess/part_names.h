@@ -10,20 +10,20 @@
 namespace myotact::prepare {
 
 /// A part that the program has names for, and every word for it.
-struct KnownPart {
+struct NamedPart {
   std::string key, name_la, name_en;
   bool bone = false;
   std::vector<std::string> synonyms;
 };
-using KnownParts = std::vector<KnownPart>;
+using KnownParts = std::vector<NamedPart>;
 
 /// A name as a legal key: small letters and digits, anything else as one "_"; "part" where nothing is left.
 std::string part_key(std::string_view name);
 
-enum class PartKind { Bone, Muscle, Unknown };
+enum class LikelyKind { Bone, Muscle, Unknown };
 
 /// By words that only bones have ("os", "femur", "phalanx") or only muscles ("musculus", "flexor").
-PartKind kind_by_name(std::string_view name);
+LikelyKind kind_by_name(std::string_view name);
 
 /// The index of the part that the name means: its key, Latin or English name or a synonym, whatever the capitals and
 /// signs between, with or without side ("left", "L", "sin"), "musculus", "os", "muscle", "bone". Nothing when there is

@@ -1,12 +1,11 @@
 #include "prepare/part/film.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <queue>
 
 #include "prepare/field/block_lattice.h"
-#include "prepare/part/simple_point.h"
+#include "prepare/part/hollow_out.h"
+#include "prepare/part/node_steps.h"
 #include "prepare/surface/surface_pieces.h"
 
 namespace myotact::prepare {
@@ -26,25 +25,8 @@ constexpr double kNearEnd = 1.8;
 /// Distances to the film are followed so far, in spacings: far enough for whole blocks to be passed over.
 constexpr int kFollowed = 6;
 
-/// From a node to those around it; the node is not in the outermost layer.
-struct Steps {
-  std::array<std::ptrdiff_t, 27> block{};  // by bit of a Neighbourhood
-  std::vector<std::ptrdiff_t> linked;      // those of kLink
-
-  explicit Steps(const BlockLattice& lattice) {
-    for (int bit = 0; bit < 27; ++bit) {
-      const std::ptrdiff_t step = lattice.offset_to(bit % 3 - 1, bit / 3 % 3 - 1, bit / 9 - 1);
-      block[static_cast<std::size_t>(bit)] = step;
-      if ((kLink >> bit & 1U) != 0) linked.push_back(step);
-    }
-  }
-  static std::size_t go(std::size_t node, std::ptrdiff_t step) {
-    return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(node) + step);
-  }
-};
-
 /// The pieces of the nodes that are left, the largest first; none is in the outermost layer.
-std::vector<std::vector<std::size_t>> pieces_of_nodes(const Steps& steps, const std::vector<bool>& left) {
+std::vector<std::vector<std::size_t>> pieces_of_nodes(const NodeSteps& steps, const std::vector<bool>& left) {
   std::vector<bool> seen(left.size(), false);
   std::vector<std::vector<std::size_t>> pieces;
   for (std::size_t start = 0; start < left.size(); ++start) {
@@ -53,7 +35,7 @@ std::vector<std::vector<std::size_t>> pieces_of_nodes(const Steps& steps, const 
     seen[start] = true;
     for (std::size_t i = 0; i < piece.size(); ++i) {
       for (const std::ptrdiff_t step : steps.linked) {
-        const std::size_t next = Steps::go(piece[i], step);
+        const std::size_t next = NodeSteps::go(piece[i], step);
         if (!left[next] || seen[next]) continue;
         seen[next] = true;
         piece.push_back(next);
@@ -65,7 +47,7 @@ std::vector<std::vector<std::size_t>> pieces_of_nodes(const Steps& steps, const 
 }
 
 /// The nodes of the largest piece and of those that come near a loose end.
-std::vector<bool> nodes_to_keep(const BlockLattice& lattice, const Steps& steps, const std::vector<bool>& left,
+std::vector<bool> nodes_to_keep(const BlockLattice& lattice, const NodeSteps& steps, const std::vector<bool>& left,
                                 const std::vector<Vec3>& loose_ends) {
   std::vector<bool> kept(left.size(), false);
   bool largest = true;
@@ -81,37 +63,6 @@ std::vector<bool> nodes_to_keep(const BlockLattice& lattice, const Steps& steps,
     for (const std::size_t node : piece) kept[node] = true;
   }
   return kept;
-}
-
-/// What is left of a full block when all nodes but `kept` that can go without opening a handle are gone, dear ones
-/// first.
-std::vector<bool> hollow_out(const BlockLattice& lattice, const Steps& steps, const std::vector<bool>& kept,
-                             const std::vector<float>& cost) {
-  std::vector<bool> body(kept.size(), true), waits(kept.size(), false);
-  std::priority_queue<std::pair<float, std::size_t>> border;
-  const auto reach = [&](std::size_t node) {
-    if (!body[node] || kept[node] || waits[node]) return;
-    waits[node] = true;
-    border.emplace(cost[node], node);
-  };
-  for (std::size_t node = 0; node < kept.size(); ++node) {
-    const int layer = lattice.layer_of(node);
-    if (layer == 0) body[node] = false;
-    if (layer == 1) reach(node);
-  }
-  while (!border.empty()) {
-    const std::size_t node = border.top().second;
-    border.pop();
-    waits[node] = false;
-    Neighbourhood around = 0;
-    for (std::size_t bit = 0; bit < steps.block.size(); ++bit) {
-      around |= Neighbourhood{body[Steps::go(node, steps.block[bit])]} << bit;
-    }
-    if (!is_simple(around)) continue;  // comes up again when something beside it goes
-    body[node] = false;
-    for (const std::ptrdiff_t step : steps.linked) reach(Steps::go(node, step));
-  }
-  return body;
 }
 
 }  // namespace
@@ -136,9 +87,9 @@ Film::Film(const PiercedBody& body, double spacing_m) : lattice_(body.box, spaci
   lattice_.sample(near_bone, [&](std::size_t node, double value_m) {
     if (value_m > 0.0) cost[node] += static_cast<float>(kInBone_m + value_m);
   });
-  const Steps steps(lattice_);
+  const NodeSteps steps(lattice_.counts());
   const std::vector<bool> kept = nodes_to_keep(lattice_, steps, left, body.loose_ends);
-  const std::vector<bool> closed = hollow_out(lattice_, steps, kept, cost);
+  const std::vector<bool> closed = hollow_out(lattice_.counts(), kept, cost);
   for (std::size_t node = 0; node < closed.size(); ++node) {
     if (closed[node] && !kept[node]) nodes_.push_back(node);
   }

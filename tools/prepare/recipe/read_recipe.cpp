@@ -15,8 +15,10 @@ namespace {
 
 BoneData read_bone(const JsonValue& value, const AnatomyData& data) {
   JsonObject fields(value);
-  BoneData bone{fields.at("key").string(), fields.at("name_la").string(), fields.at("name_en").string(),
-                index_of(fields.at("body"), data.bodies, "body"), fields.string_or("file", "")};
+  BoneData bone{fields.at("key").string(),     fields.at("name_la").string(),
+                fields.at("name_en").string(), index_of(fields.at("body"), data.bodies, "body"),
+                fields.string_or("file", ""),  {}};
+  if (const auto piece = fields.find("piece_m")) bone.piece_m = piece->vec3();
   fields.finish();
   return bone;
 }

@@ -10,7 +10,9 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "geometry/mesh_files.h"
+#include "geometry/triangle_tree.h"
 #include "prepare/recipe/surface_files.h"
+#include "prepare/surface/surface_pieces.h"
 
 namespace myotact::prepare {
 
@@ -23,6 +25,7 @@ struct Wanted {
   std::string name;
   std::string key;
   bool muscle = false;
+  std::optional<Vec3> piece_m = {};  // see BoneData
 };
 
 std::string without_extension(const std::string& file) {
@@ -32,7 +35,8 @@ std::string without_extension(const std::string& file) {
 std::vector<Wanted> wanted_by(const AnatomyData& recipe) {
   std::vector<Wanted> wanted;
   for (const BoneData& bone : recipe.bones) {
-    wanted.push_back({bone.file.empty() ? "bones/" + bone.key : without_extension(bone.file), bone.key, false});
+    wanted.push_back(
+        {bone.file.empty() ? "bones/" + bone.key : without_extension(bone.file), bone.key, false, bone.piece_m});
   }
   for (const MuscleData& muscle : recipe.muscles) {
     const std::string& key = muscle.mechanics.key;
@@ -81,6 +85,10 @@ class Collector {
       if (!found_[i]) continue;
       geometry::SurfaceFile file = geometry::read_surface(*found_[i]);
       for (const std::string& note : file.notes) scan_.notes.push_back(wanted_[i].name + ": " + note);
+      if (wanted_[i].piece_m) {
+        add_pieces(file.mesh, wanted_[i].name);
+        continue;
+      }
       (wanted_[i].muscle ? scan_.muscles : scan_.bones).push_back({wanted_[i].key, std::move(file.mesh)});
     }
     if (!strangers_.empty())
@@ -97,6 +105,25 @@ class Collector {
   }
 
  private:
+  /// One file, several bones: every piece goes to the bone that names the nearest place.
+  void add_pieces(const geometry::TriangleMesh& surface, const std::string& name) {
+    std::map<std::size_t, geometry::TriangleMesh> bones;  // by place in wanted_
+    for (const geometry::TriangleMesh& piece : pieces_of(surface)) {
+      const geometry::TriangleTree tree(piece);
+      std::size_t nearest = wanted_.size();
+      double least_m = 0.0;
+      for (std::size_t i = 0; i < wanted_.size(); ++i) {
+        if (wanted_[i].name != name || !wanted_[i].piece_m) continue;
+        const double away_m = tree.nearest(*wanted_[i].piece_m, piece.positions_m).distance_m;
+        if (nearest < wanted_.size() && away_m >= least_m) continue;
+        nearest = i;
+        least_m = away_m;
+      }
+      append(bones[nearest], piece);
+    }
+    for (auto& [i, bone] : bones) scan_.bones.push_back({wanted_[i].key, std::move(bone)});
+  }
+
   std::vector<Wanted> wanted_;
   std::vector<std::optional<fs::path>> found_;
   std::map<std::string, std::string> left_out_;  // name -> why

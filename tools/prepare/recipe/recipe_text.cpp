@@ -28,6 +28,7 @@ Json json_of(const BoneData& bone, const AnatomyData& anatomy) {
                {"name_en", bone.name_en},
                {"body", anatomy.bodies[at(bone.body)].key}};
   if (!bone.file.empty()) json["file"] = bone.file;
+  if (bone.piece_m) json["piece_m"] = json_of(*bone.piece_m);
   return json;
 }
 

@@ -1,0 +1,75 @@
+#include "prepare/partition/cut_parts.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/at.h"
+#include "core/error.h"
+#include "prepare/parallel.h"
+#include "prepare/partition/give_back_volumes.h"
+#include "prepare/partition/interfaces.h"
+#include "prepare/partition/simplify_interfaces.h"
+#include "prepare/remesh/crossing_triangles.h"
+
+namespace myotact::prepare {
+
+namespace {
+
+/// In steps of the lattice; at a millimetre these are as for limbs that come as surfaces (fine_surface.h).
+constexpr SimplifySettings kFine{0.15, 7.0};
+constexpr SimplifySettings kSkin{0.3, 9.0};
+/// Where triangles came to cross, all within this many steps stay as they were cut.
+constexpr double kKept = 3.0;
+constexpr int kRounds = 5;
+/// More crossings of one part than this say no more about where to leave it alone.
+constexpr unsigned kMostCrossings = 1000;
+
+/// A place of each pair of triangles that cross, in all parts.
+std::vector<Vec3> crossings(const std::vector<geometry::TriangleMesh>& surfaces, int threads) {
+  std::vector<std::vector<Vec3>> found_m(surfaces.size());
+  for_each_index(surfaces.size(), threads, [&](std::size_t p) {
+    for (const auto& [a, b] : crossing_triangles(surfaces[p], kMostCrossings)) {
+      for (const int t : {a, b}) {
+        for (const int v : surfaces[p].triangles[at(t)]) found_m[p].push_back(surfaces[p].positions_m[at(v)]);
+      }
+    }
+  });
+  std::vector<Vec3> all_m;
+  for (const auto& places_m : found_m) all_m.insert(all_m.end(), places_m.begin(), places_m.end());
+  return all_m;
+}
+
+/// Simplified so far that no part crosses itself.
+Interfaces simplify_without_crossings(const Interfaces& interfaces, const PartVolume& volume, SimplifySettings settings,
+                                      const std::vector<double>& volumes_m3, int threads,
+                                      std::vector<geometry::TriangleMesh>& surfaces) {
+  const double step = step_m(volume.lattice);
+  settings.tolerance_m *= step;
+  settings.longest_edge_m *= step;
+  std::vector<Vec3> kept_m;
+  for (int round = 0; round < kRounds; ++round) {
+    Interfaces simple = simplify(interfaces, settings, kept_m, kKept * step, threads);
+    give_back_volumes(volumes_m3, simple);
+    surfaces = surfaces_of(simple, static_cast<int>(volume.keys.size()));
+    const std::vector<Vec3> found_m = crossings(surfaces, threads);
+    if (found_m.empty()) return simple;
+    kept_m.insert(kept_m.end(), found_m.begin(), found_m.end());
+  }
+  throw bad_data("volume", "borders",
+                 fmt::format("cross themselves near {:.1f} {:.1f} {:.1f} mm; smooth the segmentation there",
+                             1e3 * kept_m.back().x(), 1e3 * kept_m.back().y(), 1e3 * kept_m.back().z()));
+}
+
+}  // namespace
+
+CutParts cut_parts(const PartVolume& volume, int threads) {
+  CutParts parts;
+  const Interfaces cut = cut_interfaces(volume);
+  const std::vector<double> volumes_m3 = enclosed_volumes_m3(cut, volume.keys.size());
+  const Interfaces fine = simplify_without_crossings(cut, volume, kFine, volumes_m3, threads, parts.fine);
+  simplify_without_crossings(fine, volume, kSkin, volumes_m3, threads, parts.skins);
+  return parts;
+}
+
+}  // namespace myotact::prepare

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "prepare/partition/interfaces.h"
+
+namespace myotact::prepare {
+
+/// Volumes of labels 1 to `parts` [m3].
+std::vector<double> enclosed_volumes_m3(const Interfaces& interfaces, std::size_t parts);
+
+/// Fewer triangles cut rounded bodies short: each part is moved out along its normals, all over where it borders on no
+/// other part, until it has its volume. Borders between parts stay.
+void give_back_volumes(const std::vector<double>& volumes_m3, Interfaces& interfaces);
+
+}  // namespace myotact::prepare

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/vector.h"
+#include "prepare/volume/label_volume.h"
+
+namespace myotact::prepare {
+
+/// Margins are counted in this part of a step: surfaces are good to a thirtieth of a step, and the margins of a limb at
+/// one millimetre take less than twice the room of its labels.
+constexpr double kMarginsPerStep = 16.0;
+/// Nothing that is this many steps from a border has an edge across it.
+constexpr double kLargestMargin = 2.0;
+
+/// Parts that share space without gap or overlap: each lattice point belongs to one part or to none, and knows how far
+/// it is to the border with its neighbours. Steps are equal and at right angles.
+struct PartVolume {
+  Lattice lattice;
+  std::vector<std::string> keys;      // of labels 1, 2, ...
+  Labels labels;                      // 0: none
+  std::vector<std::uint8_t> margins;  // in kMarginsPerStep-ths of a step; any number where all neighbours are alike
+};
+
+inline double step_m(const Lattice& lattice) {
+  return lattice.steps_m.col(0).norm();
+}
+
+/// Place of a point of the lattice, not necessarily a whole one.
+inline Vec3 place_m(const Lattice& lattice, const Vec3& index) {
+  return lattice.origin_m + lattice.steps_m * index;
+}
+
+inline std::array<int, 3> index_of(const Lattice& lattice, std::size_t point) {
+  const auto nx = static_cast<std::size_t>(lattice.counts[0]), ny = static_cast<std::size_t>(lattice.counts[1]);
+  return {static_cast<int>(point % nx), static_cast<int>(point / nx % ny), static_cast<int>(point / nx / ny)};
+}
+
+inline Vec3 place_m(const Lattice& lattice, std::size_t point) {
+  const auto [x, y, z] = index_of(lattice, point);
+  return place_m(lattice, Vec3(x, y, z));
+}
+
+}  // namespace myotact::prepare

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "prepare/partition/interfaces.h"
+
+namespace myotact::prepare {
+
+struct SimplifySettings {
+  double tolerance_m = 0.0;     // root mean square distance of a vertex from the triangles it stands for
+  double longest_edge_m = 0.0;  // no edge grows beyond this
+};
+
+/// Fewer triangles on the same interfaces: edges are collapsed, those first that matter least to the shape (quadric
+/// error, Garland and Heckbert 1997), once for all parts, so that neighbours go on sharing their triangles. Lines where
+/// three parts meet collapse along themselves only, places where four meet stay (Dey and others 1999: the link
+/// condition in each). No part changes its topology. Vertices within `keep_m` of one of the places stay as they are.
+/// Slabs are simplified apart, then their seams; the result does not depend on the number of threads.
+Interfaces simplify(const Interfaces& interfaces, const SimplifySettings& settings, const std::vector<Vec3>& places_m,
+                    double keep_m, int threads);
+
+}  // namespace myotact::prepare
