@@ -21,7 +21,9 @@ constexpr SimplifySettings kFine{0.15, 7.0};
 constexpr SimplifySettings kSkin{0.3, 9.0};
 /// Where triangles came to cross, all within this many steps stay as they were cut.
 constexpr double kKept = 3.0;
-constexpr int kRounds = 5;
+constexpr int kRounds = 6;
+/// Vertices move no farther than this when volumes are given back [steps]: more could bring thin parts' sides together.
+constexpr double kMostGiven = 0.1;
 /// More crossings of one part than this say no more about where to leave it alone.
 constexpr unsigned kMostCrossings = 1000;
 
@@ -49,8 +51,9 @@ Interfaces simplify_without_crossings(const Interfaces& interfaces, const PartVo
   settings.longest_edge_m *= step;
   std::vector<Vec3> kept_m;
   for (int round = 0; round < kRounds; ++round) {
-    Interfaces simple = simplify(interfaces, settings, kept_m, kKept * step, threads);
-    give_back_volumes(volumes_m3, simple);
+    const NearPlaces kept(kept_m, kKept * step);
+    Interfaces simple = simplify(interfaces, settings, kept, threads);
+    give_back_volumes(volumes_m3, kMostGiven * step, kept, simple);
     surfaces = surfaces_of(simple, static_cast<int>(volume.keys.size()));
     const std::vector<Vec3> found_m = crossings(surfaces, threads);
     if (found_m.empty()) return simple;

@@ -1,5 +1,7 @@
 #include "prepare/partition/give_back_volumes.h"
 
+#include <algorithm>
+
 #include <Eigen/Geometry>
 
 #include "core/at.h"
@@ -14,13 +16,16 @@ constexpr int kRounds = 2;
 /// What a vertex borders on, if not on one part and nothing alone.
 constexpr int kNone = -1, kBorder = -2;
 
-std::vector<int> free_parts(const Interfaces& interfaces) {
+std::vector<int> free_parts(const Interfaces& interfaces, const NearPlaces& kept) {
   std::vector<int> part(interfaces.positions_m.size(), kNone);
   for (const auto& [vertices, inner, outer] : interfaces.faces) {
     for (const int v : vertices) {
       const bool alone = outer == 0 && (part[at(v)] == kNone || part[at(v)] == inner);
       part[at(v)] = alone ? inner : kBorder;
     }
+  }
+  for (std::size_t v = 0; v < part.size(); ++v) {
+    if (part[v] > 0 && kept.contain(interfaces.positions_m[v])) part[v] = kBorder;
   }
   return part;
 }
@@ -47,8 +52,9 @@ std::vector<double> enclosed_volumes_m3(const Interfaces& interfaces, std::size_
   return volumes_m3;
 }
 
-void give_back_volumes(const std::vector<double>& volumes_m3, Interfaces& interfaces) {
-  const std::vector<int> part = free_parts(interfaces);
+void give_back_volumes(const std::vector<double>& volumes_m3, double most_m, const NearPlaces& kept,
+                       Interfaces& interfaces) {
+  const std::vector<int> part = free_parts(interfaces, kept);
   for (int round = 0; round < kRounds; ++round) {
     const std::vector<double> now_m3 = enclosed_volumes_m3(interfaces, volumes_m3.size());
     std::vector<Vec3> normals(interfaces.positions_m.size(), Vec3::Zero());
@@ -64,7 +70,8 @@ void give_back_volumes(const std::vector<double>& volumes_m3, Interfaces& interf
     for (std::size_t v = 0; v < normals.size(); ++v) {
       if (part[v] < 0 || normals[v].isZero()) continue;
       const std::size_t p = at(part[v] - 1);
-      interfaces.positions_m[v] += (volumes_m3[p] - now_m3[p]) / moving_m2[p] * normals[v].normalized();
+      const double way_m = std::clamp((volumes_m3[p] - now_m3[p]) / moving_m2[p], -most_m, most_m);
+      interfaces.positions_m[v] += way_m * normals[v].normalized();
     }
   }
 }

@@ -62,11 +62,9 @@ class Simplifier {
     weigh();
   }
 
-  void freeze(const std::vector<Vec3>& places_m, double keep_m) {
-    for (std::size_t v = 0; v < frozen_.size() && !places_m.empty(); ++v) {
-      frozen_[v] = std::any_of(places_m.begin(), places_m.end(), [&](const Vec3& place_m) {
-        return (mesh_.positions_m[v] - place_m).squaredNorm() < keep_m * keep_m;
-      });
+  void freeze(const NearPlaces& places) {
+    for (std::size_t v = 0; v < frozen_.size(); ++v) {
+      frozen_[v] = frozen_[v] || places.contain(mesh_.positions_m[v]);
     }
   }
 
@@ -294,16 +292,16 @@ class Simplifier {
   std::priority_queue<Collapse> queue_;
 };
 
-void simplify_slab(Slab& slab, const SimplifySettings& settings, const std::vector<Vec3>& places_m, double keep_m) {
+void simplify_slab(Slab& slab, const SimplifySettings& settings, const NearPlaces& kept) {
   Simplifier simplifier(slab.interfaces, settings);
-  simplifier.freeze(places_m, keep_m);
+  simplifier.freeze(kept);
   simplifier.freeze(slab.is_shared);
   simplifier.run();
-  const std::vector<int> kept = simplifier.kept_vertices();
+  const std::vector<int> left = simplifier.kept_vertices();
   slab.interfaces = simplifier.take();
   std::vector<int> whole;
   std::vector<bool> is_shared;
-  for (const int v : kept) {
+  for (const int v : left) {
     whole.push_back(slab.whole[at(v)]);
     is_shared.push_back(slab.is_shared[at(v)]);
   }
@@ -313,14 +311,13 @@ void simplify_slab(Slab& slab, const SimplifySettings& settings, const std::vect
 
 }  // namespace
 
-Interfaces simplify(const Interfaces& interfaces, const SimplifySettings& settings, const std::vector<Vec3>& places_m,
-                    double keep_m, int threads) {
+Interfaces simplify(const Interfaces& interfaces, const SimplifySettings& settings, const NearPlaces& kept,
+                    int threads) {
   std::vector<Slab> slabs = split_into_slabs(interfaces);
-  for_each_index(slabs.size(), threads, [&](std::size_t s) { simplify_slab(slabs[s], settings, places_m, keep_m); });
-  const Interfaces seamed = slabs.size() == 1 ? slabs[0].interfaces : join_slabs(slabs, interfaces.positions_m.size());
-  if (slabs.size() == 1) return seamed;
-  Simplifier simplifier(seamed, settings);
-  simplifier.freeze(places_m, keep_m);
+  for_each_index(slabs.size(), threads, [&](std::size_t s) { simplify_slab(slabs[s], settings, kept); });
+  if (slabs.size() == 1) return slabs[0].interfaces;
+  Simplifier simplifier(join_slabs(slabs, interfaces.positions_m.size()), settings);
+  simplifier.freeze(kept);
   simplifier.run();
   return simplifier.take();
 }

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <vector>
-
 #include "prepare/partition/interfaces.h"
+#include "prepare/partition/near_places.h"
 
 namespace myotact::prepare {
 
@@ -14,9 +13,9 @@ struct SimplifySettings {
 /// Fewer triangles on the same interfaces: edges are collapsed, those first that matter least to the shape (quadric
 /// error, Garland and Heckbert 1997), once for all parts, so that neighbours go on sharing their triangles. Lines where
 /// three parts meet collapse along themselves only, places where four meet stay (Dey and others 1999: the link
-/// condition in each). No part changes its topology. Vertices within `keep_m` of one of the places stay as they are.
-/// Slabs are simplified apart, then their seams; the result does not depend on the number of threads.
-Interfaces simplify(const Interfaces& interfaces, const SimplifySettings& settings, const std::vector<Vec3>& places_m,
-                    double keep_m, int threads);
+/// condition in each). No part changes its topology. Vertices near the places of `kept` stay as they are. Slabs are
+/// simplified apart, then their seams; the result does not depend on the number of threads.
+Interfaces simplify(const Interfaces& interfaces, const SimplifySettings& settings, const NearPlaces& kept,
+                    int threads);
 
 }  // namespace myotact::prepare
