@@ -57,7 +57,7 @@ struct BoneData {
   int body = -1;     // index into AnatomyData::bodies
   std::string file;  // of its surface, in the input's folder; empty: bones/KEY
   /// Where the file holds several bones: a place on or in this one; the pieces nearest to it are its own.
-  std::optional<Vec3> piece_m;
+  std::optional<Vec3> piece_m = {};
 };
 
 /// A part that the scan lacks and the limb needs: a flat band between two points, ends rounded.
