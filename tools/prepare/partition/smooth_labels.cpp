@@ -21,6 +21,9 @@ constexpr int kRim = 4;
 /// Rounds in which thin parts gain weight, and how much at most; parts this near to their volume are left alone.
 constexpr int kRounds = 4;
 constexpr double kMostWeight = 2.5, kNearEnough = 0.995;
+/// A part is broken when loose pieces hold more than this part of the largest; points that it gets back have half a
+/// step to their border, as whole voxels have.
+constexpr double kBroken = 0.001, kMendedMargin = 0.5;
 /// Parts whose weights are worked out at the same time; what they hold meanwhile is bounded by this.
 constexpr std::size_t kAtOnce = 4;
 
@@ -96,6 +99,7 @@ class Smoother {
     for (int round = 1; round < kRounds && gain_weight(contest); ++round) contest = compete();
     PartVolume result{lattice_, {}, std::move(contest.labels), margins_of(contest)};
     for (const ChosenSegment& segment : segments_) result.keys.push_back(segment.key);
+    mend_broken(result);
     parts = drop_loose_pieces(result);
     return result;
   }
@@ -168,10 +172,11 @@ class Smoother {
     return margins;
   }
 
-  std::vector<SmoothedPart> drop_loose_pieces(PartVolume& result) const {
+  using Pieces = std::vector<std::vector<std::size_t>>;  // points of each, the largest first
+
+  std::vector<Pieces> pieces_by_part(const PartVolume& result) const {
     const NodeSteps steps(lattice_.counts);
-    std::vector<SmoothedPart> parts(segments_.size());
-    std::vector<std::vector<std::vector<std::size_t>>> pieces(segments_.size());
+    std::vector<Pieces> pieces(segments_.size());
     std::vector<bool> seen(result.labels.size(), false);
     for (std::size_t start = 0; start < seen.size(); ++start) {
       const std::uint16_t label = result.labels[start];
@@ -188,9 +193,51 @@ class Smoother {
       }
       pieces[label - std::size_t{1}].push_back(std::move(piece));
     }
+    for (Pieces& own : pieces) {
+      std::stable_sort(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.size() > b.size(); });
+    }
+    return pieces;
+  }
+
+  /// Parts that blurring broke where they are thin get all points back that lie in their own voxels.
+  void mend_broken(PartVolume& result) const {
+    const std::vector<Pieces> pieces = pieces_by_part(result);
+    for (std::size_t s = 0; s < segments_.size(); ++s) {
+      std::size_t loose = 0;
+      for (std::size_t i = 1; i < pieces[s].size(); ++i) loose += pieces[s][i].size();
+      if (pieces[s].empty() || static_cast<double>(loose) > kBroken * static_cast<double>(pieces[s][0].size())) {
+        take_own_voxels(s, result);
+      }
+    }
+  }
+
+  void take_own_voxels(std::size_t s, PartVolume& result) const {
+    const Mat3 to_index = volume_.lattice.steps_m.inverse();
+    const auto label = static_cast<std::uint16_t>(s + 1);
+    const Labels& layer = volume_.layers[at(segments_[s].layer)];
+    for (std::size_t point = 0; point < result.labels.size(); ++point) {
+      if (result.labels[point] == label) continue;
+      const Vec3 index = to_index * (place_m(lattice_, point) - volume_.lattice.origin_m);
+      std::array<int, 3> voxel{};
+      bool inside = true;
+      for (std::size_t k = 0; k < 3; ++k) {
+        voxel[k] = static_cast<int>(std::lround(index[static_cast<Eigen::Index>(k)]));
+        inside = inside && voxel[k] >= boxes_[s].low[k] && voxel[k] <= boxes_[s].high[k];
+      }
+      if (!inside) continue;
+      const auto nx = at(volume_.lattice.counts[0]), ny = at(volume_.lattice.counts[1]);
+      if (layer[at(voxel[0]) + nx * (at(voxel[1]) + ny * at(voxel[2]))] != segments_[s].label) continue;
+      result.labels[point] = label;
+      result.margins[point] = static_cast<std::uint8_t>(kMendedMargin * kMarginsPerStep);
+    }
+  }
+
+  std::vector<SmoothedPart> drop_loose_pieces(PartVolume& result) const {
+    const NodeSteps steps(lattice_.counts);
+    std::vector<SmoothedPart> parts(segments_.size());
+    std::vector<Pieces> pieces = pieces_by_part(result);
     for (std::size_t s = 0; s < segments_.size(); ++s) {
       auto& own = pieces[s];
-      std::stable_sort(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.size() > b.size(); });
       parts[s].voxels_m3 = voxels_m3(s);
       parts[s].pieces = static_cast<int>(own.size());
       if (!own.empty()) parts[s].kept_m3 = static_cast<double>(own[0].size()) * step_m3();
