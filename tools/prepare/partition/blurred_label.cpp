@@ -72,26 +72,30 @@ std::vector<float> weigh(const std::vector<float>& values, std::size_t inner, st
   return result;
 }
 
+/// By the voxels of one layer.
+void extend_boxes(const std::array<int, 3>& counts, const Labels& labels, const std::vector<int>& segment_of,
+                  std::vector<IndexBox>& boxes) {
+  std::size_t voxel = 0;
+  for (int z = 0; z < counts[2]; ++z) {
+    for (int y = 0; y < counts[1]; ++y) {
+      for (int x = 0; x < counts[0]; ++x, ++voxel) {
+        const int segment = segment_of[labels[voxel]];
+        if (labels[voxel] != 0 && segment >= 0) boxes[at(segment)].extend({{x, y, z}, {x, y, z}, 1});
+      }
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<IndexBox> boxes_of(const LabelVolume& volume, const std::vector<ChosenSegment>& segments) {
   std::vector<IndexBox> boxes(segments.size());
-  const auto& [nx, ny, nz] = volume.lattice.counts;
   for (std::size_t layer = 0; layer < volume.layers.size(); ++layer) {
     std::vector<int> segment_of(std::size_t{1} << 16, -1);
     for (std::size_t s = 0; s < segments.size(); ++s) {
       if (at(segments[s].layer) == layer) segment_of[at(segments[s].label)] = static_cast<int>(s);
     }
-    std::size_t voxel = 0;
-    for (int z = 0; z < nz; ++z) {
-      for (int y = 0; y < ny; ++y) {
-        for (int x = 0; x < nx; ++x, ++voxel) {
-          const std::uint16_t label = volume.layers[layer][voxel];
-          if (label == 0 || segment_of[label] < 0) continue;
-          boxes[at(segment_of[label])].extend({{x, y, z}, {x, y, z}, 1});
-        }
-      }
-    }
+    extend_boxes(volume.lattice.counts, volume.layers[layer], segment_of, boxes);
   }
   return boxes;
 }
@@ -100,7 +104,7 @@ BlurredLabel blur_label(const LabelVolume& volume, int layer, int label, const I
   BlurredLabel blurred;
   if (box.voxels == 0) return blurred;
   std::array<std::size_t, 3> n{};
-  for (std::size_t k = 0; k < 3; ++k) n[k] = static_cast<std::size_t>(box.high[k] - box.low[k] + 1);
+  for (std::size_t k = 0; k < 3; ++k) n[k] = at(box.high[k] - box.low[k] + 1);
   std::vector<float> values(n[0] * n[1] * n[2], 0.0F);
   std::size_t i = 0;
   for (int z = box.low[2]; z <= box.high[2]; ++z) {

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "core/at.h"
 #include "prepare/partition/interfaces.h"
 
 namespace myotact::prepare {
@@ -158,7 +159,7 @@ class Cutter {
   /// The vertex in the middle of a face whose three corners, the lowest first, are all unlike.
   Cut cut_face(const std::array<int, 3>& corners, const std::array<Cut, 3>& cuts) {
     const std::size_t low_point = cube_ + corner_step_[static_cast<std::size_t>(corners[0])];
-    const auto key = static_cast<std::size_t>((corners[1] - corners[0]) * 8 + (corners[2] - corners[0]));
+    const std::size_t key = at(corners[1] - corners[0]) * 8 + at(corners[2] - corners[0]);
     const auto [found, added] = vertices_.try_emplace(low_point * 64 + key, 0);
     const auto at = [&](std::size_t k) { return interfaces_.positions_m[static_cast<std::size_t>(cuts[k].vertex)]; };
     if (added) {

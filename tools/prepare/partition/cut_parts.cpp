@@ -42,20 +42,23 @@ std::vector<Vec3> crossings(const std::vector<geometry::TriangleMesh>& surfaces,
   return all_m;
 }
 
+struct Simplified {
+  Interfaces interfaces;
+  std::vector<geometry::TriangleMesh> surfaces;  // of its parts
+};
+
 /// Simplified so far that no part crosses itself.
-Interfaces simplify_without_crossings(const Interfaces& interfaces, const PartVolume& volume, SimplifySettings settings,
-                                      const std::vector<double>& volumes_m3, int threads,
-                                      std::vector<geometry::TriangleMesh>& surfaces) {
-  const double step = step_m(volume.lattice);
+Simplified simplify_without_crossings(const Interfaces& interfaces, double step, SimplifySettings settings,
+                                      const std::vector<double>& volumes_m3, int threads) {
   settings.tolerance_m *= step;
   settings.longest_edge_m *= step;
   std::vector<Vec3> kept_m;
   for (int round = 0; round < kRounds; ++round) {
     const NearPlaces kept(kept_m, kKept * step);
-    Interfaces simple = simplify(interfaces, settings, kept, threads);
-    give_back_volumes(volumes_m3, kMostGiven * step, kept, simple);
-    surfaces = surfaces_of(simple, static_cast<int>(volume.keys.size()));
-    const std::vector<Vec3> found_m = crossings(surfaces, threads);
+    Simplified simple{simplify(interfaces, settings, kept, threads), {}};
+    give_back_volumes(volumes_m3, kMostGiven * step, kept, simple.interfaces);
+    simple.surfaces = surfaces_of(simple.interfaces, static_cast<int>(volumes_m3.size()));
+    const std::vector<Vec3> found_m = crossings(simple.surfaces, threads);
     if (found_m.empty()) return simple;
     kept_m.insert(kept_m.end(), found_m.begin(), found_m.end());
   }
@@ -67,12 +70,12 @@ Interfaces simplify_without_crossings(const Interfaces& interfaces, const PartVo
 }  // namespace
 
 CutParts cut_parts(const PartVolume& volume, int threads) {
-  CutParts parts;
+  const double step = step_m(volume.lattice);
   const Interfaces cut = cut_interfaces(volume);
   const std::vector<double> volumes_m3 = enclosed_volumes_m3(cut, volume.keys.size());
-  const Interfaces fine = simplify_without_crossings(cut, volume, kFine, volumes_m3, threads, parts.fine);
-  simplify_without_crossings(fine, volume, kSkin, volumes_m3, threads, parts.skins);
-  return parts;
+  Simplified fine = simplify_without_crossings(cut, step, kFine, volumes_m3, threads);
+  Simplified skins = simplify_without_crossings(fine.interfaces, step, kSkin, volumes_m3, threads);
+  return {std::move(fine.surfaces), std::move(skins.surfaces)};
 }
 
 }  // namespace myotact::prepare

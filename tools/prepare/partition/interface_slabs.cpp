@@ -33,19 +33,28 @@ std::vector<int> slabs_of(const Interfaces& interfaces, int& slabs) {
   return slab_of;
 }
 
-}  // namespace
+/// What a vertex belongs to, if not to one slab.
+constexpr int kNone = -1, kSeveral = -2;
 
-std::vector<Slab> split_into_slabs(const Interfaces& interfaces) {
-  int count = 0;
-  const std::vector<int> slab_of = slabs_of(interfaces, count);
-  constexpr int kNone = -1, kSeveral = -2;
-  std::vector<int> owner(interfaces.positions_m.size(), kNone), number(interfaces.positions_m.size(), kNone);
+/// The slab of all faces of each vertex.
+std::vector<int> owners_of(const Interfaces& interfaces, const std::vector<int>& slab_of) {
+  std::vector<int> owner(interfaces.positions_m.size(), kNone);
   for (std::size_t f = 0; f < slab_of.size(); ++f) {
     for (const int v : interfaces.faces[f].vertices) {
       int& slab = owner[at(v)];
       slab = slab == kNone || slab == slab_of[f] ? slab_of[f] : kSeveral;
     }
   }
+  return owner;
+}
+
+}  // namespace
+
+std::vector<Slab> split_into_slabs(const Interfaces& interfaces) {
+  int count = 0;
+  const std::vector<int> slab_of = slabs_of(interfaces, count);
+  const std::vector<int> owner = owners_of(interfaces, slab_of);
+  std::vector<int> number(interfaces.positions_m.size(), kNone);
   std::vector<std::vector<std::size_t>> faces(at(count));
   for (std::size_t f = 0; f < slab_of.size(); ++f) faces[at(slab_of[f])].push_back(f);
   std::vector<Slab> slabs(faces.size());
