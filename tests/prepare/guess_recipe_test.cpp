@@ -211,6 +211,16 @@ TEST(PartNames, FindWhatANameMeansAndWhatItResembles) {
   EXPECT_EQ(part_key("\xc3\xa4\xc3\xb6"), "part");
 }
 
+/// Whether a bone is one of those wanted. The paw's bones, which are one file and lie a millimetre apart, count as one.
+bool is_one_of(const std::string& bone, const std::vector<std::string>& wanted, const AnatomyData& recipe) {
+  const auto name = [&](const std::string& key) {
+    const auto found =
+        std::find_if(recipe.bones.begin(), recipe.bones.end(), [&](const BoneData& b) { return b.key == key; });
+    return found != recipe.bones.end() && found->piece_m ? found->file : key;
+  };
+  return std::any_of(wanted.begin(), wanted.end(), [&](const std::string& key) { return name(key) == name(bone); });
+}
+
 /// Known anatomy: bones that the built-in recipe names for the ends of muscles, which were read in textbooks. The
 /// trunk, from which four muscles come, is not among the surfaces.
 TEST(GuessRecipe, FindsTheBonesOfADogsMuscles) {
@@ -230,14 +240,14 @@ TEST(GuessRecipe, FindsTheBonesOfADogsMuscles) {
         const AttachmentSite& site = (origin ? guessed.muscles[m].origins : guessed.muscles[m].insertions).front();
         ++ends;
         for (const AttachmentSite& wanted : sites) {
-          if (site.bones.empty() || !::testing::Value(wanted.bones, Contains(site.bones.front()))) continue;
+          if (site.bones.empty() || !is_one_of(site.bones.front(), wanted.bones, recipe)) continue;
           ++right;
           break;
         }
       }
     }
   }
-  EXPECT_GE(right, 0.85 * ends) << right << " of " << ends;
+  EXPECT_GE(right, 0.9 * ends) << right << " of " << ends;
 }
 
 }  // namespace
