@@ -25,7 +25,8 @@ struct LineReading {
 /// State and private steps of a Simulation. Built in the order of its members: surfaces and lines
 /// refer to the specimen here.
 struct Simulation::Impl {
-  /// Both are copied. Calibrates the fibres of all soft muscles, fits the others to the bones. Throws Error BadData as Limb, Surfaces and Tether do.
+  /// Both are copied. Calibrates the fibres of all soft muscles, fits the others to the bones. Throws Error BadData as
+  /// Limb, Surfaces and Tether do.
   Impl(const anatomy::Specimen& given, const SimulationSettings& chosen);
 
   anatomy::Specimen specimen;   // never changes: lines and surfaces point into it

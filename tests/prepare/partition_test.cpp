@@ -181,7 +181,7 @@ LabelVolume ball_and_sheet() {
   volume.lattice.origin_m = {0.3, -0.1, 0.2};
   volume.layers.emplace_back(volume.lattice.size(), std::uint16_t{0});
   for (std::size_t point = 0; point < volume.lattice.size(); ++point) {
-    const auto [x, y, z] = index_of(volume.lattice, point);
+    const auto [x, y, z] = index_of(volume.lattice.counts, point);
     if ((Vec3(x, y, 2.0 * z) - Vec3(25, 30, 30)).norm() < 15.0) volume.layers[0][point] = 7;
     if ((x == 45 || x == 46) && y > 15 && y < 45 && z > 7 && z < 22) volume.layers[0][point] = 300;
   }

@@ -93,12 +93,7 @@ class LabelledLimb {
     }
     for (int z = low[2]; z <= high[2]; ++z) {
       for (int y = low[1]; y <= high[1]; ++y) {
-        for (int x = low[0]; x <= high[0]; ++x) {
-          visit(static_cast<std::size_t>(x) +
-                static_cast<std::size_t>(volume_.lattice.counts[0]) *
-                    (static_cast<std::size_t>(y) +
-                     static_cast<std::size_t>(volume_.lattice.counts[1]) * static_cast<std::size_t>(z)));
-        }
+        for (int x = low[0]; x <= high[0]; ++x) visit(point_at(volume_.lattice.counts, x, y, z));
       }
     }
   }

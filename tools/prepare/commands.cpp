@@ -20,6 +20,7 @@
 #include "prepare/recipe/read_scan.h"
 #include "prepare/recipe/surface_files.h"
 #include "prepare/recipe/units_and_frame.h"
+#include "prepare/volume/dicom.h"
 #include "prepare/volume/read_label_volume.h"
 
 namespace myotact::prepare {
@@ -109,6 +110,7 @@ int prepare_scan(const Options& options) {
   if (!recipe_only) check_output(options.output, "specimen");
   for (const fs::path& input : options.inputs) {
     if (!fs::exists(input)) throw Error(ExitStatus::NoInput, input.string() + ": is not there");
+    refuse_dicom(input);
   }
   check_ways(options);
   const bool guessing = options.guess || options.ask || recipe_only || !options.bones.empty();

@@ -5,6 +5,7 @@
 
 #include "prepare/measure/point_box.h"
 #include "prepare/part/hollow_out.h"
+#include "prepare/part/node_pieces.h"
 #include "prepare/part/node_steps.h"
 
 namespace myotact::prepare {
@@ -28,28 +29,6 @@ constexpr int kRounds = 2;
 
 using Points = std::vector<std::size_t>;
 
-/// The pieces of what is marked in a box, the largest first. Nothing in its outermost layer is marked.
-std::vector<Points> pieces_of(const PointBox& box, const std::vector<bool>& marked) {
-  const NodeSteps steps(box.counts);
-  std::vector<bool> seen(marked.size(), false);
-  std::vector<Points> pieces;
-  for (std::size_t start = 0; start < marked.size(); ++start) {
-    if (!marked[start] || seen[start]) continue;
-    Points& piece = pieces.emplace_back(1, start);
-    seen[start] = true;
-    for (std::size_t i = 0; i < piece.size(); ++i) {
-      for (const std::ptrdiff_t step : steps.linked) {
-        const std::size_t next = NodeSteps::go(piece[i], step);
-        if (!marked[next] || seen[next]) continue;
-        seen[next] = true;
-        piece.push_back(next);
-      }
-    }
-  }
-  std::stable_sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) { return a.size() > b.size(); });
-  return pieces;
-}
-
 class Mender {
  public:
   Mender(PartVolume& volume, const std::vector<Claim>& claims)
@@ -64,7 +43,7 @@ class Mender {
     const PointBox box = box_around(claims_[part].samples, volume_.lattice, kMargin);
     if (box.size() == 0) return false;
     std::vector<bool> kept(box.size(), false);
-    for (const Points& piece : pieces_of(box, marked(part, box))) {
+    for (const Points& piece : pieces_of_nodes(box.counts, marked(part, box))) {
       if (piece.size() < kSpeck && std::find(kept.begin(), kept.end(), true) != kept.end()) break;
       for (const std::size_t point : piece) kept[point] = true;
     }
@@ -72,7 +51,7 @@ class Mender {
     std::vector<bool> missing(box.size(), false);
     for (std::size_t point = 0; point < whole.size(); ++point) missing[point] = whole[point] && !kept[point];
     bool added = false;
-    for (Points& film : pieces_of(box, missing)) {
+    for (Points& film : pieces_of_nodes(box.counts, missing)) {
       for (std::size_t& point : film) point = box.to_lattice(point);
       added |= add(part, film);
     }
@@ -83,7 +62,7 @@ class Mender {
   void drop_specks(std::size_t part) {
     const PointBox box = box_around(claims_[part].samples, volume_.lattice, kMargin);
     if (box.size() == 0) return;
-    const std::vector<Points> pieces = pieces_of(box, marked(part, box));
+    const std::vector<Points> pieces = pieces_of_nodes(box.counts, marked(part, box));
     Points loose;
     for (std::size_t i = 1; i < pieces.size(); ++i) {
       for (const std::size_t point : pieces[i]) loose.push_back(box.to_lattice(point));
@@ -136,11 +115,11 @@ class Mender {
   bool is_cut(std::size_t owner, const Points& film) const {
     const PointBox box = box_around(claims_[owner].samples, volume_.lattice, kMargin);
     std::vector<bool> left = marked(owner, box);
-    const std::size_t before = second_piece(pieces_of(box, left));
+    const std::size_t before = second_piece(pieces_of_nodes(box.counts, left));
     for (const std::size_t point : film) {
       if (volume_.labels[point] == label(owner)) left[box.to_box(point)] = false;
     }
-    return second_piece(pieces_of(box, left)) >= std::max(kWorthKeeping, before + 1);
+    return second_piece(pieces_of_nodes(box.counts, left)) >= std::max(kWorthKeeping, before + 1);
   }
 
   static std::size_t second_piece(const std::vector<Points>& pieces) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,8 @@ struct MeasuredLimb {
 
 /// A volume of all bones and muscles of a limb whose surfaces were repaired, on a lattice of that step along the axes
 /// of the specimen frame: no part reaches into another (share_out.h), every muscle hangs together (keep_whole.h), and
-/// margins tell where its surface runs between the lattice's points. `measured(done, parts)` is called as parts are
-/// measured, from any thread. Throws Error BadData naming the part of which nothing is left, and Usage when the lattice
+/// margins tell where its surface runs between the lattice's points. `measured` is called after each part, from any
+/// thread. Throws Error BadData naming the part of which nothing is left, and Usage when the lattice
 /// would have more than 2^31 points.
 MeasuredLimb measure_limb(const LimbWork& limb, double step_m, const std::function<void()>& measured);
 

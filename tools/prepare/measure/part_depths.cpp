@@ -51,10 +51,7 @@ class Sampler {
     const double depth = -distance_(middle_m) / step_m_;
     if (depth + half.norm() < -kDepthBand) return;
     if (half.isZero()) {
-      const auto point = static_cast<std::size_t>(low[0]) +
-                         static_cast<std::size_t>(lattice_.counts[0]) *
-                             (static_cast<std::size_t>(low[1]) +
-                              static_cast<std::size_t>(lattice_.counts[1]) * static_cast<std::size_t>(low[2]));
+      const std::size_t point = point_at(lattice_.counts, low[0], low[1], low[2]);
       samples_.push_back({static_cast<std::uint32_t>(point), static_cast<float>(depth),
                           static_cast<float>(radius_(middle_m) / step_m_)});
       return;

@@ -21,23 +21,13 @@ struct PointBox {
   }
   /// The lattice's number of a point of the box.
   std::size_t to_lattice(std::size_t point) const {
-    const std::array<int, 3> i = split(point, counts);
-    return join({i[0] + low[0], i[1] + low[1], i[2] + low[2]}, whole);
+    const auto [x, y, z] = index_of(counts, point);
+    return point_at(whole, x + low[0], y + low[1], z + low[2]);
   }
   /// The box's number of a point of the lattice, which must lie in it.
   std::size_t to_box(std::size_t point) const {
-    const std::array<int, 3> i = split(point, whole);
-    return join({i[0] - low[0], i[1] - low[1], i[2] - low[2]}, counts);
-  }
-
-  static std::array<int, 3> split(std::size_t point, const std::array<int, 3>& counts) {
-    const auto nx = static_cast<std::size_t>(counts[0]), ny = static_cast<std::size_t>(counts[1]);
-    return {static_cast<int>(point % nx), static_cast<int>(point / nx % ny), static_cast<int>(point / nx / ny)};
-  }
-  static std::size_t join(const std::array<int, 3>& i, const std::array<int, 3>& counts) {
-    return static_cast<std::size_t>(i[0]) +
-           static_cast<std::size_t>(counts[0]) *
-               (static_cast<std::size_t>(i[1]) + static_cast<std::size_t>(counts[1]) * static_cast<std::size_t>(i[2]));
+    const auto [x, y, z] = index_of(whole, point);
+    return point_at(counts, x - low[0], y - low[1], z - low[2]);
   }
 };
 
@@ -47,7 +37,7 @@ template <class Points>
 PointBox box_around(const Points& points, const Lattice& lattice, int margin) {
   std::array<int, 3> low = lattice.counts, high{-1, -1, -1};
   for (const auto& sample : points) {
-    const std::array<int, 3> i = PointBox::split(sample.point, lattice.counts);
+    const std::array<int, 3> i = index_of(lattice.counts, sample.point);
     for (std::size_t k = 0; k < 3; ++k) {
       low[k] = std::min(low[k], i[k]);
       high[k] = std::max(high[k], i[k]);

@@ -5,7 +5,7 @@
 
 #include "prepare/field/block_lattice.h"
 #include "prepare/part/hollow_out.h"
-#include "prepare/part/node_steps.h"
+#include "prepare/part/node_pieces.h"
 #include "prepare/surface/surface_pieces.h"
 
 namespace myotact::prepare {
@@ -25,33 +25,12 @@ constexpr double kNearEnd = 1.8;
 /// Distances to the film are followed so far, in spacings: far enough for whole blocks to be passed over.
 constexpr int kFollowed = 6;
 
-/// The pieces of the nodes that are left, the largest first; none is in the outermost layer.
-std::vector<std::vector<std::size_t>> pieces_of_nodes(const NodeSteps& steps, const std::vector<bool>& left) {
-  std::vector<bool> seen(left.size(), false);
-  std::vector<std::vector<std::size_t>> pieces;
-  for (std::size_t start = 0; start < left.size(); ++start) {
-    if (!left[start] || seen[start]) continue;
-    std::vector<std::size_t>& piece = pieces.emplace_back(1, start);
-    seen[start] = true;
-    for (std::size_t i = 0; i < piece.size(); ++i) {
-      for (const std::ptrdiff_t step : steps.linked) {
-        const std::size_t next = NodeSteps::go(piece[i], step);
-        if (!left[next] || seen[next]) continue;
-        seen[next] = true;
-        piece.push_back(next);
-      }
-    }
-  }
-  std::stable_sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) { return a.size() > b.size(); });
-  return pieces;
-}
-
 /// The nodes of the largest piece and of those that come near a loose end.
-std::vector<bool> nodes_to_keep(const BlockLattice& lattice, const NodeSteps& steps, const std::vector<bool>& left,
+std::vector<bool> nodes_to_keep(const BlockLattice& lattice, const std::vector<bool>& left,
                                 const std::vector<Vec3>& loose_ends) {
   std::vector<bool> kept(left.size(), false);
   bool largest = true;
-  for (const auto& piece : pieces_of_nodes(steps, left)) {
+  for (const auto& piece : pieces_of_nodes(lattice.counts(), left)) {
     const bool stays = largest || std::any_of(piece.begin(), piece.end(), [&](std::size_t node) {
                          const Vec3 p = lattice.place_of(node);
                          return std::any_of(loose_ends.begin(), loose_ends.end(), [&](const Vec3& end) {
@@ -87,8 +66,7 @@ Film::Film(const PiercedBody& body, double spacing_m) : lattice_(body.box, spaci
   lattice_.sample(near_bone, [&](std::size_t node, double value_m) {
     if (value_m > 0.0) cost[node] += static_cast<float>(kInBone_m + value_m);
   });
-  const NodeSteps steps(lattice_.counts());
-  const std::vector<bool> kept = nodes_to_keep(lattice_, steps, left, body.loose_ends);
+  const std::vector<bool> kept = nodes_to_keep(lattice_, left, body.loose_ends);
   const std::vector<bool> closed = hollow_out(lattice_.counts(), kept, cost);
   for (std::size_t node = 0; node < closed.size(); ++node) {
     if (closed[node] && !kept[node]) nodes_.push_back(node);

@@ -109,8 +109,7 @@ BlurredLabel blur_label(const LabelVolume& volume, int layer, int label, const I
   std::size_t i = 0;
   for (int z = box.low[2]; z <= box.high[2]; ++z) {
     for (int y = box.low[1]; y <= box.high[1]; ++y) {
-      std::size_t voxel =
-          at(box.low[0]) + at(volume.lattice.counts[0]) * (at(y) + at(volume.lattice.counts[1]) * at(z));
+      std::size_t voxel = point_at(volume.lattice.counts, box.low[0], y, z);
       for (int x = box.low[0]; x <= box.high[0]; ++x) {
         values[i++] = volume.layers[at(layer)][voxel++] == label ? 1.0F : 0.0F;
       }

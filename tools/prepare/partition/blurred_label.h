@@ -54,10 +54,7 @@ struct BlurredLabel {
     std::size_t i = 0;
     for (int z = 0; z < counts[2]; ++z) {
       for (int y = 0; y < counts[1]; ++y) {
-        std::size_t point = static_cast<std::size_t>(low[0]) +
-                            static_cast<std::size_t>(lattice.counts[0]) *
-                                (static_cast<std::size_t>(low[1] + y) +
-                                 static_cast<std::size_t>(lattice.counts[1]) * static_cast<std::size_t>(low[2] + z));
+        std::size_t point = point_at(lattice.counts, low[0], low[1] + y, low[2] + z);
         for (int x = 0; x < counts[0]; ++x) visit(point++, values[i++]);
       }
     }

@@ -50,9 +50,7 @@ class Cutter {
     const auto& [nx, ny, nz] = volume_.lattice.counts;
     for (int z = 0; z + 1 < nz; ++z) {
       for (int y = 0; y + 1 < ny; ++y) {
-        const std::size_t first =
-            static_cast<std::size_t>(nx) *
-            (static_cast<std::size_t>(y) + static_cast<std::size_t>(ny) * static_cast<std::size_t>(z));
+        const std::size_t first = point_at(volume_.lattice.counts, 0, y, z);
         for (int x = 0; x + 1 < nx; ++x) cut_cube(first + static_cast<std::size_t>(x));
       }
     }

@@ -16,9 +16,12 @@ namespace myotact::prepare {
 
 namespace {
 
-/// In steps of the lattice; at a millimetre these are as for limbs that come as surfaces (fine_surface.h).
-constexpr SimplifySettings kFine{0.15, 7.0};
-constexpr SimplifySettings kSkin{0.3, 9.0};
+/// How much simpler, in steps of the lattice; at a millimetre this is as for limbs that come as surfaces
+/// (fine_surface.h).
+struct Coarseness {
+  double tolerance = 0.0, longest_edge = 0.0;
+};
+constexpr Coarseness kFine{0.15, 7.0}, kSkin{0.3, 9.0};
 /// Where triangles came to cross, all within this many steps stay as they were cut.
 constexpr double kKept = 3.0;
 constexpr int kRounds = 6;
@@ -48,15 +51,14 @@ struct Simplified {
 };
 
 /// Simplified so far that no part crosses itself.
-Simplified simplify_without_crossings(const Interfaces& interfaces, double step, SimplifySettings settings,
+Simplified simplify_without_crossings(const Interfaces& interfaces, double step_m, const Coarseness& coarseness,
                                       const std::vector<double>& volumes_m3, int threads) {
-  settings.tolerance_m *= step;
-  settings.longest_edge_m *= step;
+  const SimplifySettings settings{coarseness.tolerance * step_m, coarseness.longest_edge * step_m};
   std::vector<Vec3> kept_m;
   for (int round = 0; round < kRounds; ++round) {
-    const NearPlaces kept(kept_m, kKept * step);
+    const NearPlaces kept(kept_m, kKept * step_m);
     Simplified simple{simplify(interfaces, settings, kept, threads), {}};
-    give_back_volumes(volumes_m3, kMostGiven * step, kept, simple.interfaces);
+    give_back_volumes(volumes_m3, kMostGiven * step_m, kept, simple.interfaces);
     simple.surfaces = surfaces_of(simple.interfaces, static_cast<int>(volumes_m3.size()));
     const std::vector<Vec3> found_m = crossings(simple.surfaces, threads);
     if (found_m.empty()) return simple;
@@ -70,11 +72,11 @@ Simplified simplify_without_crossings(const Interfaces& interfaces, double step,
 }  // namespace
 
 CutParts cut_parts(const PartVolume& volume, int threads) {
-  const double step = step_m(volume.lattice);
+  const double length_m = step_m(volume.lattice);
   const Interfaces cut = cut_interfaces(volume);
   const std::vector<double> volumes_m3 = enclosed_volumes_m3(cut, volume.keys.size());
-  Simplified fine = simplify_without_crossings(cut, step, kFine, volumes_m3, threads);
-  Simplified skins = simplify_without_crossings(fine.interfaces, step, kSkin, volumes_m3, threads);
+  Simplified fine = simplify_without_crossings(cut, length_m, kFine, volumes_m3, threads);
+  Simplified skins = simplify_without_crossings(fine.interfaces, length_m, kSkin, volumes_m3, threads);
   return {std::move(fine.surfaces), std::move(skins.surfaces)};
 }
 

@@ -35,13 +35,8 @@ inline Vec3 place_m(const Lattice& lattice, const Vec3& index) {
   return lattice.origin_m + lattice.steps_m * index;
 }
 
-inline std::array<int, 3> index_of(const Lattice& lattice, std::size_t point) {
-  const auto nx = static_cast<std::size_t>(lattice.counts[0]), ny = static_cast<std::size_t>(lattice.counts[1]);
-  return {static_cast<int>(point % nx), static_cast<int>(point / nx % ny), static_cast<int>(point / nx / ny)};
-}
-
 inline Vec3 place_m(const Lattice& lattice, std::size_t point) {
-  const auto [x, y, z] = index_of(lattice, point);
+  const auto [x, y, z] = index_of(lattice.counts, point);
   return place_m(lattice, Vec3(x, y, z));
 }
 

@@ -14,6 +14,7 @@
 #include "prepare/parallel.h"
 #include "prepare/partition/interface_slabs.h"
 #include "prepare/partition/squared_distances.h"
+#include "prepare/remesh/guarded_mesh.h"
 
 namespace myotact::prepare {
 
@@ -28,11 +29,6 @@ using Indices = boost::container::small_vector<int, 24>;  // of vertices or face
 constexpr double kLeastCosine = 0.25, kLeastShape = 0.08;
 /// Lines where three parts meet hold their place this much more than surfaces.
 constexpr double kLineWeight = 2.0;
-
-double shape_of(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const double sides = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
-  return sides > 0.0 ? 2.0 * std::sqrt(3.0) * (b - a).cross(c - a).norm() / sides : 0.0;
-}
 
 struct Collapse {
   double cost;
@@ -254,8 +250,8 @@ class Simplifier {
       }
       const Vec3 was = (before[1] - before[0]).cross(before[2] - before[0]);
       const Vec3 is = (after[1] - after[0]).cross(after[2] - after[0]);
-      const double least = std::min(kLeastShape, shape_of(before[0], before[1], before[2]));
-      if (shape_of(after[0], after[1], after[2]) < least) return false;
+      const double least = std::min(kLeastShape, shape_of(before));
+      if (shape_of(after) < least) return false;
       if (was.norm() > 0.0 && is.dot(was) < kLeastCosine * is.norm() * was.norm()) return false;
     }
     return true;

@@ -225,8 +225,7 @@ class Smoother {
         inside = inside && voxel[k] >= boxes_[s].low[k] && voxel[k] <= boxes_[s].high[k];
       }
       if (!inside) continue;
-      const auto nx = at(volume_.lattice.counts[0]), ny = at(volume_.lattice.counts[1]);
-      if (layer[at(voxel[0]) + nx * (at(voxel[1]) + ny * at(voxel[2]))] != segments_[s].label) continue;
+      if (layer[point_at(volume_.lattice.counts, voxel[0], voxel[1], voxel[2])] != segments_[s].label) continue;
       result.labels[point] = label;
       result.margins[point] = static_cast<std::uint8_t>(kMendedMargin * kMarginsPerStep);
     }

@@ -1,6 +1,8 @@
 #pragma once
 
-#include <Eigen/Dense>
+#include <algorithm>
+
+#include <Eigen/Cholesky>
 
 #include "core/vector.h"
 

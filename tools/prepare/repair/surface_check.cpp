@@ -17,7 +17,8 @@ namespace {
 using geometry::TriangleMesh;
 using Defect = std::optional<SurfaceDefect>;
 
-/// Largest and smallest diagonal of a bone or muscle of a dog, down to its sesamoid bones [m]. Outside, the file is not in metres.
+/// Largest and smallest diagonal of a bone or muscle of a dog, down to its sesamoid bones [m]. Outside, the file is not
+/// in metres.
 constexpr double kSmallest_m = 3e-3;
 constexpr double kLargest_m = 1.5;
 /// A triangle whose height is below this part of the diagonal has none: rounding of its corners.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -22,6 +23,16 @@ struct Lattice {
            static_cast<std::size_t>(counts[2]);
   }
 };
+
+/// Number of a point of a block of `counts` points, x fastest, and back.
+inline std::size_t point_at(const std::array<int, 3>& counts, int x, int y, int z) {
+  const auto nx = static_cast<std::size_t>(counts[0]), ny = static_cast<std::size_t>(counts[1]);
+  return static_cast<std::size_t>(x) + nx * (static_cast<std::size_t>(y) + ny * static_cast<std::size_t>(z));
+}
+inline std::array<int, 3> index_of(const std::array<int, 3>& counts, std::size_t point) {
+  const auto nx = static_cast<std::size_t>(counts[0]), ny = static_cast<std::size_t>(counts[1]);
+  return {static_cast<int>(point % nx), static_cast<int>(point / nx % ny), static_cast<int>(point / nx / ny)};
+}
 
 /// A label with what its file says of it.
 struct Segment {
