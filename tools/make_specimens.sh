@@ -19,7 +19,7 @@ loft() {
 }
 whole() {
   "$prepare" "$root/assets/canine/$1.seg.nrrd" --recipe "$root/assets/canine/$1.json" -o "$output/canine_whole_$1"
-  rm "$output/canine_whole_$1/report.html"
+  rm "$output/canine_whole_$1/report.html" "$output/canine_whole_$1/recipe.json" # a report is no source, the recipe is in assets
 }
 loft forelimb
 loft hindlimb

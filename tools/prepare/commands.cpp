@@ -9,7 +9,6 @@
 
 #include "core/data_folder.h"
 #include "core/error.h"
-#include "core/file.h"
 #include "prepare/check/specimen_check.h"
 #include "prepare/finish_limb.h"
 #include "prepare/loft/loft.h"
@@ -67,13 +66,6 @@ std::optional<fs::path> choose_recipe(const std::vector<fs::path>& inputs) {
   const KnownNames& best = is_hind ? hind : fore;
   if (!stems.empty() && (best.bones == 0 || best.muscles == 0)) return {};
   return canine(is_hind ? "hindlimb" : "forelimb");
-}
-
-/// A person's recipe goes into the specimen that it made, so that it can be edited there and is not lost when the
-/// folder is replaced.
-anatomy::CompanionFiles companions_of(const Options& options) {
-  if (options.recipe.empty()) return {};
-  return {{"recipe.json", read_file(options.recipe)}};
 }
 
 void prepare_folder(const Options& options, const fs::path& recipe_file, const std::vector<fs::path>& inputs,

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "core/error.h"
+#include "core/file.h"
 #include "prepare/check/specimen_check.h"
 #include "prepare/mirror.h"
 #include "prepare/prepare_limb.h"
@@ -87,6 +88,11 @@ void check_output(const fs::path& output, const char* what) {
   throw Error(
       ExitStatus::InputOutput,
       fmt::format("{}: is not a folder that can be written; name another place for the {}", holder.string(), what));
+}
+
+anatomy::CompanionFiles companions_of(const Options& options) {
+  if (options.recipe.empty()) return {};
+  return {{"recipe.json", read_file(options.recipe)}};
 }
 
 void finish_limb(LimbWork& limb, const Options& options, const fs::path& output, anatomy::CompanionFiles companions) {

@@ -24,6 +24,10 @@ void stop_when_interrupted();
 /// written. `what` is written there, for the text.
 void check_output(const std::filesystem::path& output, const char* what);
 
+/// A person's recipe goes into the specimen that it made, so that it can be edited there and is not lost when the
+/// folder is replaced.
+anatomy::CompanionFiles companions_of(const Options& options);
+
 /// Takes the limb through its stages and writes the specimen with its report and `companions`, or what the stage
 /// `options.until` made. Prints the report.
 void finish_limb(LimbWork& limb, const Options& options, const std::filesystem::path& output,

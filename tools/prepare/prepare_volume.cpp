@@ -235,7 +235,7 @@ void prepare(const Options& options) {
   parts.reset();
   bar.reset();
   for (const std::string& note : notes) spdlog::info("{}", note);
-  anatomy::CompanionFiles companions;
+  anatomy::CompanionFiles companions = companions_of(options);
   LimbWork limb = mapping ? known_limb(*mapping, surfaces, options) : guessed_limb(file, surfaces, options, companions);
   take_skins(surfaces.skins, limb);
   limb.notes = std::move(notes);
