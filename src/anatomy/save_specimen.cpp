@@ -1,6 +1,5 @@
-#include <nlohmann/json.hpp>
-
 #include "anatomy/specimen.h"
+#include "anatomy/specimen_json.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/folder.h"
@@ -10,55 +9,17 @@ namespace myotact::anatomy {
 
 namespace {
 
-using Json = nlohmann::ordered_json;  // keys stay in the order of the format's page
-
-Json json_of(const Vec3& v) {
-  return Json::array({v.x(), v.y(), v.z()});
-}
-
-Json json_of(const Body& body) {
-  return {{"key", body.key},
-          {"mass_kg", body.mass_kg},
-          {"com_m", json_of(body.com_m)},
-          {"inertia_kg_m2", body.inertia_kg_m2},
-          {"estimated", body.estimated}};
-}
-
-Json json_of(const Joint& joint, const Specimen& specimen) {
-  static constexpr const char* kTypes[] = {"hinge", "universal", "ball", "weld"};
-  Json axes = Json::array();
-  for (const Vec3& axis : joint.axes) axes.push_back(json_of(axis));
-  Json ranges = Json::array();
-  for (const auto& [lowest, highest] : joint.range_rad) ranges.push_back(Json::array({lowest, highest}));
-  return {{"key", joint.key},
-          {"type", kTypes[static_cast<int>(joint.type)]},
-          {"parent", specimen.bodies[static_cast<std::size_t>(joint.parent)].key},
-          {"child", specimen.bodies[static_cast<std::size_t>(joint.child)].key},
-          {"centre_m", json_of(joint.centre_m)},
-          {"axes", axes},
-          {"range_rad", ranges},
-          {"stiffness_Nm_rad", joint.stiffness_Nm_rad},
-          {"damping_Nms_rad", joint.damping_Nms_rad},
-          {"centre_uncertainty_m", joint.centre_uncertainty_m},
-          {"axis_uncertainty_rad", joint.axis_uncertainty_rad}};
-}
+using anatomy::json_of;  // beside those below
 
 Json json_of(const Muscle& muscle) {
-  return {{"key", muscle.key},
-          {"name_la", muscle.name_la},
-          {"name_en", muscle.name_en},
-          {"tets", "muscles/" + muscle.key + ".vtk"},
-          {"skin", "skins/" + muscle.key + ".ply"},
-          {"material", muscle.material},
-          {"peak_force_N", muscle.peak_force_N},
-          {"optimal_fibre_m", muscle.optimal_fibre_m},
-          {"pennation_rad", muscle.pennation_rad},
-          {"rest_stretch", muscle.rest_stretch},
-          {"tendon_slack_m", muscle.tendon_slack_m},
-          {"activation_tau_s", muscle.activation_tau_s},
-          {"deactivation_tau_s", muscle.deactivation_tau_s},
-          {"estimated", muscle.estimated},
-          {"sources", muscle.sources}};
+  Json json = {{"key", muscle.key},
+               {"name_la", muscle.name_la},
+               {"name_en", muscle.name_en},
+               {"tets", "muscles/" + muscle.key + ".vtk"},
+               {"skin", "skins/" + muscle.key + ".ply"},
+               {"material", muscle.material}};
+  json.update(json_of_mechanics(muscle));
+  return json;
 }
 
 Json json_of(const LineWrap& wrap, const Specimen& specimen) {
@@ -111,7 +72,7 @@ Json json_of_lists(const Specimen& s) {
                              {"body", s.bodies[static_cast<std::size_t>(bone.body)].key}});
   }
   for (const Body& body : s.bodies) json["bodies"].push_back(json_of(body));
-  for (const Joint& joint : s.joints) json["joints"].push_back(json_of(joint, s));
+  for (const Joint& joint : s.joints) json["joints"].push_back(json_of(joint, s.bodies));
   for (const Muscle& muscle : s.muscles) json["muscles"].push_back(json_of(muscle));
   for (const MuscleLine& line : s.lines) json["lines"].push_back(json_of(line, s));
   for (const MuscleGroup& group : s.groups) {

@@ -1,26 +1,14 @@
 #include "prepare/recipe/recipe_text.h"
 
-#include <nlohmann/json.hpp>
-
+#include "anatomy/specimen_json.h"
 #include "core/at.h"
 
 namespace myotact::prepare {
 
 namespace {
 
-using Json = nlohmann::ordered_json;  // keys stay in an order that reads well
-
-Json json_of(const Vec3& v) {
-  return Json::array({v.x(), v.y(), v.z()});
-}
-
-Json json_of(const anatomy::Body& body) {
-  return {{"key", body.key},
-          {"mass_kg", body.mass_kg},
-          {"com_m", json_of(body.com_m)},
-          {"inertia_kg_m2", body.inertia_kg_m2},
-          {"estimated", body.estimated}};
-}
+using anatomy::Json;
+using anatomy::json_of;
 
 Json json_of(const BoneData& bone, const AnatomyData& anatomy) {
   Json json = {{"key", bone.key},
@@ -30,23 +18,6 @@ Json json_of(const BoneData& bone, const AnatomyData& anatomy) {
   if (!bone.file.empty()) json["file"] = bone.file;
   if (bone.piece_m) json["piece_m"] = json_of(*bone.piece_m);
   return json;
-}
-
-Json json_of(const anatomy::Joint& joint, const AnatomyData& anatomy) {
-  Json axes = Json::array(), ranges = Json::array();
-  for (const Vec3& axis : joint.axes) axes.push_back(json_of(axis));
-  for (const auto& [lowest, highest] : joint.range_rad) ranges.push_back(Json::array({lowest, highest}));
-  return {{"key", joint.key},
-          {"type", joint.type == anatomy::JointType::Hinge ? "hinge" : "weld"},
-          {"parent", anatomy.bodies[at(joint.parent)].key},
-          {"child", anatomy.bodies[at(joint.child)].key},
-          {"centre_m", json_of(joint.centre_m)},
-          {"axes", axes},
-          {"range_rad", ranges},
-          {"stiffness_Nm_rad", joint.stiffness_Nm_rad},
-          {"damping_Nms_rad", joint.damping_Nms_rad},
-          {"centre_uncertainty_m", joint.centre_uncertainty_m},
-          {"axis_uncertainty_rad", joint.axis_uncertainty_rad}};
 }
 
 Json json_of(const std::vector<AttachmentSite>& sites, const AnatomyData& anatomy) {
@@ -65,21 +36,11 @@ Json json_of(const std::vector<AttachmentSite>& sites, const AnatomyData& anatom
 }
 
 Json json_of(const MuscleData& muscle, const AnatomyData& anatomy) {
-  const anatomy::Muscle& m = muscle.mechanics;
-  Json json = {{"key", m.key},
-               {"name_la", m.name_la},
-               {"name_en", m.name_en},
-               {"peak_force_N", m.peak_force_N},
-               {"optimal_fibre_m", m.optimal_fibre_m},
-               {"pennation_rad", m.pennation_rad},
-               {"rest_stretch", m.rest_stretch},
-               {"tendon_slack_m", m.tendon_slack_m},
-               {"activation_tau_s", m.activation_tau_s},
-               {"deactivation_tau_s", m.deactivation_tau_s},
-               {"estimated", m.estimated},
-               {"sources", m.sources},
-               {"origin", json_of(muscle.origins, anatomy)},
-               {"insertion", json_of(muscle.insertions, anatomy)}};
+  const anatomy::Muscle& mechanics = muscle.mechanics;
+  Json json = {{"key", mechanics.key}, {"name_la", mechanics.name_la}, {"name_en", mechanics.name_en}};
+  json.update(anatomy::json_of_mechanics(mechanics));
+  json["origin"] = json_of(muscle.origins, anatomy);
+  json["insertion"] = json_of(muscle.insertions, anatomy);
   if (!muscle.file.empty()) json["file"] = muscle.file;
   if (muscle.line.empty()) return json;
   json["line"] = Json::array();
@@ -104,7 +65,7 @@ std::string recipe_text(const AnatomyData& anatomy) {
   for (const char* list : {"bodies", "bones", "joints", "muscles", "groups"}) json[list] = Json::array();
   for (const anatomy::Body& body : anatomy.bodies) json["bodies"].push_back(json_of(body));
   for (const BoneData& bone : anatomy.bones) json["bones"].push_back(json_of(bone, anatomy));
-  for (const anatomy::Joint& joint : anatomy.joints) json["joints"].push_back(json_of(joint, anatomy));
+  for (const anatomy::Joint& joint : anatomy.joints) json["joints"].push_back(json_of(joint, anatomy.bodies));
   for (const MuscleData& muscle : anatomy.muscles) json["muscles"].push_back(json_of(muscle, anatomy));
   for (const GroupData& group : anatomy.groups) {
     json["groups"].push_back(
