@@ -1,4 +1,4 @@
-"""Which sources of a target may be compiled as one, for builds in bundles (presets asan and tsan).
+"""Which sources of a target may be compiled as one, for builds in bundles (MyotactBundles.cmake).
 
 Usage: bundle_sources.py MOST SOURCE...   One line a source: the number of its bundle, in the order given.
 

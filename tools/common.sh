@@ -47,6 +47,7 @@ build() {
   if command -v ccache >/dev/null; then
     export CMAKE_CXX_COMPILER_LAUNCHER=ccache
     export CCACHE_SLOPPINESS="${CCACHE_SLOPPINESS:-pch_defines,time_macros}"  # or it leaves precompiled headers alone
+    export CCACHE_BASEDIR="$project" CCACHE_NOHASHDIR=1  # checkouts in several places share what they compile alike
     export CCACHE_DEPEND="${CCACHE_DEPEND:-1}"  # else what is not in the cache is preprocessed once more
   fi
   if [ ! -f "$project/build/$preset/build.ninja" ] || [ ${#options[@]} -gt 0 ]; then

@@ -20,12 +20,13 @@ run_tests() {
 }
 
 phase "packages" install_missing "$project/tools/packages.txt" "$project/tools/packages-test.txt"
-phase "release, build" build release
 if [ "${1:-}" = "--quick" ]; then
+  phase "release, build" build release
   phase "release, unit and physics tests" run_tests release -L 'unit|physics' -LE 'slow|bench'
   exit
 fi
-phase "release, tests" run_tests release -LE 'bench|soak'
+phase "release, build" build bundled
+phase "release, tests" run_tests bundled -LE 'bench|soak'
 phase "address sanitizer, build" build asan
 # Timing means nothing under sanitizers; the slow tests and the validation cases ran above, and what these call is
 # tested here too.

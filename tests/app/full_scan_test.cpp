@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/program.h"
+#include "support/source_folder.h"
 
 namespace myotact::testing {
 namespace {
@@ -27,7 +28,7 @@ TEST(FullScan, RunsTheElbow) {
   const std::string specimen = (folder.path() / "specimen").string();
   const std::string out = (folder.path() / "out").string();
   const std::string prepare = std::string(MYOTACT_PREPARE) + " " + canine + "/forelimb_left --recipe " +
-                              MYOTACT_SOURCE_DIR + "/assets/canine/elbow.json -o " + specimen;
+                              source_folder() + "/assets/canine/elbow.json -o " + specimen;
   ASSERT_EQ(std::system((prepare + " > " + specimen + ".log 2>&1").c_str()), 0) << prepare;
 
   const Outcome outcome =

@@ -8,6 +8,7 @@
 
 #include "app/program.h"
 #include "core/file.h"
+#include "support/source_folder.h"
 
 namespace myotact::testing {
 namespace {
@@ -17,7 +18,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-const std::string kElbow = MYOTACT_SOURCE_DIR "/assets/cases/line_elbow.json";
+const std::string kElbow = source_folder() + "/assets/cases/line_elbow.json";
 
 class LineStiffness : public ::testing::Test {
  protected:

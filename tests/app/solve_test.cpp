@@ -10,6 +10,7 @@
 
 #include "app/program.h"
 #include "core/file.h"
+#include "support/source_folder.h"
 
 namespace myotact::testing {
 namespace {
@@ -18,7 +19,7 @@ using nlohmann::json;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-const std::string kExample = MYOTACT_SOURCE_DIR "/assets/cases/cantilever.json";
+const std::string kExample = source_folder() + "/assets/cases/cantilever.json";
 
 class Solve : public ::testing::Test {
  protected:

@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/program.h"
+#include "support/source_folder.h"
 
 namespace myotact::testing {
 namespace {
@@ -131,7 +132,7 @@ TEST_F(Stiffness, RefusesWhatCannotBeMeasuredByName) {
 TEST_F(Stiffness, ArrayScriptMeasuresItsPart) {
   const std::string environment = "SLURM_ARRAY_TASK_COUNT=2 MYOTACT=" MYOTACT_PROGRAM " SLURM_ARRAY_TASK_ID=";
   const std::string script =
-      " sh " MYOTACT_SOURCE_DIR "/tools/stiffness_array.slurm elbow --levels 0,1" + kFast + out();
+      " sh " + source_folder() + "/tools/stiffness_array.slurm elbow --levels 0,1" + kFast + out();
   ASSERT_EQ(std::system((environment + "1" + script + " >/dev/null 2>&1").c_str()), 0);
   ASSERT_EQ(std::system((environment + "2" + script + " >/dev/null 2>&1").c_str()), 0);
   const std::string parts = fmt::format("{0}1_of_2.json {0}2_of_2.json", file("out/stiffness_part_"));

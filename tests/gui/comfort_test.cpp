@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gui/gui_program.h"
+#include "support/source_folder.h"
 
 // Keys and mouse as a person likes them, the window without a mouse, and big type for a class.
 
@@ -119,7 +120,7 @@ TEST_F(ComfortTest, BigTypeShowsTheStiffnessToAClassAndGoesAway) {
 TEST_F(ComfortTest, MoreCoContractionGoesOnFromTheLevelInForce) {
   const std::string file = ::testing::TempDir() + "driven_elbow.json";
   json scene =
-      json::parse(std::ifstream(std::string(MYOTACT_SOURCE_DIR) + "/assets/scenes/elbow.json"), nullptr, true, true);
+      json::parse(std::ifstream(source_folder() + "/assets/scenes/elbow.json"), nullptr, true, true);
   scene["co_contraction"]["common"] = 0.4;
   std::ofstream(file) << scene.dump();
   GuiProgram gui("class_driven", file + " --set tissue.default=line");

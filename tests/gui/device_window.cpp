@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "anatomy/specimen.h"
+#include "support/source_folder.h"
 #include "view/view_frame.h"
 #include "view/window/window.h"
 
@@ -46,7 +47,7 @@ class Gate {
 
 void run(const std::filesystem::path& report) {
   const anatomy::Specimen specimen =
-      anatomy::load_specimen(std::filesystem::path(MYOTACT_SOURCE_DIR) / "meshes" / "canine_elbow");
+      anatomy::load_specimen(std::filesystem::path(source_folder()) / "meshes" / "canine_elbow");
   messages::SceneFrame frame = held_limb(specimen);
   view::Window window;
   view::WindowSettings settings;

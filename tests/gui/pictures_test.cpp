@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gui/gui_program.h"
+#include "support/source_folder.h"
 
 // What the scene looks like, compared with small pictures that are kept in tests/gui/pictures/. After a change that is
 // meant: MYOTACT_RENEW_PICTURES=1 writes them anew; look at them before you keep them.
@@ -23,7 +24,7 @@ using testing::GuiProgram;
 /// limb that is not there, or another one, makes some hundredths.
 constexpr double kTolerance = 0.008;
 
-const std::filesystem::path kKept = std::filesystem::path(MYOTACT_SOURCE_DIR) / "tests/gui/pictures";
+const std::filesystem::path kKept = std::filesystem::path(source_folder()) / "tests/gui/pictures";
 
 void convert(const std::string& arguments) {
   ASSERT_EQ(std::system(("convert " + arguments).c_str()), 0) << arguments;

@@ -16,11 +16,12 @@
 #include "device/replay_device.h"
 #include "haptics/haptic_loop.h"
 #include "haptics/surfaces.h"
+#include "support/source_folder.h"
 
 namespace myotact::haptics {
 namespace {
 
-constexpr const char* kTrace = MYOTACT_SOURCE_DIR "/tests/replay/touch_trace.csv";
+const std::string kTrace = source_folder() + "/tests/replay/touch_trace.csv";
 constexpr std::uint64_t kStep_ns = 10'000'000;
 constexpr int kTicks = 2500;
 constexpr int kEvery = 25;  // ticks of a row

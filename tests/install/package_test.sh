@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# package_test.sh SOURCE: builds the packages, installs them with their dependencies into a bare Debian of their own, runs
+# package_test.sh SOURCE PRESET: builds the packages, installs them with their dependencies into a bare Debian of their own, runs
 # the programs there and removes them. Needs root and a Debian mirror, else skips (77). The bare Debian and what was
 # downloaded stay in build/install_root for the next time. All mounts are in a namespace that ends with the test.
 set -euo pipefail
-source="$1"
+source="$1" preset="$2"
 skip() { echo "skipped: $*"; exit 77; }
 fail() { echo "FAILED: $*" >&2; exit 1; }
 
@@ -32,8 +32,8 @@ root="$(mktemp -d "$cache/root.XXXXXX")"
 trap 'rm -rf "$root"' EXIT
 cp -a "$base/." "$root"
 mkdir "$root/debs"
-"$source/tools/package.sh" >/dev/null
-cp "$source"/build/release/packages/*.deb "$root/debs"
+"$source/tools/package.sh" "$preset" >/dev/null
+cp "$source/build/$preset"/packages/*.deb "$root/debs"
 if [ -n "${http_proxy:-}" ]; then echo "Acquire::http::Proxy \"$http_proxy\";" >"$root/etc/apt/apt.conf.d/proxy"; fi
 cp "$(dirname "$0")/in_root.sh" "$root/debs"
 

@@ -5,13 +5,14 @@
 #include "anatomy/part_facts.h"
 #include "anatomy/specimen.h"
 #include "learn/lesson_file.h"
+#include "support/source_folder.h"
 
 namespace myotact::testing {
 
 /// The canine elbow of the repository.
 inline const anatomy::Specimen& elbow() {
   static const anatomy::Specimen kElbow =
-      anatomy::load_specimen(std::filesystem::path(MYOTACT_SOURCE_DIR) / "meshes" / "canine_elbow");
+      anatomy::load_specimen(std::filesystem::path(source_folder()) / "meshes" / "canine_elbow");
   return kElbow;
 }
 

@@ -6,6 +6,7 @@
 #include "learn/lesson_list.h"
 #include "scene/scene_file.h"
 #include "simulation/simulation.h"
+#include "support/source_folder.h"
 
 // What the shipped lessons say is what the model shows.
 
@@ -22,7 +23,7 @@ const std::vector<Shipped>& shipped() {
   static const std::vector<Shipped> kLessons = [] {
     std::vector<Shipped> lessons;
     for (const ListedLesson& listed : list_lessons()) {
-      if (!listed.path.string().starts_with(MYOTACT_SOURCE_DIR)) continue;
+      if (!listed.path.string().starts_with(source_folder())) continue;
       EXPECT_EQ(listed.complaint, "");
       scene::Scene scene = scene::load_scene(listed.head.scene, {{"tissue.default", "line"}});
       Lesson lesson = load_lesson(listed.path, scene.specimen);

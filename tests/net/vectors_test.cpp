@@ -11,13 +11,14 @@
 #include "net/scene_decoder.h"
 #include "net/scene_encoder.h"
 #include "net/tool_state_frames.h"
+#include "support/source_folder.h"
 
 // The golden vectors, packed by another program from the tables of the format's description: both ways.
 
 namespace myotact::net {
 namespace {
 
-const std::filesystem::path kFolder = std::filesystem::path(MYOTACT_SOURCE_DIR) / "tests" / "net" / "vectors";
+const std::filesystem::path kFolder = std::filesystem::path(source_folder()) / "tests" / "net" / "vectors";
 
 Bytes vector_of(const std::string& name) {
   const std::string text = read_file(kFolder / (name + ".bin"));

@@ -4,6 +4,7 @@
 
 #include "prepare/phantom_volume.h"
 #include "prepare/volume/read_label_volume.h"
+#include "support/source_folder.h"
 
 // Files that nibabel, teem and ITK wrote (fixtures_volume/README.md) hold the phantom, wherever its axes run.
 
@@ -11,7 +12,7 @@ namespace myotact::prepare {
 namespace {
 
 TEST(ForeignVolumes, HoldThePhantom) {
-  const auto folder = std::filesystem::path(MYOTACT_SOURCE_DIR) / "tests" / "prepare" / "fixtures_volume";
+  const auto folder = std::filesystem::path(source_folder()) / "tests" / "prepare" / "fixtures_volume";
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (!is_label_volume(entry.path())) continue;

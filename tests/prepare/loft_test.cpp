@@ -8,11 +8,12 @@
 
 #include "geometry/triangle_mesh.h"
 #include "prepare/recipe/read_recipe.h"
+#include "support/source_folder.h"
 
 namespace myotact::prepare {
 namespace {
 
-const std::filesystem::path kAssets = std::filesystem::path(MYOTACT_SOURCE_DIR) / "assets" / "canine";
+const std::filesystem::path kAssets = std::filesystem::path(source_folder()) / "assets" / "canine";
 const std::filesystem::path kForelimb = kAssets / "forelimb.json", kHindlimb = kAssets / "hindlimb.json";
 
 /// Volumes of the measured meshes [cm^3]. Ellipses and eight harmonics lose grooves and slips: 10 % are allowed.

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "prepare/recipe/read_recipe.h"
+#include "support/source_folder.h"
 
 namespace myotact::prepare {
 namespace {
@@ -14,7 +15,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-const std::filesystem::path kCanine = std::filesystem::path(MYOTACT_SOURCE_DIR) / "assets" / "canine";
+const std::filesystem::path kCanine = std::filesystem::path(source_folder()) / "assets" / "canine";
 
 const std::vector<KnownPart>& hindlimb() {
   static const std::vector<KnownPart> kKnown =

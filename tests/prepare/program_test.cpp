@@ -11,6 +11,7 @@
 
 #include "core/exit_status.h"
 #include "core/file.h"
+#include "support/source_folder.h"
 
 namespace myotact::prepare {
 namespace {
@@ -89,7 +90,7 @@ TEST_F(Program, RefusesAFileThatIsNoMesh) {
 }
 
 TEST_F(Program, StopsAfterAStageWithAScanThatCanBePreparedFurther) {
-  const std::string recipe = std::string(MYOTACT_SOURCE_DIR) + "/assets/canine/hindlimb.json";
+  const std::string recipe = source_folder() + "/assets/canine/hindlimb.json";
   const fs::path read = folder_ / "read", repaired = folder_ / "repaired";
   ASSERT_EQ(run("loft " + recipe + " --until read -o " + read.string()), status(ExitStatus::Done)) << error_;
   ASSERT_EQ(run(read.string() + " --until repair -o " + repaired.string()), status(ExitStatus::Done)) << error_;
@@ -104,7 +105,7 @@ TEST_F(Program, StopsAfterAStageWithAScanThatCanBePreparedFurther) {
 
 TEST_F(Program, SaysThatItCannotWrite) {
   put("blocker", "a file where a folder is wanted");
-  const std::string assets = std::string(MYOTACT_SOURCE_DIR) + "/assets/canine";
+  const std::string assets = source_folder() + "/assets/canine";
   EXPECT_EQ(run("loft " + assets + " -o " + scan() + "/blocker/specimen"), status(ExitStatus::InputOutput));
   EXPECT_THAT(error_, HasSubstr("blocker"));
   EXPECT_TRUE(nothing_left_behind());

@@ -2,6 +2,8 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,7 @@
 #include "prepare/parallel.h"
 #include "prepare/part/film.h"
 #include "prepare/partition/part_volume.h"
+#include "prepare/recipe/read_recipe.h"
 #include "prepare/surface/surface_pieces.h"
 #include "prepare/volume/read_label_volume.h"
 
@@ -32,14 +35,18 @@ struct PartFigures {
   std::size_t pieces = 0;
   int handles = 0;
   int bad_edges = 0;
-  double volume = 0.0;  // of the skin over that of the label
+  double volume = 0.0;   // of the skin over that of the label
+  double ends_mm = 0.0;  // of the attachments' bones the one that its skin is farthest from
 };
 
 class LabelledLimb {
  public:
   explicit LabelledLimb(const std::string& limb)
       : volume_(read_label_volume(data_folder() / "assets" / "canine" / (limb + ".seg.nrrd"))),
-        specimen_(anatomy::load_specimen(data_folder() / "meshes" / ("canine_whole_" + limb))) {}
+        specimen_(anatomy::load_specimen(data_folder() / "meshes" / ("canine_whole_" + limb))),
+        recipe_(read_recipe(data_folder() / "assets" / "canine" / (limb + ".json"))) {
+    for (const anatomy::Bone& bone : specimen_.bones) bones_.emplace(bone.key, bone.surface);
+  }
 
   std::vector<PartFigures> measure() const {
     std::vector<PartFigures> figures(specimen_.bones.size() + specimen_.muscles.size());
@@ -76,7 +83,27 @@ class LabelledLimb {
     figures.bad_edges = geometry::bad_edge_count(skin);
     figures.volume = geometry::enclosed_volume_m3(skin) /
                      (static_cast<double>(figures.points) * std::pow(step_m(volume_.lattice), 3));
+    if (muscle) figures.ends_mm = 1e3 * farthest_end_m(key, skin);
     return figures;
+  }
+
+  /// The trunk's bones are in no limb: what is fixed there has no end to look at.
+  double farthest_end_m(const std::string& key, const geometry::TriangleMesh& skin) const {
+    const auto muscle = std::find_if(recipe_.muscles.begin(), recipe_.muscles.end(),
+                                     [&](const MuscleData& data) { return data.mechanics.key == key; });
+    double farthest_m = 0.0;
+    for (const auto* sites : {&muscle->origins, &muscle->insertions}) {
+      for (const AttachmentSite& site : *sites) {
+        double nearest_m = std::numeric_limits<double>::infinity();
+        for (const std::string& bone : site.bones) {
+          const auto surface = bones_.find(bone);
+          if (surface == bones_.end()) continue;
+          for (const Vec3& p : skin.positions_m) nearest_m = std::min(nearest_m, surface->second(p));
+        }
+        if (std::isfinite(nearest_m)) farthest_m = std::max(farthest_m, nearest_m);
+      }
+    }
+    return farthest_m;
   }
 
   template <class Visit>
@@ -110,6 +137,8 @@ class LabelledLimb {
 
   LabelVolume volume_;
   anatomy::Specimen specimen_;
+  AnatomyData recipe_;
+  std::map<std::string, SignedDistance> bones_;
 };
 
 class ShippedLimb : public ::testing::TestWithParam<const char*> {};
@@ -120,12 +149,12 @@ constexpr std::size_t kLarge = 10000;
 constexpr std::size_t kSmall = 200;
 
 TEST_P(ShippedLimb, IsWhatItsVolumeSays) {
-  fmt::print("{:<36} {:>7} {:>6} {:>8} {:>6} {:>7} {:>7}\n", "part", "points", "dice", "d95 mm", "pieces", "handles",
-             "volume");
+  fmt::print("{:<36} {:>7} {:>6} {:>8} {:>6} {:>7} {:>7} {:>8}\n", "part", "points", "dice", "d95 mm", "pieces",
+             "handles", "volume", "ends mm");
   std::size_t muscles = 0;
   for (const PartFigures& part : LabelledLimb(GetParam()).measure()) {
-    fmt::print("{:<36} {:>7} {:>6.3f} {:>8.2f} {:>6} {:>7} {:>7.3f}\n", part.key, part.points, part.dice,
-               part.distance_mm, part.pieces, part.handles, part.volume);
+    fmt::print("{:<36} {:>7} {:>6.3f} {:>8.2f} {:>6} {:>7} {:>7.3f} {:>8.2f}\n", part.key, part.points, part.dice,
+               part.distance_mm, part.pieces, part.handles, part.volume, part.ends_mm);
     EXPECT_EQ(part.bad_edges, 0) << part.key;
     EXPECT_EQ(part.pieces, 1U) << part.key;
     EXPECT_LE(part.distance_mm, part.points >= kLarge ? 1.0 : 1.1) << part.key;
@@ -133,6 +162,7 @@ TEST_P(ShippedLimb, IsWhatItsVolumeSays) {
       EXPECT_GE(part.dice, part.points >= kLarge ? 0.95 : 0.9) << part.key;
       EXPECT_NEAR(part.volume, 1.0, part.points >= kLarge ? 0.05 : 0.12) << part.key;
     }
+    EXPECT_LE(part.ends_mm, 2.0) << part.key;
     muscles += part.muscle ? 1 : 0;
   }
   EXPECT_EQ(muscles, std::string(GetParam()) == "forelimb" ? 33U : 35U);

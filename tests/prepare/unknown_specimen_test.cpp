@@ -1,10 +1,14 @@
 // The program on parts that no recipe knows: a specimen, the recipe that was guessed, and the same from that recipe.
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <numbers>
 #include <string>
 
+#include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -14,6 +18,8 @@
 #include "core/exit_status.h"
 #include "core/file.h"
 #include "geometry/mesh_files.h"
+#include "prepare/phantom_files.h"
+#include "prepare/phantom_volume.h"
 #include "prepare/shapes.h"
 
 namespace myotact::prepare {
@@ -142,6 +148,82 @@ TEST_F(UnknownSpecimen, IsRefusedWithNothingLeftBehind) {
   refused(scan + out + " --guess", ExitStatus::BadData, "joint x.mrk.json");
   std::ofstream(path("scan/Segment_1.ply")) << "no surface";
   refused(scan + out + " --guess", ExitStatus::BadData, "Segment_1.ply");
+}
+
+/// Volume and middle [mm] of a part's skin.
+struct Bulk {
+  double volume_mm3 = 0.0;
+  Vec3 middle_mm = Vec3::Zero();
+};
+
+Bulk bulk_of(const geometry::TriangleMesh& skin) {
+  Bulk bulk;
+  for (const auto& [a, b, c] : skin.triangles) {
+    const auto corner = [&](int i) { return Vec3(1e3 * skin.positions_m[static_cast<std::size_t>(i)]); };
+    const double volume_mm3 = corner(a).dot(corner(b).cross(corner(c))) / 6.0;
+    bulk.volume_mm3 += volume_mm3;
+    bulk.middle_mm += 0.25 * volume_mm3 * (corner(a) + corner(b) + corner(c));
+  }
+  bulk.middle_mm /= bulk.volume_mm3;
+  return bulk;
+}
+
+/// Of the specimen's parts by key.
+std::map<std::string, Bulk> bulks_of(const anatomy::Specimen& specimen) {
+  std::map<std::string, Bulk> bulks;
+  for (const anatomy::Bone& bone : specimen.bones) bulks[bone.key] = bulk_of(bone.surface);
+  for (const anatomy::Muscle& muscle : specimen.muscles) bulks[muscle.key] = bulk_of(muscle.skin);
+  return bulks;
+}
+
+/// Specimen frame, from LPS: superior is cranial, left is left, posterior is up.
+Vec3 in_specimen(const Vec3& lps) {
+  return {lps.z(), lps.x(), lps.y()};
+}
+
+TEST_F(UnknownSpecimen, IsTheSameFromEveryFormatAndOrderOfAxesOfAVolume) {
+  const std::vector<testing::PhantomGrid> grids = testing::all_orientations({});
+  const std::map<std::string, std::string> files{
+      {"a.nrrd", testing::nrrd_file(grids[0])},
+      {"b.nii.gz", testing::gzip(testing::nifti_file(grids[13], 1, testing::NiftiPlaces::Quaternion))},
+      {"c.nii", testing::nifti_file(grids[22], 2, testing::NiftiPlaces::Affine)},
+      {"d.mha", testing::meta_image_file(grids[41], {2, true, true}, true)},
+      {"e.nrrd", testing::nrrd_file(testing::oblique_grid(), "right-anterior-superior", Vec3(-1, -1, 1))}};
+  for (const auto& [name, bytes] : files) {
+    write_file(folder_ / name, bytes);
+    ASSERT_EQ(run(path(name) + " --guess --bones 'label 3' -o " + path(name + "_limb")), kDone) << name << error_;
+    const anatomy::Specimen specimen = anatomy::load_specimen(folder_ / (name + "_limb"));
+    EXPECT_EQ(specimen.bones.size(), 1u);
+    EXPECT_EQ(specimen.muscles.size(), 4u);
+    const std::map<std::string, Bulk> bulks = bulks_of(specimen);
+    const auto expect_ball = [&](const std::string& key, const Vec3& middle_mm, double radius_mm) {
+      const Bulk& bulk = bulks.at(key);
+      // Of its voxels, of which there are few: 1.9 mm against radii of 6 and 9.
+      EXPECT_NEAR(bulk.volume_mm3 / (4.0 / 3.0 * std::numbers::pi * std::pow(radius_mm, 3)), 1.0, 0.08) << name << key;
+      EXPECT_LT((bulk.middle_mm - in_specimen(middle_mm)).norm(), 0.5) << name << key;
+    };
+    expect_ball("label_1", {12, 11, 12}, 9.0);
+    expect_ball("label_2", {12, 26, 12}, 6.0);
+    EXPECT_LT((in_specimen({29, 20, 0}) - bulks.at("label_3").middle_mm).tail<2>().norm(), 0.5) << name;
+    EXPECT_NEAR(bulks.at("label_5").middle_mm.x(), 35.8, 0.6) << name;
+  }
+}
+
+TEST_F(UnknownSpecimen, TakesWhatWasMarkedOnAVolume) {
+  write_file(folder_ / "p.nrrd", testing::nrrd_file({}));
+  write_file(folder_ / "joint knee label_1 label_3.mrk.json",
+             R"({"markups": [{"type": "Line", "coordinateSystem": "RAS", "coordinateUnits": "mm", "controlPoints": [
+                {"label": "L-1", "position": [-20, -10, 12]}, {"label": "L-2", "position": [-20, -26, 12]}]}]})");
+  const std::string volume = path("p.nrrd") + " '" + path("joint knee label_1 label_3.mrk.json") + "'";
+  ASSERT_EQ(run(volume + " --guess --bones 'label 1,label 3' -o " + path("limb")), kDone) << error_;
+  const anatomy::Specimen specimen = anatomy::load_specimen(folder_ / "limb");
+  ASSERT_EQ(specimen.joints.size(), 1u);
+  EXPECT_EQ(specimen.joints[0].type, anatomy::JointType::Hinge);
+  EXPECT_LT((specimen.joints[0].axes[0] - in_specimen({0, 1, 0})).norm(), 1e-9);
+  EXPECT_LT((1e3 * specimen.joints[0].centre_m - in_specimen({20, 18, 12})).norm(), 1e-6);
+  EXPECT_EQ(run(path("p.nrrd") + " " + boxes_and_rod() + " --guess -o " + path("out")),
+            static_cast<int>(ExitStatus::Usage));
+  EXPECT_THAT(error_, HasSubstr("nothing but Markups"));
 }
 
 }  // namespace

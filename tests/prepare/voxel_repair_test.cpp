@@ -13,6 +13,7 @@
 #include "prepare/surface/edge_table.h"
 #include "prepare/surface/surface_pieces.h"
 #include "prepare/voxel_surfaces.h"
+#include "support/source_folder.h"
 
 namespace myotact::prepare {
 namespace {
@@ -75,7 +76,7 @@ TEST(VoxelRepair, JoinsABodyThatHoldsTogetherAtBothEndsOfAnEdge) {
 
 /// The same between two slabs as a foreign program cuts it: three edges with four triangles, one after the other.
 TEST(VoxelRepair, TakesTheSurfaceNetsOfAForeignProgram) {
-  const auto file = std::filesystem::path(MYOTACT_SOURCE_DIR) / "tests/prepare/fixtures_surface/surface_nets.off";
+  const auto file = std::filesystem::path(source_folder()) / "tests/prepare/fixtures_surface/surface_nets.off";
   const TriangleMesh mesh = geometry::read_surface(file).mesh;
   ASSERT_EQ(count_edges(mesh).crowded, 3);
   const RepairResult result = repaired(mesh);

@@ -11,6 +11,7 @@
 #include "simulation/follower/bone_fit.h"
 #include "simulation/limb/limb.h"
 #include "simulation/simulation.h"
+#include "support/source_folder.h"
 
 // Muscles that nothing solves for, in both shipped limbs: over the whole range of every joint, and with all joints bent
 // at once, their skins stay on the bones they lay on and out of all others.
@@ -125,7 +126,7 @@ class Followers : public ::testing::TestWithParam<const char*> {
   }
 
   anatomy::Specimen specimen_ =
-      anatomy::with_hinge_chains(anatomy::load_specimen(std::string(MYOTACT_SOURCE_DIR "/meshes/") + GetParam()));
+      anatomy::with_hinge_chains(anatomy::load_specimen(source_folder() + "/meshes/" + GetParam()));
   Simulation simulation_{specimen_, {.tissue = std::vector<TissueModel>(specimen_.muscles.size(), TissueModel::Rigid)}};
   BoneSurfaces bones_ = make_bone_surfaces(specimen_);
   Skeleton skeleton_{specimen_};
@@ -244,7 +245,7 @@ TEST_P(Followers, FewTetsTurnInsideOut) {
 }
 
 TEST(FollowersOfAnElbow, AreTheSameForAnyNumberOfThreads) {
-  const anatomy::Specimen specimen = anatomy::load_specimen(MYOTACT_SOURCE_DIR "/meshes/canine_elbow");
+  const anatomy::Specimen specimen = anatomy::load_specimen(source_folder() + "/meshes/canine_elbow");
   std::vector<std::uint64_t> hashes;
   for (const int workers : {1, 2, 3, 4}) {
     Simulation simulation(specimen, {.workers = workers,
@@ -256,7 +257,7 @@ TEST(FollowersOfAnElbow, AreTheSameForAnyNumberOfThreads) {
 }
 
 TEST(FollowersOfAnElbow, DoNotTouchWhatIsSimulated) {
-  const anatomy::Specimen specimen = anatomy::load_specimen(MYOTACT_SOURCE_DIR "/meshes/canine_elbow");
+  const anatomy::Specimen specimen = anatomy::load_specimen(source_folder() + "/meshes/canine_elbow");
   std::vector<TissueModel> mixed(specimen.muscles.size(), TissueModel::Line);
   Simulation alone(specimen, {.tissue = mixed});
   mixed.back() = TissueModel::Rigid;

@@ -5,6 +5,7 @@
 
 #include "simulation/line/line_model.h"
 #include "simulation/simulation.h"
+#include "support/source_folder.h"
 
 // The canine forelimb of this repository, whole: what the muscles do there is what their lines say.
 
@@ -20,7 +21,7 @@ struct Forelimb {
       : simulation(specimen, {.tissue = std::vector<TissueModel>(specimen.muscles.size(), model), .contact = contact}) {
   }
 
-  anatomy::Specimen specimen = anatomy::load_specimen(MYOTACT_SOURCE_DIR "/meshes/canine_elbow");
+  anatomy::Specimen specimen = anatomy::load_specimen(source_folder() + "/meshes/canine_elbow");
   int elbow = anatomy::find_joint(specimen, "elbow");
   Simulation simulation;
 
@@ -108,7 +109,7 @@ TEST_P(ForelimbOf, StandsJumpsOfActivationAndAYankedSkin) {
 }
 
 TEST(Forelimb, WorkersDoNotChangeABit) {
-  const anatomy::Specimen specimen = anatomy::load_specimen(MYOTACT_SOURCE_DIR "/meshes/canine_elbow");
+  const anatomy::Specimen specimen = anatomy::load_specimen(source_folder() + "/meshes/canine_elbow");
   std::vector<std::uint64_t> hashes;
   for (int workers : {1, 2, 8}) {
     SimulationSettings settings;

@@ -8,6 +8,7 @@
 
 #include "anatomy/specimen.h"
 #include "simulation/simulation.h"
+#include "support/source_folder.h"
 
 // Thigh muscles of the canine hindlimb, 20 degrees flexed, in contact with bones and with each other: they lie up to 4
 // mm within one another at the file pose, and each of them touches three others.
@@ -46,7 +47,7 @@ struct Thigh {
     return simulation->joint(stifle).net_torque_Nm;
   }
 
-  anatomy::Specimen specimen = anatomy::load_specimen(MYOTACT_SOURCE_DIR "/meshes/canine_hindlimb");
+  anatomy::Specimen specimen = anatomy::load_specimen(source_folder() + "/meshes/canine_hindlimb");
   std::vector<bool> flexes, extends;
   std::unique_ptr<Simulation> simulation;
   int stifle = -1;

@@ -15,6 +15,7 @@
 #include "anatomy/specimen.h"
 #include "core/file.h"
 #include "simulation/line/line_model.h"
+#include "support/source_folder.h"
 
 // Moment arms of the embedded limbs' muscle lines over the range of motion beside those of the attachment points that
 // the authors of the published model chose (source_sites.json), about the same axes.
@@ -82,7 +83,7 @@ TEST_P(MomentArms, HaveTheSignOfThePublishedModels) {
   const char* folder = std::getenv("MYOTACT_CANINE_DIR");
   if (folder == nullptr) GTEST_SKIP() << "MYOTACT_CANINE_DIR is not set: the published sites are not there";
   const auto sites = nlohmann::json::parse(read_file(std::filesystem::path(folder) / "source_sites.json")).at("sites");
-  const auto specimen = anatomy::load_specimen(std::string(MYOTACT_SOURCE_DIR "/meshes/") + GetParam().name);
+  const auto specimen = anatomy::load_specimen(source_folder() + "/meshes/" + GetParam().name);
   Skeleton skeleton(specimen);
   int compared = 0;
   fmt::print("moment arm of the line / of the published sites [mm] at {} degrees\n", fmt::join(kAngles_deg, ", "));

@@ -6,11 +6,12 @@
 #include <gtest/gtest.h>
 
 #include "simulation/simulation.h"
+#include "support/source_folder.h"
 
 namespace myotact::simulation {
 namespace {
 
-constexpr const char* kSpecimen = MYOTACT_SOURCE_DIR "/meshes/canine_elbow";
+const std::string kSpecimen = source_folder() + "/meshes/canine_elbow";
 /// Nothing that a hand does throws tissue faster than this.
 constexpr double kFastest_m_s = 30.0;
 

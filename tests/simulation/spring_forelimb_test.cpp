@@ -7,6 +7,7 @@
 #include "simulation/limb/settle.h"
 #include "simulation/muscle/spring_net.h"
 #include "simulation/simulation.h"
+#include "support/source_folder.h"
 
 // The canine forelimb of this repository made of springs, against the same made of finite elements.
 
@@ -14,7 +15,7 @@ namespace myotact::simulation {
 namespace {
 
 const anatomy::Specimen& specimen() {
-  static const anatomy::Specimen loaded = anatomy::load_specimen(MYOTACT_SOURCE_DIR "/meshes/canine_elbow");
+  static const anatomy::Specimen loaded = anatomy::load_specimen(source_folder() + "/meshes/canine_elbow");
   return loaded;
 }
 

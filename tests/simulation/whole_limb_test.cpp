@@ -5,6 +5,7 @@
 
 #include "simulation/line/line_model.h"
 #include "simulation/simulation.h"
+#include "support/source_folder.h"
 
 // One muscle, one mechanics: in both embedded whole limbs, every muscle of finite elements pulls as its line does.
 // Without contact, which no line has: the humerus, on which the brachialis lies, changes that muscle's moment arm
@@ -45,7 +46,7 @@ class WholeLimb : public ::testing::TestWithParam<const char*> {
     return best;
   }
 
-  anatomy::Specimen specimen_ = anatomy::load_specimen(std::string(MYOTACT_SOURCE_DIR "/meshes/") + GetParam());
+  anatomy::Specimen specimen_ = anatomy::load_specimen(source_folder() + "/meshes/" + GetParam());
   Simulation simulation_{
       specimen_,
       {.workers = 2, .tissue = std::vector<TissueModel>(specimen_.muscles.size(), TissueModel::Fem), .contact = false}};

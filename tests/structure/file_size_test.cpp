@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/file.h"
+#include "support/source_folder.h"
 
 // Small files are easier to trust: no header beyond 250 lines, no source beyond 400, no test beyond 500.
 
@@ -19,7 +20,7 @@ std::ptrdiff_t line_limit(const std::filesystem::path& path) {
 TEST(FileSize, EveryFileStaysSmall) {
   int files = 0;
   for (const char* folder : {"src", "tools", "tests"}) {
-    const auto root = std::filesystem::path(MYOTACT_SOURCE_DIR) / folder;
+    const auto root = std::filesystem::path(source_folder()) / folder;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
       const auto& path = entry.path();
       if (path.extension() != ".h" && path.extension() != ".cpp") continue;

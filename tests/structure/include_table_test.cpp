@@ -9,6 +9,7 @@
 
 #include "core/file.h"
 #include "core/text.h"
+#include "support/source_folder.h"
 
 // Which folder may include which: the table of the design, so that the arrows of the data flow stay as drawn. The
 // same between the parts of the folders that have some.
@@ -218,7 +219,7 @@ TEST(IncludeTable, FindsWhatItForbids) {
 }
 
 TEST(IncludeTable, EveryFileKeepsToIt) {
-  const std::filesystem::path project = MYOTACT_SOURCE_DIR;
+  const std::filesystem::path project = source_folder();
   EXPECT_GT(check_all(project / "src", kMayInclude), 500);
   EXPECT_GT(check_all(project / "tools", kToolsMayInclude), 100);
 }

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/file.h"
+#include "support/source_folder.h"
 
 // What a README points at is there: links, paths from the top of the repository, and the parts of a folder's table,
 // which names all of them.
@@ -15,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = MYOTACT_SOURCE_DIR;
+const fs::path kRoot = source_folder();
 const std::vector<std::string> kTopFolders = {"assets", "cmake", "docs", "meshes", "shaders", "src", "tests", "tools"};
 
 /// The texts between each `opening` and the `closing` after it.

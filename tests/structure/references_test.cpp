@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/file.h"
+#include "support/source_folder.h"
 
 // A source that a comment cites can be found: no number of a document that readers do not have, and every "Author year"
 // stands in docs/references.md.
@@ -16,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = MYOTACT_SOURCE_DIR;
+const fs::path kRoot = source_folder();
 
 struct Citation {
   std::string author;

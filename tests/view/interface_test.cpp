@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "support/source_folder.h"
 #include "view/input/key_bindings.h"
 #include "view/ui/font.h"
 #include "view/ui/layout.h"
@@ -23,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = MYOTACT_SOURCE_DIR;
+const fs::path kRoot = source_folder();
 
 /// The sources of the window, by path.
 std::map<std::string, std::string> window_sources() {

@@ -14,9 +14,12 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "prepare/finish_limb.h"
+#include "prepare/guess/markups.h"
+#include "prepare/guess/part_files.h"
 #include "prepare/loft/loft.h"
 #include "prepare/measure/measure_limb.h"
 #include "prepare/partition/cut_parts.h"
+#include "prepare/partition/lay_tendons.h"
 #include "prepare/partition/part_volume_file.h"
 #include "prepare/partition/smooth_labels.h"
 #include "prepare/prepare_unknown.h"
@@ -30,6 +33,7 @@
 #include "prepare/stages/stages.h"
 #include "prepare/volume/map_segments.h"
 #include "prepare/volume/read_label_volume.h"
+#include "prepare/volume/specimen_frame.h"
 
 namespace myotact::prepare {
 
@@ -78,7 +82,7 @@ Mapping map_with(const fs::path& recipe, const LabelVolume& volume, const MapRul
 /// The recipe named, or the built-in one that knows more; nothing when neither knows a bone and a muscle.
 std::optional<Mapping> map_by_recipe(const Options& options, const LabelVolume& volume, const MapRules& rules) {
   if (!options.recipe.empty()) return map_with(options.recipe, volume, rules);
-  if (options.guess) return {};
+  if (options.guess || options.output.empty()) return {};  // a recipe that is only written is a guess
   const fs::path folder = data_folder() / "assets" / "canine";
   std::optional<Mapping> best;
   for (const char* limb : {"forelimb.json", "hindlimb.json"}) {
@@ -129,6 +133,11 @@ void tell_of_smoothing(const std::vector<ChosenSegment>& chosen, const std::vect
                                   chosen[s].key, parts[s].pieces, 1e6 * parts[s].dropped_m3));
     }
   }
+}
+
+std::string describe(const LaidTendon& tendon) {
+  return fmt::format("{}: ended {:.1f} mm from {}; a tendon of {:.1f} mm, {:.1f} mm thick, leads there", tendon.muscle,
+                     1e3 * tendon.gap_m, tendon.bone, 1e3 * tendon.length_m, 2e3 * tendon.radius_m);
 }
 
 PartVolume smoothed(const LabelVolume& volume, const std::vector<SegmentChoice>& choices, int threads,
@@ -199,13 +208,20 @@ LimbWork known_limb(const Mapping& mapping, Surfaces& surfaces, const Options& o
   return make_limb(mapping.anatomy, surfaces.scan.bones, surfaces.scan.muscles, options.settings);
 }
 
-LimbWork guessed_limb(const fs::path& file, Surfaces& surfaces, const Options& options,
+/// What a person marked on the volume.
+std::vector<Markup> read_marks(const std::vector<fs::path>& files, std::vector<std::string>& notes) {
+  std::vector<Markup> marks;
+  for (const fs::path& file : files) {
+    for (Markup& mark : read_markups(file, notes)) marks.push_back(std::move(mark));
+  }
+  place(marks, specimen_from_lps());
+  return marks;
+}
+
+LimbWork guessed_limb(const fs::path& file, Surfaces& surfaces, std::vector<Markup> marks, const Options& options,
                       anatomy::CompanionFiles& companions) {
-  const Strangers strangers{fs::absolute(file).lexically_normal().stem().stem().string(),
-                            "not stated",
-                            surfaces.scan.bones,
-                            surfaces.scan.muscles,
-                            {}};
+  const Strangers strangers{fs::absolute(file).lexically_normal().stem().stem().string(), "not stated",
+                            surfaces.scan.bones, surfaces.scan.muscles, std::move(marks)};
   const GuessedRecipe guess = guess_recipe(strangers, built_in_parts());
   print_decisions(guess.decisions, options.json);
   companions.push_back({"recipe.json", recipe_text(guess.anatomy)});
@@ -213,7 +229,7 @@ LimbWork guessed_limb(const fs::path& file, Surfaces& surfaces, const Options& o
   return make_limb(guess.anatomy, strangers.bones, strangers.muscles, options.settings);
 }
 
-void prepare(const Options& options) {
+void prepare(const Options& options, const std::vector<fs::path>& marks) {
   const fs::path& file = options.inputs.front();
   std::optional<ProgressBar> bar(std::in_place);
   show(*bar, "read", 0.0);
@@ -226,17 +242,31 @@ void prepare(const Options& options) {
   notes.insert(notes.end(), map.notes.begin(), map.notes.end());
   if (!options.write_segments.empty()) write_segment_table(options.write_segments, table_of(map));
   if (mapping) require_all_known(map, file.string());
+  if (mapping && !marks.empty()) {
+    throw Error(ExitStatus::Usage,
+                marks.front().string() +
+                    ": the recipe says where this limb's joints and attachments are; edit the recipe, "
+                    "or take all as marked with --guess");
+  }
   show(*bar, "smooth", 0.05);
   std::optional<PartVolume> parts = with_margins(file, volume, map.choices);
-  if (!parts) parts = smoothed(volume, map.choices, options.settings.threads, notes);
+  if (!parts) {
+    parts = smoothed(volume, map.choices, options.settings.threads, notes);
+    if (mapping) {
+      for (const LaidTendon& tendon : lay_tendons(*parts, mapping->anatomy.muscles)) notes.push_back(describe(tendon));
+    }
+  }
   volume.layers.clear();
   show(*bar, "cut", 0.15);
   Surfaces surfaces = cut(*parts, map.choices, options.settings.threads);
   parts.reset();
   bar.reset();
+  std::vector<Markup> markups = read_marks(marks, notes);
   for (const std::string& note : notes) spdlog::info("{}", note);
   anatomy::CompanionFiles companions = companions_of(options);
-  LimbWork limb = mapping ? known_limb(*mapping, surfaces, options) : guessed_limb(file, surfaces, options, companions);
+  LimbWork limb = mapping ? known_limb(*mapping, surfaces, options)
+                          : guessed_limb(file, surfaces, std::move(markups), options, companions);
+  if (options.output.empty()) return;  // the recipe alone was wanted
   take_skins(surfaces.skins, limb);
   limb.notes = std::move(notes);
   finish_limb(limb, options, options.output, std::move(companions));
@@ -251,17 +281,20 @@ void print_measures(const MeasuredLimb& limb) {
                              in_bone / claimed, static_cast<double>(part.share.kept) / (claimed - in_bone), part.added,
                              part.dropped);
   }
+  for (const LaidTendon& tendon : limb.tendons) std::cout << describe(tendon) << "\n";
   std::cout << std::flush;
 }
 
 }  // namespace
 
 void prepare_volume(const Options& options) {
-  if (options.inputs.size() > 1) {
+  const StrangerInputs others = find_inputs({options.inputs.begin() + 1, options.inputs.end()});
+  if (!others.surfaces.empty()) {
     throw Error(ExitStatus::Usage,
-                options.inputs[1].string() + ": one volume holds the whole limb; name no other files beside it");
+                others.surfaces.front().string() +
+                    ": one volume holds the whole limb; name nothing but Markups (.mrk.json) beside it");
   }
-  prepare(options);
+  prepare(options, others.markups);
 }
 
 int measure_volume(const Options& options) {

@@ -10,6 +10,7 @@
 #include "simulation/limb/limb.h"
 #include "simulation/limb/settle.h"
 #include "simulation/limb/step.h"
+#include "support/source_folder.h"
 #include "support/wrapped_specimen.h"
 
 namespace myotact::simulation {
@@ -179,7 +180,7 @@ TEST(BoneContact, ABlockOnATableBearsWhatPressesItAndHardlySinksIn) {
 
 TEST(BoneContact, NothingPushesAtTheFilePose) {
   for (const char* name : {"canine_elbow", "canine_forelimb", "canine_hindlimb"}) {
-    const anatomy::Specimen specimen = anatomy::load_specimen(std::string(MYOTACT_SOURCE_DIR "/meshes/") + name);
+    const anatomy::Specimen specimen = anatomy::load_specimen(source_folder() + "/meshes/" + name);
     const std::vector<TissueModel> springs(specimen.muscles.size(), TissueModel::MassSpring);
     Limb limb(specimen, springs);
     WorkerPool workers(1);

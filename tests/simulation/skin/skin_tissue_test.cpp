@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/skin/skin_embedding.h"
+#include "support/source_folder.h"
 
 namespace myotact::simulation {
 namespace {
@@ -62,7 +63,7 @@ TEST(SkinTissue, WhereFibresEndOrTheTriangleHasNoAreaThereIsNoDirection) {
 }
 
 TEST(SkinTissue, OnRealBicepsFibresRunFromOriginToInsertion) {
-  const anatomy::Specimen specimen = anatomy::load_specimen(MYOTACT_SOURCE_DIR "/meshes/canine_elbow");
+  const anatomy::Specimen specimen = anatomy::load_specimen(source_folder() + "/meshes/canine_elbow");
   const auto biceps = std::find_if(specimen.muscles.begin(), specimen.muscles.end(),
                                    [](const anatomy::Muscle& muscle) { return muscle.key == "biceps_brachii"; });
   ASSERT_NE(biceps, specimen.muscles.end());

@@ -1,3 +1,4 @@
+#include "support/source_folder.h"
 #include "view/panels/device_part.h"
 
 #include <filesystem>
@@ -191,7 +192,7 @@ TEST(DeviceHints, OfEveryDriverAreTranslated) {
   const std::regex hint(R"re("([A-Z][^"]* [^"]*\.)")re");
   const ui::Catalogue english = ui::load_catalogue("en");
   int hints = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(fs::path(MYOTACT_SOURCE_DIR) / "src/device/drivers")) {
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(source_folder()) / "src/device/drivers")) {
     if (entry.path().extension() != ".cpp") continue;
     const std::string source = read_file(entry.path());
     for (std::sregex_iterator it(source.begin(), source.end(), hint), end; it != end; ++it, ++hints) {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <set>
 
-#include "prepare/measure/point_box.h"
 #include "prepare/part/hollow_out.h"
 #include "prepare/part/node_pieces.h"
 #include "prepare/part/node_steps.h"
+#include "prepare/partition/point_box.h"
 
 namespace myotact::prepare {
 

@@ -34,6 +34,12 @@ std::vector<NamedBody> bodies_of(const LimbWork& limb) {
   return bodies;
 }
 
+std::vector<MuscleData> muscles_of(const LimbWork& limb) {
+  std::vector<MuscleData> muscles;
+  for (const MuscleWork& muscle : limb.muscles) muscles.push_back(muscle.data);
+  return muscles;
+}
+
 Lattice lattice_around(const std::vector<NamedBody>& bodies, double step_m) {
   Eigen::AlignedBox3d box;
   for (const NamedBody& body : bodies) {
@@ -88,8 +94,9 @@ MeasuredLimb measure_limb(const LimbWork& limb, double step_m, const std::functi
     measured();
   });
   std::vector<Share> shares;
-  MeasuredLimb result{share_out(lattice, claims, shares), {}};
+  MeasuredLimb result{share_out(lattice, claims, shares), {}, {}};
   const std::vector<Wholeness> wholeness = keep_whole(result.volume, claims, genera);
+  result.tendons = lay_tendons(result.volume, muscles_of(limb));
   std::vector<std::size_t> points(claims.size() + 1, 0);
   for (const std::uint16_t label : result.volume.labels) ++points[label];
   for (std::size_t c = 0; c < claims.size(); ++c) {

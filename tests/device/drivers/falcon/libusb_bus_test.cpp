@@ -18,6 +18,7 @@
 #include "device/drivers/falcon/firmware.h"
 #include "device/drivers/falcon/session.h"
 #include "realtime/periodic_loop.h"
+#include "support/source_folder.h"
 #include "support/temporary_folder.h"
 #include "usbfs_falcon.h"
 
@@ -104,7 +105,7 @@ TEST_F(FalconUsb, OneThatThisUserMayNotOpenNamesTheRule) {
   EXPECT_FALSE(findings.at(0).ready);
   EXPECT_THAT(findings[0].cause, HasSubstr("/dev/bus/usb/001/002: this user may not"));
   EXPECT_THAT(findings[0].remedy, HasSubstr("assets/devices/udev/70-myotact.rules"));
-  EXPECT_TRUE(std::filesystem::exists(std::string(MYOTACT_SOURCE_DIR) + "/assets/devices/udev/70-myotact.rules"));
+  EXPECT_TRUE(std::filesystem::exists(source_folder() + "/assets/devices/udev/70-myotact.rules"));
 }
 
 /// A Falcon that runs and is homed, its turns made by the test.

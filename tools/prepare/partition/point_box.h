@@ -31,13 +31,21 @@ struct PointBox {
   }
 };
 
-/// The smallest box with `margin` layers around the points (anything with a member `point`), as far as the lattice
-/// goes.
+inline std::size_t number_of(std::size_t point) {
+  return point;
+}
+template <class Sample>
+std::size_t number_of(const Sample& sample) {
+  return sample.point;
+}
+
+/// The smallest box with `margin` layers around the points (their numbers, or anything with a member `point`), as far
+/// as the lattice goes.
 template <class Points>
 PointBox box_around(const Points& points, const Lattice& lattice, int margin) {
   std::array<int, 3> low = lattice.counts, high{-1, -1, -1};
   for (const auto& sample : points) {
-    const std::array<int, 3> i = index_of(lattice.counts, sample.point);
+    const std::array<int, 3> i = index_of(lattice.counts, number_of(sample));
     for (std::size_t k = 0; k < 3; ++k) {
       low[k] = std::min(low[k], i[k]);
       high[k] = std::max(high[k], i[k]);

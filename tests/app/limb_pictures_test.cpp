@@ -1,0 +1,85 @@
+// Whole limbs from four sides at both ends of every joint's range, as they were looked at and kept in
+// tests/app/pictures/. After a change that is meant: MYOTACT_RENEW_PICTURES=1 writes them anew; look at them before you
+// keep them.
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "app/program.h"
+#include "support/source_folder.h"
+
+namespace myotact::testing {
+namespace {
+
+/// Of the scale from 0 to 1, mean over one of the sheet's pictures. Renderers differ along edges and in shades by some
+/// thousandths; a muscle that lies elsewhere makes a hundredth and more.
+constexpr double kTolerance = 0.01;
+/// Of the sheet's pictures, as kept [px].
+constexpr int kWidth_px = 72, kHeight_px = 96;
+
+const std::filesystem::path kKept = std::filesystem::path(source_folder()) / "tests/app/pictures";
+
+std::string output_of(const std::string& command) {
+  std::string output;
+  FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) return output;
+  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) output.push_back(static_cast<char>(c));
+  pclose(pipe);
+  return output;
+}
+
+/// The largest difference between two sheets' pictures, one over the other.
+double largest_difference(const std::string& a, const std::string& b, int rows) {
+  return std::stod(
+      output_of(fmt::format("convert {} {} -alpha off -compose difference -composite -colorspace Gray -scale "
+                            "'4x{}!' -format '%[fx:maxima]' info:",
+                            a, b, rows)));
+}
+
+struct Limb {
+  const char* scene;
+  int rows;  // of its sheet: its own pose, and two a joint
+};
+
+class LimbPictures : public ::testing::TestWithParam<Limb> {};
+
+TEST_P(LimbPictures, LookAsKept) {
+  const auto [scene, rows] = GetParam();
+  TemporaryFolder folder;
+  const std::string sheet = (folder.path() / "sheet.png").string();
+  // Muscles that follow their bones stay what they are when others are simulated.
+  const Outcome outcome = run_program(fmt::format(
+      "run {} --set tissue.default=rigid --seconds 0.01 --sheet {} --out {}", scene, sheet, folder.path().string()));
+  if (outcome.status == 69) GTEST_SKIP() << outcome.output;
+  ASSERT_EQ(outcome.status, 0) << outcome.output;
+  const std::string now = (folder.path() / "now.png").string();
+  const std::string kept = (kKept / (std::string(scene) + ".png")).string();
+  ASSERT_EQ(
+      output_of(fmt::format("convert {} -resize '{}x{}!' -strip -define png:exclude-chunks=date,time {} && echo done",
+                            sheet, 4 * kWidth_px, rows * kHeight_px, now)),
+      "done\n");
+  if (std::getenv("MYOTACT_RENEW_PICTURES") != nullptr) {
+    std::filesystem::create_directories(kKept);
+    std::filesystem::copy_file(now, kept, std::filesystem::copy_options::overwrite_existing);
+  }
+  const double difference = largest_difference(now, kept, rows);
+  fmt::print("{}: largest difference {:.4f}\n", scene, difference);
+  EXPECT_LT(difference, kTolerance);
+  // Of every joint's two ends none looks like the other.
+  for (int row = 1; row < rows; row += 2) {
+    const auto cut = [&](int r) {
+      return fmt::format("\\( {} -crop {}x{}+0+{} +repage \\)", kept, 4 * kWidth_px, kHeight_px, r * kHeight_px);
+    };
+    EXPECT_GT(largest_difference(cut(row), cut(row + 1), 1), 2.0 * kTolerance) << row;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Limbs, LimbPictures, ::testing::Values(Limb{"forelimb", 3}, Limb{"hindlimb", 5}),
+                         [](const auto& limb) { return std::string(limb.param.scene); });
+
+}  // namespace
+}  // namespace myotact::testing

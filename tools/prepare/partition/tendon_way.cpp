@@ -1,0 +1,127 @@
+#include "prepare/partition/tendon_way.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+
+#include "prepare/part/node_steps.h"
+#include "prepare/partition/point_box.h"
+
+namespace myotact::prepare {
+
+namespace {
+
+/// The box around both ends is wider than they span by this part of their distance and so many steps: room to go round
+/// a bone.
+constexpr double kDetour = 0.4;
+constexpr int kRoom = 10;
+/// What a step costs beside bone and through another muscle, in steps through the free.
+constexpr float kBesideBone = 2.0F, kThroughMuscle = 12.0F;
+/// Rounds in which each place moves halfway to the middle of its neighbours: over some eight steps, the corners of a
+/// lattice's way are gone.
+constexpr int kRounds = 16;
+
+class Search {
+ public:
+  Search(const PartVolume& volume, const std::vector<bool>& bone, const PointBox& box, std::uint16_t part)
+      : volume_(volume), bone_(bone), box_(box), part_(part), steps_(volume.lattice.counts) {}
+
+  /// From the lattice point `from` to the first one of the part; empty: there is none.
+  std::vector<std::size_t> run(std::size_t from) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    std::vector<float> costs(box_.size(), kInfinity);
+    std::vector<std::uint32_t> before(box_.size(), 0);
+    using Entry = std::pair<float, std::size_t>;  // cost, number in the box
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+    const std::size_t start = box_.to_box(from);
+    costs[start] = 0.0F;
+    open.push({0.0F, start});
+    while (!open.empty()) {
+      const auto [cost, here] = open.top();
+      open.pop();
+      if (cost > costs[here]) continue;
+      const std::size_t point = box_.to_lattice(here);
+      if (volume_.labels[point] == part_) return way_back(before, here, start);
+      if (on_rim(here)) continue;
+      for (std::size_t bit = 0; bit < steps_.block.size(); ++bit) {
+        const std::size_t next = NodeSteps::go(point, steps_.block[bit]);
+        const float step = step_cost(bit, next);
+        if (step == kInfinity) continue;
+        const std::size_t there = box_.to_box(next);
+        if (cost + step >= costs[there]) continue;
+        costs[there] = cost + step;
+        before[there] = static_cast<std::uint32_t>(here);
+        open.push({costs[there], there});
+      }
+    }
+    return {};
+  }
+
+ private:
+  bool on_rim(std::size_t point) const {
+    const std::array<int, 3> i = index_of(box_.counts, point);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (i[k] == 0 || i[k] == box_.counts[k] - 1) return true;
+    }
+    return false;
+  }
+
+  bool beside_bone(std::size_t point) const {
+    return std::any_of(steps_.linked.begin(), steps_.linked.end(), [&](std::ptrdiff_t step) {
+      const std::size_t next = NodeSteps::go(point, step);
+      return next < volume_.labels.size() && bone_[volume_.labels[next]];
+    });
+  }
+
+  float step_cost(std::size_t bit, std::size_t to) const {
+    const std::uint16_t label = volume_.labels[to];
+    if (bone_[label]) return std::numeric_limits<float>::infinity();
+    const int moved = (bit % 3 != 1 ? 1 : 0) + (bit / 3 % 3 != 1 ? 1 : 0) + (bit / 9 != 1 ? 1 : 0);
+    const float length = std::sqrt(static_cast<float>(moved));
+    if (label == part_) return length;
+    return length * (label != 0 ? kThroughMuscle : beside_bone(to) ? kBesideBone : 1.0F);
+  }
+
+  std::vector<std::size_t> way_back(const std::vector<std::uint32_t>& before, std::size_t end,
+                                    std::size_t start) const {
+    std::vector<std::size_t> way;
+    for (std::size_t point = end; point != start; point = before[point]) way.push_back(box_.to_lattice(point));
+    way.push_back(box_.to_lattice(start));
+    std::reverse(way.begin(), way.end());
+    return way;
+  }
+
+  const PartVolume& volume_;
+  const std::vector<bool>& bone_;
+  const PointBox& box_;
+  std::uint16_t part_;
+  NodeSteps steps_;
+};
+
+void even_out(std::vector<Vec3>& places_m) {
+  std::vector<Vec3> moved_m = places_m;
+  for (int round = 0; round < kRounds; ++round) {
+    for (std::size_t i = 1; i + 1 < places_m.size(); ++i) {
+      moved_m[i] = 0.5 * places_m[i] + 0.25 * (places_m[i - 1] + places_m[i + 1]);
+    }
+    places_m = moved_m;
+  }
+}
+
+}  // namespace
+
+std::optional<std::vector<Vec3>> find_tendon_way(const PartVolume& volume, const std::vector<bool>& bone,
+                                                 std::size_t from, std::size_t to, std::uint16_t part) {
+  const double span = (place_m(volume.lattice, from) - place_m(volume.lattice, to)).norm() / step_m(volume.lattice);
+  const int around = static_cast<int>(std::ceil(kDetour * span)) + kRoom;
+  const PointBox box = box_around(std::vector<std::size_t>{from, to}, volume.lattice, around);
+  const std::vector<std::size_t> points = Search(volume, bone, box, part).run(from);
+  if (points.empty()) return {};
+  std::vector<Vec3> places_m;
+  for (const std::size_t point : points) places_m.push_back(place_m(volume.lattice, point));
+  even_out(places_m);
+  return places_m;
+}
+
+}  // namespace myotact::prepare
