@@ -218,7 +218,8 @@ std::string defect_of_tet(const Muscle& muscle, std::size_t t) {
     return fmt::format("muscle {}: the fibre of tet {} is not of length 1", muscle.key, t);
   }
   if (!muscle.sections_m2.empty() && !(muscle.sections_m2[t] > 0.0 && muscle.sections_m2[t] < 1.0)) {
-    return fmt::format("muscle {}: the section of tet {} must be > 0 and < 1 m^2", muscle.key, t);
+    return fmt::format("muscle {}: the section of tet {} is {} m^2; must be > 0 and < 1", muscle.key, t,
+                       to_text(muscle.sections_m2[t]));
   }
   return "";
 }

@@ -63,6 +63,21 @@ TEST(SliceMuscle, FindsSectionLengthAndMiddleOfARod) {
   }
 }
 
+/// A sheet whose ends lie beside each other: no flux reaches most of it, and the middle slice says nothing.
+TEST(SliceMuscle, TakesItsMeasureWhereTheFluxRuns) {
+  const Rod rod;
+  FibreField field = field_between_ends(rod);
+  for (std::size_t t = 0; t < rod.tets.corners.size(); ++t) {
+    double x_m = 0.0;
+    for (const int n : rod.tets.corners[t]) x_m += 0.25 * rod.tets.nodes_m[static_cast<std::size_t>(n)].x();
+    if (x_m > 0.3 * kRod.length_m) field.gradient[t] *= 1e-9;
+  }
+  for (const double section_m2 : slice_muscle(rod.tets, field).tet_section_m2) {
+    EXPECT_GT(section_m2, 0.0);
+    EXPECT_LE(section_m2, 3.1 * testing::rod_section_m2(kRod));
+  }
+}
+
 TEST(SliceMuscle, GivesARodNoTendon) {
   const Rod rod;
   const MuscleProfile profile = slice_muscle(rod.tets, field_between_ends(rod));

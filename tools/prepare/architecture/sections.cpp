@@ -16,6 +16,9 @@ constexpr std::size_t kMostSlices = 16;
 /// flux reaches the quotient means nothing.
 constexpr double kLeastSection = 0.2;
 constexpr double kMostSection = 3.0;
+/// Slices through which less than this part of the mean flux runs say nothing of the median: a wide sheet with short
+/// fibres is mostly corners.
+constexpr double kLeastFlux = 0.01;
 /// Sections below this part of the largest are tendon. Tapering bellies have more until close to their ends; the
 /// tendons of the canine elbow muscles have 10 .. 40 %.
 constexpr double kTendonSection = 0.45;
@@ -38,11 +41,6 @@ std::vector<CutTet> sort_by_potential(const geometry::TetMesh& tets, const Fibre
   return sorted;
 }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
 /// Value at x of the line through the points (xs rising); constant beyond them.
 double interpolate(const std::vector<double>& xs, const std::vector<double>& ys, double x) {
   const auto above = static_cast<std::size_t>(std::lower_bound(xs.begin(), xs.end(), x) - xs.begin());
@@ -58,6 +56,19 @@ struct Slice {
   double flux_m = 0.0;  // integral of |gradient| over the volume [m, for a flux of 1]
   Vec3 moment = Vec3::Zero();
 };
+
+/// Median section of the slices that the flux runs through.
+double usual_section_m2(const std::vector<Slice>& slices) {
+  double flux_m = 0.0;
+  for (const Slice& slice : slices) flux_m += slice.flux_m;
+  std::vector<double> sections_m2;
+  for (const Slice& slice : slices) {
+    const double least_m = kLeastFlux * flux_m / static_cast<double>(slices.size());
+    if (slice.flux_m > 0.0 && slice.flux_m >= least_m) sections_m2.push_back(slice.volume_m3 / slice.flux_m);
+  }
+  std::sort(sections_m2.begin(), sections_m2.end());
+  return sections_m2[sections_m2.size() / 2];
+}
 
 }  // namespace
 
@@ -93,7 +104,7 @@ MuscleProfile slice_muscle(const geometry::TetMesh& tets, const FibreField& fiel
     middles.push_back(part + 0.5 * slice.volume_m3 / whole_m3);
     part += slice.volume_m3 / whole_m3;
   }
-  const double usual_m2 = median(profile.section_m2);
+  const double usual_m2 = usual_section_m2(slices);
   for (double& section_m2 : profile.section_m2) {
     section_m2 = std::clamp(section_m2, kLeastSection * usual_m2, kMostSection * usual_m2);
   }
