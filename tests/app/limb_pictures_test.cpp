@@ -17,9 +17,10 @@
 namespace myotact::testing {
 namespace {
 
-/// Of the scale from 0 to 1, mean over one of the sheet's pictures. Renderers differ along edges and in shades by some
-/// thousandths; a muscle that lies elsewhere makes a hundredth and more.
-constexpr double kTolerance = 0.01;
+/// Of the scale from 0 to 1, mean over the worst block of the sheet. Renderers differ along edges and in shades by some
+/// hundredths there; a muscle that comes off, or hides another, makes tenths.
+constexpr double kTolerance = 0.06;
+constexpr int kBlock_px = 8;
 /// Of the sheet's pictures, as kept [px].
 constexpr int kWidth_px = 72, kHeight_px = 96;
 
@@ -34,12 +35,12 @@ std::string output_of(const std::string& command) {
   return output;
 }
 
-/// The largest difference between two sheets' pictures, one over the other.
-double largest_difference(const std::string& a, const std::string& b, int rows) {
-  return std::stod(
-      output_of(fmt::format("convert {} {} -alpha off -compose difference -composite -colorspace Gray -scale "
-                            "'4x{}!' -format '%[fx:maxima]' info:",
-                            a, b, rows)));
+/// The mean difference of the block where two pictures differ most.
+double largest_difference(const std::string& a, const std::string& b, int width_px, int height_px) {
+  return std::stod(output_of(
+      fmt::format("convert {} {} -alpha off -compose difference -composite -colorspace Gray -scale '{}x{}!' -format "
+                  "'%[fx:maxima]' info:",
+                  a, b, width_px / kBlock_px, height_px / kBlock_px)));
 }
 
 struct Limb {
@@ -74,7 +75,7 @@ TEST_P(LimbPictures, LookAsKept) {
     std::filesystem::create_directories(kKept);
     std::filesystem::copy_file(now, kept, std::filesystem::copy_options::overwrite_existing);
   }
-  const double difference = largest_difference(now, kept, rows);
+  const double difference = largest_difference(now, kept, 4 * kWidth_px, rows * kHeight_px);
   fmt::print("{}: largest difference {:.4f}\n", scene, difference);
   EXPECT_LT(difference, kTolerance);
   // Of every joint's two ends none looks like the other.
@@ -82,7 +83,7 @@ TEST_P(LimbPictures, LookAsKept) {
     const auto cut = [&](int r) {
       return fmt::format("\\( {} -crop {}x{}+0+{} +repage \\)", kept, 4 * kWidth_px, kHeight_px, r * kHeight_px);
     };
-    EXPECT_GT(largest_difference(cut(row), cut(row + 1), 1), 2.0 * kTolerance) << row;
+    EXPECT_GT(largest_difference(cut(row), cut(row + 1), 4 * kWidth_px, kHeight_px), 3.0 * kTolerance) << row;
   }
 }
 

@@ -104,7 +104,7 @@ const std::map<std::string, Rooms> kRooms = {
        {"guess", {"recipe", "surface"}},
        {"loft", {"recipe"}},
        {"part", {"field", "recipe", "surface"}},
-       {"partition", {"part", "remesh", "volume"}},
+       {"partition", {"part", "recipe", "remesh", "volume"}},
        {"measure", {"field", "part", "partition", "surface", "volume"}},
        {"architecture", {"recipe"}},
        {"tets", {"field", "remesh"}},

@@ -21,7 +21,7 @@ namespace {
 constexpr double kNear_m = 2e-3;
 /// Thinner than a step a tendon would fall to pieces; thicker ones than this are aponeuroses, whose area is spread wide
 /// [m].
-constexpr double kThinnest_steps = 1.1, kThickest_m = 3e-3;
+constexpr double kThinnest_steps = 1.5, kThickest_m = 3e-3;
 /// How much of a muscle counts as its end [m].
 constexpr double kEnd_m = 5e-3;
 /// Where the recipe does not say how large an attachment is [m2]: a tendon of 3 mm.
