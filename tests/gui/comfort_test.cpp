@@ -119,8 +119,7 @@ TEST_F(ComfortTest, BigTypeShowsTheStiffnessToAClassAndGoesAway) {
 /// Where the script or the scene's own beginning drives the muscles, "+" goes on from there.
 TEST_F(ComfortTest, MoreCoContractionGoesOnFromTheLevelInForce) {
   const std::string file = ::testing::TempDir() + "driven_elbow.json";
-  json scene =
-      json::parse(std::ifstream(source_folder() + "/assets/scenes/elbow.json"), nullptr, true, true);
+  json scene = json::parse(std::ifstream(source_folder() + "/assets/scenes/elbow.json"), nullptr, true, true);
   scene["co_contraction"]["common"] = 0.4;
   std::ofstream(file) << scene.dump();
   GuiProgram gui("class_driven", file + " --set tissue.default=line");

@@ -108,7 +108,8 @@ bool choice(const char* key, int& value, std::span<const char* const> option_key
   const auto count = static_cast<int>(option_keys.size());
   const char* shown = value >= 0 && value < count ? option_keys[static_cast<std::size_t>(value)] : nullptr;
   bool changed = false;
-  const bool open = ImGui::BeginCombo(label(key).c_str(), shown != nullptr ? tr(shown) : "", ImGuiComboFlags_HeightLarge);
+  const bool open =
+      ImGui::BeginCombo(label(key).c_str(), shown != nullptr ? tr(shown) : "", ImGuiComboFlags_HeightLarge);
   finish(key, shown != nullptr ? shown : "");
   if (!open) return false;
   for (int i = 0; i < count; ++i) {

@@ -1,4 +1,3 @@
-#include "support/source_folder.h"
 #include "view/panels/device_part.h"
 
 #include <filesystem>
@@ -9,6 +8,7 @@
 #include <imgui.h>
 
 #include "core/file.h"
+#include "support/source_folder.h"
 #include "support/synthetic_specimen.h"
 #include "view/panels/feel_panel.h"
 #include "view/panels/news_strip.h"

@@ -6,9 +6,8 @@
 #include <numbers>
 #include <optional>
 
-#include <Eigen/LU>
-
 #include "prepare/part/node_steps.h"
+#include "prepare/part/simple_point.h"
 #include "prepare/partition/point_box.h"
 #include "prepare/partition/tendon_way.h"
 
@@ -22,6 +21,8 @@ constexpr double kNear_m = 2e-3;
 /// Thinner than a step a tendon would fall to pieces; thicker ones than this are aponeuroses, whose area is spread wide
 /// [m].
 constexpr double kThinnest_steps = 1.5, kThickest_m = 3e-3;
+/// A tendon's points so near to its way are its own whatever stands there: so it hangs together.
+constexpr double kCore_steps = 0.9;
 /// How much of a muscle counts as its end [m].
 constexpr double kEnd_m = 5e-3;
 /// Where the recipe does not say how large an attachment is [m2]: a tendon of 3 mm.
@@ -52,12 +53,13 @@ class Layer {
     const Vec3 from_m = place_m(volume_.lattice, on_bone.point);
     const Place on_muscle = nearest(borders_[part], from_m);
     if (!std::isfinite(on_muscle.distance_m)) return {};
-    const auto way_m = find_tendon_way(volume_, bone_, on_bone.point, on_muscle.point, part);
+    const TendonGround ground(volume_, bone_, part);
+    const auto way_m = find_tendon_way(ground, on_bone.point, on_muscle.point);
     if (!way_m) return {};
     LaidTendon tendon{muscle.mechanics.key, volume_.keys[volume_.labels[on_bone.point] - std::size_t{1}],
                       on_muscle.distance_m, 0.0, radius_m(site, part, on_muscle.point)};
     for (std::size_t i = 1; i < way_m->size(); ++i) tendon.length_m += ((*way_m)[i] - (*way_m)[i - 1]).norm();
-    fill(part, *way_m, tendon.radius_m);
+    fill(part, ground, *way_m, tendon.radius_m);
     return tendon;
   }
 
@@ -147,29 +149,49 @@ class Layer {
     });
   }
 
-  void fill(std::uint16_t part, const std::vector<Vec3>& way_m, double radius_m) {
+  void fill(std::uint16_t part, const TendonGround& ground, const std::vector<Vec3>& way_m, double radius_m) {
     Points along;
-    for (const Vec3& p_m : way_m) along.push_back(nearest_point(p_m));
+    for (const Vec3& p_m : way_m) along.push_back(nearest_point(volume_.lattice, p_m));
     const double step = step_m(volume_.lattice);
     const int around = static_cast<int>(std::ceil(radius_m / step + kLargestMargin)) + 1;
     const PointBox box = box_around(along, volume_.lattice, around);
+    const auto depth = [&](std::size_t point) {  // in the tendon [steps]
+      return (radius_m - distance_m(way_m, place_m(volume_.lattice, point))) / step;
+    };
+    const double core = radius_m / step - kCore_steps;
+    const Points taken = take(part, along, [&](std::size_t point) {
+      const double inside = depth(point);
+      return inside > 0.0 && (inside >= core ? !ground.closed(point) : may_be_taken(point));
+    });
     for (std::size_t b = 0; b < box.size(); ++b) {
       const std::size_t point = box.to_lattice(b);
-      if (on_rim(point)) continue;
-      const double depth = (radius_m - distance_m(way_m, place_m(volume_.lattice, point))) / step;
-      if (depth > -kLargestMargin) put(part, point, depth);
+      const double inside = on_rim(point) ? -kLargestMargin : depth(point);
+      if (inside > -kLargestMargin)
+        set_margin(point, part, inside, std::binary_search(taken.begin(), taken.end(), point));
     }
-    collect_new(part, box);
+    borders_[part].insert(borders_[part].end(), taken.begin(), taken.end());
   }
 
-  std::size_t nearest_point(const Vec3& p_m) const {
-    const Vec3 index = volume_.lattice.steps_m.inverse() * (p_m - volume_.lattice.origin_m);
-    std::array<int, 3> i{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      i[k] = std::clamp(static_cast<int>(std::lround(index[static_cast<Eigen::Index>(k)])), 0,
-                        volume_.lattice.counts[k] - 1);
+  /// What hangs together with the way and may be taken becomes the part's, from the way outwards; sorted.
+  template <class Take>
+  Points take(std::uint16_t part, const Points& way, Take&& may_take) {
+    Points taken;
+    Points open = way;  // of the part, or about to be
+    for (std::size_t next = 0; next < open.size(); ++next) {
+      const std::size_t point = open[next];
+      std::uint16_t& label = volume_.labels[point];
+      if (on_rim(point) || bone_[label]) continue;
+      if (label != part) {
+        if (!may_take(point)) continue;
+        label = part;
+        taken.push_back(point);
+      } else if (next >= way.size()) {
+        continue;
+      }
+      for (const std::ptrdiff_t step : steps_.linked) open.push_back(NodeSteps::go(point, step));
     }
-    return point_at(volume_.lattice.counts, i[0], i[1], i[2]);
+    std::sort(taken.begin(), taken.end());
+    return taken;
   }
 
   static double distance_m(const std::vector<Vec3>& way_m, const Vec3& p_m) {
@@ -182,35 +204,34 @@ class Layer {
     return nearest_m;
   }
 
-  /// A point so deep [steps] in the tendon, or so far outside of it.
-  void put(std::uint16_t part, std::size_t point, double depth) {
-    std::uint16_t& label = volume_.labels[point];
+  /// Of a point so deep [steps] in the tendon, which was `taken` for it or belonged to whom it belongs.
+  void set_margin(std::size_t point, std::uint16_t part, double depth, bool taken) {
+    if (bone_[volume_.labels[point]]) return;  // the tendon ends there, and bone's border stays
     std::uint8_t& margin = volume_.margins[point];
     const double before = margin / kMarginsPerStep;
-    if (bone_[label]) return;  // the tendon ends there, and bone's border stays
-    double now = before;
-    if (label == part) {
+    double now = std::min(before, std::abs(depth));
+    if (taken) {
+      now = touches_bone(point) ? now : depth;
+    } else if (volume_.labels[point] == part) {
       now = std::max(before, std::min(depth, touches_bone(point) ? before : kLargestMargin));
-    } else if (depth > 0.0) {
-      now = touches_bone(point) ? std::min(before, depth) : depth;
-      label = part;
-    } else {
-      now = std::min(before, -depth);
     }
     margin = static_cast<std::uint8_t>(std::lround(kMarginsPerStep * std::clamp(now, 0.0, kLargestMargin)));
+  }
+
+  /// What the point belongs to stays in one piece without it, and gets no hole.
+  bool may_be_taken(std::size_t point) const {
+    const std::uint16_t label = volume_.labels[point];
+    if (label == 0) return true;
+    Neighbourhood same = 0;
+    for (std::size_t bit = 0; bit < steps_.block.size(); ++bit) {
+      same |= volume_.labels[NodeSteps::go(point, steps_.block[bit])] == label ? Neighbourhood{1} << bit : 0U;
+    }
+    return is_simple(same);
   }
 
   bool touches_bone(std::size_t point) const {
     return std::any_of(steps_.linked.begin(), steps_.linked.end(),
                        [&](std::ptrdiff_t step) { return bone_[volume_.labels[NodeSteps::go(point, step)]]; });
-  }
-
-  /// The muscle's border, where it grew.
-  void collect_new(std::uint16_t part, const PointBox& box) {
-    for (std::size_t b = 0; b < box.size(); ++b) {
-      const std::size_t point = box.to_lattice(b);
-      if (volume_.labels[point] == part) borders_[part].push_back(point);
-    }
   }
 
   PartVolume& volume_;

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include <Eigen/LU>
 
 #include "core/vector.h"
 #include "prepare/volume/label_volume.h"
@@ -38,6 +42,16 @@ inline Vec3 place_m(const Lattice& lattice, const Vec3& index) {
 inline Vec3 place_m(const Lattice& lattice, std::size_t point) {
   const auto [x, y, z] = index_of(lattice.counts, point);
   return place_m(lattice, Vec3(x, y, z));
+}
+
+/// The lattice's point nearest to a place [m], on its rim where that lies outside.
+inline std::size_t nearest_point(const Lattice& lattice, const Vec3& p_m) {
+  const Vec3 index = lattice.steps_m.inverse() * (p_m - lattice.origin_m);
+  std::array<int, 3> i{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    i[k] = std::clamp(static_cast<int>(std::lround(index[static_cast<Eigen::Index>(k)])), 0, lattice.counts[k] - 1);
+  }
+  return point_at(lattice.counts, i[0], i[1], i[2]);
 }
 
 }  // namespace myotact::prepare
