@@ -166,15 +166,16 @@ MYOTACT_INLINE void forward(const DenseFront<Scalar>& front, Scalar* values) {
   }
 }
 
-/// Sum of the lanes: halves upon each other until one is left.
+/// Sum of the lanes: halves upon each other until one is left. A pointer, as in at().
 template <class Vector, class Scalar>
-MYOTACT_INLINE Scalar sum_of(const typename Vector::Type& value) {
+MYOTACT_INLINE Scalar sum_of(const typename Vector::Type* value) {
   if constexpr (Vector::kLanes == 2) {
-    return value[0] + value[1];
+    return (*value)[0] + (*value)[1];
   } else {
     using Half = VectorOf<Scalar, Vector::kLanes* static_cast<int>(sizeof(Scalar)) / 2>;
-    const auto* halves = reinterpret_cast<const typename Half::Type*>(&value);
-    return sum_of<Half, Scalar>(halves[0] + halves[1]);
+    const auto* halves = reinterpret_cast<const typename Half::Type*>(value);
+    const typename Half::Type both = halves[0] + halves[1];
+    return sum_of<Half, Scalar>(&both);
   }
 }
 
@@ -196,9 +197,9 @@ MYOTACT_INLINE void backward(const DenseFront<Scalar>& front, Scalar* values) {
     }
     Scalar* x = values + c;
     for (int r = 0; r < kRightSides; ++r, x += sides) {
-      x[2] = x[2] / third[c + 2] - sum_of<Vector, Scalar>(sum[r][2]);
-      x[1] = (x[1] / second[c + 1] - sum_of<Vector, Scalar>(sum[r][1])) - second[c + 2] * x[2];
-      x[0] = ((x[0] / first[c] - sum_of<Vector, Scalar>(sum[r][0])) - first[c + 1] * x[1]) - first[c + 2] * x[2];
+      x[2] = x[2] / third[c + 2] - sum_of<Vector, Scalar>(&sum[r][2]);
+      x[1] = (x[1] / second[c + 1] - sum_of<Vector, Scalar>(&sum[r][1])) - second[c + 2] * x[2];
+      x[0] = ((x[0] / first[c] - sum_of<Vector, Scalar>(&sum[r][0])) - first[c + 1] * x[1]) - first[c + 2] * x[2];
     }
   }
 }
