@@ -2,6 +2,7 @@
 # licence differs. A program finds its data in share/myotact beside its own bin (src/core/data_folder.cpp).
 
 include(GNUInstallDirs)
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # cpack would build every test, too
 set(MYOTACT_RELEASE_DATE 2026-11-23)
 set(MYOTACT_RELEASE_TIME "Mon, 23 Nov 2026 00:00:00 +0000")
 set(MYOTACT_CONTACT authors@myotact.invalid)

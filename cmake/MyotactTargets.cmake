@@ -68,7 +68,8 @@ endfunction()
 # show in the other tests. LOCKS: what it shares with others, one of which runs at a time.
 #
 # Under a sanitizer a program is one entry, because to start it takes longer than most of its cases. What is slow there, or
-# measures time, is not built with the rest and not run.
+# measures time, is not built with the rest and not run. The target slow_tests is what is left out there.
+add_custom_target(slow_tests)
 function(myotact_test name)
   cmake_parse_arguments(ARG "DRAWS" "TIMEOUT" "LABELS;LOCKS;SOURCES;LINKS" ${ARGN})
   if(NOT ARG_TIMEOUT)
@@ -91,9 +92,12 @@ function(myotact_test name)
     string(REPLACE ";" "," locks "${ARG_LOCKS}")
     list(APPEND properties RESOURCE_LOCK "${locks}")
   endif()
+  if(labels MATCHES "slow|realtime")
+    add_dependencies(slow_tests ${name})
+  endif()
   if(NOT MYOTACT_SANITIZED)
     gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES ${properties})
-  elseif(labels MATCHES "slow|soak|realtime")
+  elseif(labels MATCHES "slow|realtime")
     set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
   else()
     add_test(NAME ${name} COMMAND ${name} --gtest_brief=1)

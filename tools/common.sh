@@ -55,3 +55,10 @@ build() {
   fi
   (cd "$project" && cmake --build --preset "$preset" "${targets[@]}" >&2)
 }
+
+# run_tests PRESET [ctest options...]: two at a time.
+run_tests() {
+  local preset="$1"
+  shift
+  ctest --test-dir "$project/build/$preset" -j2 --output-on-failure "$@"
+}

@@ -12,13 +12,6 @@ case "${1:-}" in
     ;;
 esac
 
-# run_tests PRESET ctest options...
-run_tests() {
-  local preset="$1"
-  shift
-  ctest --test-dir "$project/build/$preset" -j2 --output-on-failure "$@"
-}
-
 phase "packages" install_missing "$project/tools/packages.txt" "$project/tools/packages-test.txt"
 if [ "${1:-}" = "--quick" ]; then
   phase "release, build" build release

@@ -3,10 +3,18 @@
 #include <cstdlib>
 #include <new>
 
+// clang's thread sanitizer brings operators of its own and lets nobody replace them: there, nothing is counted.
+#if defined(__clang__)
+#if __has_feature(thread_sanitizer)
+#define MYOTACT_COUNTS_NOTHING
+#endif
+#endif
+
 namespace {
 
 thread_local std::uint64_t allocations_of_this_thread = 0;
 
+#ifndef MYOTACT_COUNTS_NOTHING
 /// Null where there is no memory.
 void* allocate(std::size_t size, std::size_t alignment) noexcept {
   ++allocations_of_this_thread;
@@ -19,9 +27,11 @@ void* allocate_or_throw(std::size_t size, std::size_t alignment) {
   if (memory == nullptr) throw std::bad_alloc();
   return memory;
 }
+#endif
 
 }  // namespace
 
+#ifndef MYOTACT_COUNTS_NOTHING
 // The forms for arrays end in these. The nothrow forms would too, were it not for the address sanitizer, which brings
 // its own, and then finds that memory given back by std::free.
 void* operator new(std::size_t size) {
@@ -48,6 +58,7 @@ void operator delete(void* memory, std::align_val_t) noexcept {
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
   std::free(memory);
 }
+#endif
 
 namespace myotact::support {
 
