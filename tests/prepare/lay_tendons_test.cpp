@@ -23,16 +23,22 @@ using geometry::TriangleMesh;
 constexpr double kStep_m = 1e-3, kArea_m2 = 1.2e-5;  // a tendon of 3.9 mm
 constexpr std::uint16_t kBone = 1, kMuscle = 2, kWall = 3;
 const Vec3 kBoneMiddle_m(-0.016, 0.0, 0.0), kMuscleMiddle_m(0.016, 0.0, 0.0);
-constexpr double kBoneRadius_m = 8e-3, kMuscleRadius_m = 6e-3, kWallHalf_m = 2e-3, kWallWidth_m = 6e-3;
+constexpr double kBoneRadius_m = 8e-3, kMuscleRadius_m = 6e-3;
+
+/// A sheet between the two [m].
+struct Wall {
+  double half_m = -1.0;  // of its thickness; less than 0: there is none
+  double radius_m = 0.0;
+};
+constexpr Wall kNoWall, kSmallWall{2e-3, 6e-3}, kFilmAcross{1e-3, 1.0};
 
 /// Depth [m] of the three in order.
-std::vector<double> depths_m(const Vec3& p, bool wall) {
-  const double sheet_m = std::min(kWallHalf_m - std::abs(p.x()), kWallWidth_m - std::hypot(p.y(), p.z()));
+std::vector<double> depths_m(const Vec3& p, const Wall& wall) {
   return {kBoneRadius_m - (p - kBoneMiddle_m).norm(), kMuscleRadius_m - (p - kMuscleMiddle_m).norm(),
-          wall ? sheet_m : -1.0};
+          std::min(wall.half_m - std::abs(p.x()), wall.radius_m - std::hypot(p.y(), p.z()))};
 }
 
-PartVolume volume(bool wall) {
+PartVolume volume(const Wall& wall) {
   PartVolume volume{{}, {"bone", "muscle", "wall"}, {}, {}};
   volume.lattice.counts = {65, 41, 41};
   volume.lattice.steps_m = kStep_m * Mat3::Identity();
@@ -65,7 +71,7 @@ TriangleMesh surface_of(const PartVolume& volume, std::uint16_t label) {
 }
 
 TEST(LayTendons, AMuscleInTheAirGetsARoundTendonOfItsAttachmentsArea) {
-  PartVolume parts = volume(false);
+  PartVolume parts = volume(kNoWall);
   const double before_m3 = geometry::enclosed_volume_m3(surface_of(parts, kMuscle));
   const double bone_before_m3 = geometry::enclosed_volume_m3(surface_of(parts, kBone));
   const std::vector<LaidTendon> laid = lay_tendons(parts, recipe());
@@ -93,7 +99,7 @@ TEST(LayTendons, AMuscleInTheAirGetsARoundTendonOfItsAttachmentsArea) {
 }
 
 TEST(LayTendons, TheWayGoesRoundAnotherMuscle) {
-  PartVolume parts = volume(true);
+  PartVolume parts = volume(kSmallWall);
   const std::vector<LaidTendon> laid = lay_tendons(parts, recipe());
   ASSERT_EQ(laid.size(), 1U);
   EXPECT_GT(laid[0].length_m, 0.02);
@@ -104,8 +110,44 @@ TEST(LayTendons, TheWayGoesRoundAnotherMuscle) {
   }
 }
 
+TEST(LayTendons, WhatIsThinIsNotPierced) {
+  PartVolume parts = volume(kFilmAcross);
+  const Labels before = parts.labels;
+  EXPECT_TRUE(lay_tendons(parts, recipe()).empty());
+  EXPECT_EQ(parts.labels, before);
+}
+
+/// Where two tendons meet, the first one stays whole.
+TEST(LayTendons, ASecondTendonLeavesTheFirstWhole) {
+  PartVolume parts = volume(kNoWall);
+  ASSERT_EQ(lay_tendons(parts, recipe()).size(), 1U);
+  // A ball that another muscle is now: its tendon is to run to the bone's far side, along the first one and round it.
+  parts.keys.emplace_back("second");
+  constexpr std::uint16_t kSecond = 4;
+  const Vec3 second_m(0.002, 0.012, 0.0);
+  for (std::size_t point = 0; point < parts.labels.size(); ++point) {
+    const double depth = (4e-3 - (place_m(parts.lattice, point) - second_m).norm()) / kStep_m;
+    if (depth > 0.0) parts.labels[point] = kSecond;
+    const double margin = std::min(parts.margins[point] / kMarginsPerStep, std::abs(depth));
+    parts.margins[point] = static_cast<std::uint8_t>(std::lround(kMarginsPerStep * margin));
+  }
+  std::vector<MuscleData> muscles = recipe();
+  muscles.push_back(muscles[0]);
+  muscles.back().mechanics.key = "second";
+  muscles.back().origins[0].point_m = kBoneMiddle_m + kBoneRadius_m * Vec3(0.8, -0.6, 0.0);
+  const std::vector<LaidTendon> laid = lay_tendons(parts, muscles);
+  ASSERT_EQ(laid.size(), 1U);
+  EXPECT_EQ(laid[0].muscle, "second");
+  for (const std::uint16_t label : {kMuscle, kSecond}) {
+    const TriangleMesh surface = surface_of(parts, label);
+    EXPECT_EQ(geometry::bad_edge_count(surface), 0) << label;
+    EXPECT_EQ(pieces_of(surface).size(), 1U) << label;
+    EXPECT_EQ(genus(surface), 0) << label;
+  }
+}
+
 TEST(LayTendons, NothingIsLaidWhereNothingIsMissingOrNotThere) {
-  PartVolume parts = volume(false);
+  PartVolume parts = volume(kNoWall);
   const Labels before = parts.labels;
   EXPECT_TRUE(lay_tendons(parts, recipe("femur")).empty());  // a bone that the volume has not
   std::vector<MuscleData> trunk = recipe();

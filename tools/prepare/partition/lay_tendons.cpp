@@ -166,8 +166,8 @@ class Layer {
     for (std::size_t b = 0; b < box.size(); ++b) {
       const std::size_t point = box.to_lattice(b);
       const double inside = on_rim(point) ? -kLargestMargin : depth(point);
-      if (inside > -kLargestMargin)
-        set_margin(point, part, inside, std::binary_search(taken.begin(), taken.end(), point));
+      if (inside <= -kLargestMargin) continue;
+      set_margin(point, part, inside, std::binary_search(taken.begin(), taken.end(), point));
     }
     borders_[part].insert(borders_[part].end(), taken.begin(), taken.end());
   }
