@@ -79,9 +79,13 @@ TEST(HoldPostureOfLines, IsTrimmedAgainAfterTheDifferenceWasUsed) {
   EXPECT_NEAR(simulation.joint(joint).angle_rad, start_rad, 1e-4 * kDegree_rad);
 }
 
-TEST(HoldPostureOfTissue, FiniteElementsOfTheElbowStayWithinADegree) {
-  EXPECT_LT(largest_drift_rad(load_scene("elbow")), 1.0 * kDegree_rad);
+class HoldPostureOfTissue : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(HoldPostureOfTissue, FiniteElementsStayWithinADegree) {
+  EXPECT_LT(largest_drift_rad(load_scene(GetParam())), 1.0 * kDegree_rad);
 }
+
+INSTANTIATE_TEST_SUITE_P(Scenes, HoldPostureOfTissue, ::testing::Values("elbow", "hock"));
 
 }  // namespace
 }  // namespace myotact::scene
