@@ -12,8 +12,10 @@
 namespace myotact::prepare {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::PhantomGrid;
 
 std::string difference_in(const std::string& bytes, const std::string& name) {
@@ -114,11 +116,14 @@ TEST(LabelVolume, TellsPiecesEmptySegmentsAndMirrors) {
       "NRRD0004\ntype: uchar\ndimension: 3\nspace: LPS\nsizes: 3 2 2\nspace directions: (1,0,0) (0,1,0) (0,0,-1)\n"
       "encoding: raw\n" +
       names + "\n";
-  // The first and the last of four points of label 2 touch no other by a face.
-  const LabelVolume volume = parse_label_volume(file + std::string("\2\0\0\0\2\2\0\0\0\2\0\0", 12), "p.nrrd");
+  // Across these edges, no tetrahedron of the surface's lattice joins two points.
+  const LabelVolume volume = parse_label_volume(file + std::string("\0\2\2\2\0\0\2\0\0\0\0\0", 12), "p.nrrd");
   EXPECT_THAT(volume.notes, ElementsAre(HasSubstr("3 x 2 x 2 points"), HasSubstr("left-handed"),
                                         HasSubstr("no point of their own, left out: \"lost\""),
                                         HasSubstr("segment \"both\" is in 3 pieces of 2, 1, 1 points")));
+  // Here one does, though no two share a face but the pair in the middle.
+  const LabelVolume whole = parse_label_volume(file + std::string("\2\0\0\0\2\2\0\0\0\2\0\0", 12), "p.nrrd");
+  EXPECT_THAT(whole.notes, Not(Contains(HasSubstr("pieces"))));
 }
 
 TEST(LabelVolume, NamesASegmentByItsLabelWhereTheFileDoesNot) {

@@ -33,6 +33,7 @@ class Pieces {
       add_row(labels.data() + row * nx, nx);
       if (row % ny != 0) join_rows(row, row - 1);
       if (row >= ny) join_rows(row, row - ny);
+      if (row % ny != 0 && row >= ny) join_rows(row, row - ny - 1);
     }
   }
 
@@ -63,12 +64,13 @@ class Pieces {
     counted_ = runs_.size() < kMostRuns;
   }
 
+  /// With an earlier row, whose points at the same x and one before have an edge to those of this one (kLink).
   void join_rows(std::size_t row, std::size_t other) {
     std::uint32_t a = row_ends_[row], b = row_ends_[other];
     while (a < row_ends_[row + 1] && b < row_ends_[other + 1]) {
-      const bool touch = runs_[a].begin < runs_[b].end && runs_[b].begin < runs_[a].end;
+      const bool touch = runs_[a].begin <= runs_[b].end && runs_[b].begin < runs_[a].end;
       if (touch && runs_[a].label == runs_[b].label) join(a, b);
-      if (runs_[a].end < runs_[b].end) {
+      if (runs_[a].end <= runs_[b].end) {
         ++a;
       } else {
         ++b;
@@ -100,7 +102,7 @@ std::string note_of(const std::string& name, const std::vector<std::size_t>& pie
   std::vector<std::string> sizes;
   for (std::size_t i = 0; i < std::min(pieces.size(), kListed); ++i) sizes.push_back(std::to_string(pieces[i]));
   if (pieces.size() > kListed) sizes.emplace_back("...");
-  return fmt::format("segment \"{}\" is in {} pieces of {} points that share no face: one is kept, the largest", name,
+  return fmt::format("segment \"{}\" is in {} pieces of {} points that do not touch: one is kept, the largest", name,
                      pieces.size(), join(sizes));
 }
 
