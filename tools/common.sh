@@ -56,6 +56,9 @@ build() {
   (cd "$project" && cmake --build --preset "$preset" "${targets[@]}" >&2)
 }
 
+# Of tests that are slow under a sanitizer, or whose timing means nothing there: these run in release only.
+release_only='slow|realtime|validation'
+
 # run_tests PRESET [ctest options...]: two at a time.
 run_tests() {
   local preset="$1"

@@ -21,6 +21,5 @@ fi
 phase "release, build" build bundled
 phase "release, tests" run_tests bundled -LE 'bench|soak'
 phase "address sanitizer, build" build asan
-# Timing means nothing under sanitizers; the slow tests and the validation cases ran above, and what these call is
-# tested here too.
-phase "address sanitizer, tests" run_tests asan -LE 'bench|slow|realtime|validation'
+# The slow tests and the validation cases ran above, and what these call is tested here too.
+phase "address sanitizer, tests" run_tests asan -LE "bench|$release_only"

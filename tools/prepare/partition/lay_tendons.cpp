@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "prepare/part/node_steps.h"
-#include "prepare/part/simple_point.h"
 #include "prepare/partition/point_box.h"
 #include "prepare/partition/tendon_way.h"
 
@@ -18,10 +17,11 @@ namespace {
 /// A muscle whose outermost points are as near to those of its bone is fixed as it is: between the surfaces there is
 /// less [m].
 constexpr double kNear_m = 2e-3;
-/// Thinner than a step a tendon would fall to pieces; thicker ones than this are aponeuroses, whose area is spread wide
-/// [m].
+/// With a smaller radius a tendon would fall to pieces where bone or another part cuts into it; thicker ones than this
+/// are aponeuroses, whose area is spread wide [m].
 constexpr double kThinnest_steps = 1.5, kThickest_m = 3e-3;
-/// A tendon's points so near to its way are its own whatever stands there: so it hangs together.
+/// A tendon's points so near to its way become its own wherever the ground is open, even in the midst of a thick
+/// muscle: so it hangs together.
 constexpr double kCore_steps = 0.9;
 /// How much of a muscle counts as its end [m].
 constexpr double kEnd_m = 5e-3;
@@ -96,20 +96,12 @@ class Layer {
     borders_.resize(volume_.keys.size() + 1);
     const std::vector<std::uint16_t>& labels = volume_.labels;
     for (std::size_t point = 0; point < labels.size(); ++point) {
-      if (labels[point] == 0 || on_rim(point)) continue;
+      if (labels[point] == 0 || on_rim(volume_.lattice.counts, point)) continue;
       const bool border = std::any_of(steps_.linked.begin(), steps_.linked.end(), [&](std::ptrdiff_t step) {
         return labels[NodeSteps::go(point, step)] != labels[point];
       });
       if (border) borders_[labels[point]].push_back(point);
     }
-  }
-
-  bool on_rim(std::size_t point) const {
-    const std::array<int, 3> i = index_of(volume_.lattice.counts, point);
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (i[k] == 0 || i[k] == volume_.lattice.counts[k] - 1) return true;
-    }
-    return false;
   }
 
   Place nearest(const Points& border, const Vec3& p_m) const {
@@ -161,13 +153,14 @@ class Layer {
     const double core = radius_m / step - kCore_steps;
     const Points taken = take(part, along, [&](std::size_t point) {
       const double inside = depth(point);
-      return inside > 0.0 && (inside >= core ? !ground.closed(point) : may_be_taken(point));
+      return inside > 0.0 && (inside >= core ? !ground.closed(point) : ground.leaves_whole(point));
     });
     for (std::size_t b = 0; b < box.size(); ++b) {
       const std::size_t point = box.to_lattice(b);
-      const double inside = on_rim(point) ? -kLargestMargin : depth(point);
+      const double inside = on_rim(volume_.lattice.counts, point) ? -kLargestMargin : depth(point);
       if (inside <= -kLargestMargin) continue;
-      set_margin(point, part, inside, std::binary_search(taken.begin(), taken.end(), point));
+      const bool is_taken = std::binary_search(taken.begin(), taken.end(), point);
+      set_margin(point, part, inside, is_taken, ground.beside_bone(point));
     }
     borders_[part].insert(borders_[part].end(), taken.begin(), taken.end());
   }
@@ -180,7 +173,7 @@ class Layer {
     for (std::size_t next = 0; next < open.size(); ++next) {
       const std::size_t point = open[next];
       std::uint16_t& label = volume_.labels[point];
-      if (on_rim(point) || bone_[label]) continue;
+      if (on_rim(volume_.lattice.counts, point) || bone_[label]) continue;
       if (label != part) {
         if (!may_take(point)) continue;
         label = part;
@@ -205,33 +198,17 @@ class Layer {
   }
 
   /// Of a point so deep [steps] in the tendon, which was `taken` for it or belonged to whom it belongs.
-  void set_margin(std::size_t point, std::uint16_t part, double depth, bool taken) {
+  void set_margin(std::size_t point, std::uint16_t part, double depth, bool taken, bool beside_bone) {
     if (bone_[volume_.labels[point]]) return;  // the tendon ends there, and bone's border stays
     std::uint8_t& margin = volume_.margins[point];
     const double before = margin / kMarginsPerStep;
     double now = std::min(before, std::abs(depth));
     if (taken) {
-      now = touches_bone(point) ? now : depth;
+      now = beside_bone ? now : depth;
     } else if (volume_.labels[point] == part) {
-      now = std::max(before, std::min(depth, touches_bone(point) ? before : kLargestMargin));
+      now = std::max(before, std::min(depth, beside_bone ? before : kLargestMargin));
     }
     margin = static_cast<std::uint8_t>(std::lround(kMarginsPerStep * std::clamp(now, 0.0, kLargestMargin)));
-  }
-
-  /// What the point belongs to stays in one piece without it, and gets no hole.
-  bool may_be_taken(std::size_t point) const {
-    const std::uint16_t label = volume_.labels[point];
-    if (label == 0) return true;
-    Neighbourhood same = 0;
-    for (std::size_t bit = 0; bit < steps_.block.size(); ++bit) {
-      same |= volume_.labels[NodeSteps::go(point, steps_.block[bit])] == label ? Neighbourhood{1} << bit : 0U;
-    }
-    return is_simple(same);
-  }
-
-  bool touches_bone(std::size_t point) const {
-    return std::any_of(steps_.linked.begin(), steps_.linked.end(),
-                       [&](std::ptrdiff_t step) { return bone_[volume_.labels[NodeSteps::go(point, step)]]; });
   }
 
   PartVolume& volume_;

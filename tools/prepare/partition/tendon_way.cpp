@@ -5,6 +5,7 @@
 #include <limits>
 #include <queue>
 
+#include "prepare/part/simple_point.h"
 #include "prepare/partition/point_box.h"
 
 namespace myotact::prepare {
@@ -45,7 +46,7 @@ class Search {
       if (cost > costs[here]) continue;
       const std::size_t point = box_.to_lattice(here);
       if (ground_.own(point)) return way_back(before, here, start);
-      if (on_rim(here)) continue;
+      if (on_rim(box_.counts, here)) continue;
       for (std::size_t bit = 0; bit < steps_.block.size(); ++bit) {
         const std::size_t next = NodeSteps::go(point, steps_.block[bit]);
         const float step = step_cost(bit, next);
@@ -61,14 +62,6 @@ class Search {
   }
 
  private:
-  bool on_rim(std::size_t point) const {
-    const std::array<int, 3> i = index_of(box_.counts, point);
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (i[k] == 0 || i[k] == box_.counts[k] - 1) return true;
-    }
-    return false;
-  }
-
   float step_cost(std::size_t bit, std::size_t to) const {
     if (ground_.closed(to)) return std::numeric_limits<float>::infinity();
     const int moved = (bit % 3 != 1 ? 1 : 0) + (bit / 3 % 3 != 1 ? 1 : 0) + (bit / 9 != 1 ? 1 : 0);
@@ -122,6 +115,16 @@ bool TendonGround::closed(std::size_t point) const {
 bool TendonGround::beside_bone(std::size_t point) const {
   return std::any_of(steps_.linked.begin(), steps_.linked.end(),
                      [&](std::ptrdiff_t step) { return bone_[label(point, step)]; });
+}
+
+bool TendonGround::leaves_whole(std::size_t point) const {
+  const std::uint16_t here = volume_.labels[point];
+  if (here == 0) return true;
+  Neighbourhood same = 0;
+  for (std::size_t bit = 0; bit < steps_.block.size(); ++bit) {
+    same |= label(point, steps_.block[bit]) == here ? Neighbourhood{1} << bit : 0U;
+  }
+  return is_simple(same);
 }
 
 bool TendonGround::other_muscle(std::size_t point) const {

@@ -17,6 +17,8 @@ class TendonGround {
   /// Bone, and where another part is so thin that it would be cut: most of all, another tendon.
   bool closed(std::size_t point) const;
   bool beside_bone(std::size_t point) const;
+  /// Whether what the point belongs to stays in one piece without it, and gets no hole (is_simple()).
+  bool leaves_whole(std::size_t point) const;
   /// A part that is neither bone nor this muscle.
   bool other_muscle(std::size_t point) const;
   bool own(std::size_t point) const { return volume_.labels[point] == part_; }

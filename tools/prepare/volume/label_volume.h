@@ -34,6 +34,15 @@ inline std::array<int, 3> index_of(const std::array<int, 3>& counts, std::size_t
   return {static_cast<int>(point % nx), static_cast<int>(point / nx % ny), static_cast<int>(point / nx / ny)};
 }
 
+/// Of the lattice's outermost layer, whose points have no neighbours on one side.
+inline bool on_rim(const std::array<int, 3>& counts, std::size_t point) {
+  const std::array<int, 3> i = index_of(counts, point);
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (i[k] == 0 || i[k] == counts[k] - 1) return true;
+  }
+  return false;
+}
+
 /// A label with what its file says of it.
 struct Segment {
   std::string name;  // as in the file; "label 7" where it has none
