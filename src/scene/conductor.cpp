@@ -1,11 +1,13 @@
 #include "scene/conductor.h"
 
 #include <algorithm>
+#include <cmath>
 #include <type_traits>
 #include <utility>
 #include <variant>
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 
 #include "scene/rotated_torques.h"
 
@@ -320,6 +322,20 @@ messages::ControlState Conductor::control() const {
   return state;
 }
 
+/// The first muscle whose tissue does not pull as its line does.
+std::string Conductor::weak_tissue() const {
+  constexpr double kWorthSaying = 0.3;
+  for (int m = 0; m < simulation_->muscle_count(); ++m) {
+    const double pull = simulation_->pull_over_line(m);
+    if (std::abs(pull - 1.0) <= kWorthSaying) continue;
+    return fmt::format(
+        "{} of finite elements pulls {:.0f} % of what its line would: its mesh cannot stand for it; choose \"line\" or "
+        "\"rigid\" for it under /tissue/muscles",
+        scene_->specimen.muscles[static_cast<std::size_t>(m)].key, std::isfinite(pull) ? 100.0 * pull : 0.0);
+  }
+  return "";
+}
+
 std::string Conductor::notice() const {
   if (!starts_at_rest_ || measured_torques_.unsettled_level) {
     return "the tissue came to no complete rest in the starting posture, so that the balance is rough; start nearer to "
@@ -335,7 +351,7 @@ std::string Conductor::notice() const {
            "be "
            "trusted; rotate the joint back, or move the wrap or the end in the specimen";
   }
-  if (balanced_ || !co_contracting_) return "";
+  if (balanced_ || !co_contracting_) return weak_tissue();
   const std::string& joint = scene_->specimen.joints[static_cast<std::size_t>(scene_->co_contraction->joint)].key;
   return "the muscles cannot balance the " + joint +
          " in this posture: the passive pull of one side is more than the other can hold; choose a posture nearer to "

@@ -85,6 +85,7 @@ class Conductor {
   bool posture_is_held(double time_s) const;
   void trim_posture(double time_s);
   void drive_co_contraction(double time_s, std::vector<double>& excitations);
+  std::string weak_tissue() const;  // a notice, or empty
 
   const Scene* scene_;
   simulation::Simulation* simulation_;

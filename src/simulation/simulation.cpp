@@ -7,7 +7,6 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "simulation/follower/bone_fit.h"
-#include "simulation/limb/calibration.h"
 #include "simulation/limb/settle.h"
 #include "simulation/limb/step.h"
 #include "simulation/muscle/activation.h"
@@ -36,8 +35,10 @@ Simulation::Impl::Impl(const anatomy::Specimen& given, const SimulationSettings&
       surfaces(specimen, limb) {
   limb.gravity_m_s2 = settings.gravity_m_s2;
   excitations.assign(specimen.muscles.size(), 0.0);
+  line_agreements.assign(specimen.muscles.size(), LineAgreement{1.0, 1.0});
   workers.run(static_cast<int>(specimen.muscles.size()), [&](int m) {
-    if (!limb.muscles[at(m)].rigid) calibrate_muscle(specimen, m, limb.skeleton, limb.muscles[at(m)]);
+    if (limb.muscles[at(m)].rigid) return;
+    line_agreements[at(m)] = calibrate_muscle(specimen, m, limb.skeleton, limb.muscles[at(m)]);
   });
   for (int m = 0; m < static_cast<int>(specimen.muscles.size()); ++m) {
     const auto found = std::find_if(specimen.lines.begin(), specimen.lines.end(),
@@ -187,6 +188,9 @@ double Simulation::activation(int muscle) const {
 }
 double Simulation::excitation(int muscle) const {
   return impl_->excitations[at(muscle)];
+}
+double Simulation::pull_over_line(int muscle) const {
+  return impl_->line_agreements[at(muscle)].force;
 }
 int Simulation::failed_steps() const {
   return impl_->failed_steps;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "simulation/limb/calibration.h"
 #include "simulation/limb/limb.h"
 #include "simulation/line/line_model.h"
 #include "simulation/simulation.h"
@@ -33,16 +34,17 @@ struct Simulation::Impl {
   SimulationSettings settings;  // as given
   Limb limb;                    // all that moves
   WorkerPool workers;
-  Surfaces surfaces;                // of skins and bones, as of the last step or settle
-  std::optional<Tether> tether;     // when the settings ask for one: then nothing else is felt
-  std::vector<double> excitations;  // one a muscle, 0 .. 1
-  std::vector<LineRest> lines;      // one a muscle
-  std::uint64_t steps = 0;          // since construction
-  int whole_steps = 0;              // of equal length since the last restart; the second-order rule needs one
-  int next_refresh = 0;             // muscle whose stiffness is refreshed by the next step
-  int failed_steps = 0;             // since construction
-  double residual_share = 0.0;      // of the last step
-  std::vector<int> offered_lines;   // of each tool: the muscle whose line was nearest after the last step
+  Surfaces surfaces;                           // of skins and bones, as of the last step or settle
+  std::optional<Tether> tether;                // when the settings ask for one: then nothing else is felt
+  std::vector<double> excitations;             // one a muscle, 0 .. 1
+  std::vector<LineRest> lines;                 // one a muscle
+  std::vector<LineAgreement> line_agreements;  // one a muscle; that of a rigid one is perfect
+  std::uint64_t steps = 0;                     // since construction
+  int whole_steps = 0;             // of equal length since the last restart; the second-order rule needs one
+  int next_refresh = 0;            // muscle whose stiffness is refreshed by the next step
+  int failed_steps = 0;            // since construction
+  double residual_share = 0.0;     // of the last step
+  std::vector<int> offered_lines;  // of each tool: the muscle whose line was nearest after the last step
 
   double time_s() const { return static_cast<double>(steps) * settings.dt_s; }
   /// Repeats a failed step of dt_s in two halves, each of which is halved again where it fails; `halvings` counts how

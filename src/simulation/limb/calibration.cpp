@@ -26,6 +26,9 @@ constexpr double kLargestFactor = 1.3;
 constexpr double kLengthFits = 0.05;
 /// Limits of the whole adjustment; beyond them the mesh is too coarse or too bent to stand for the line.
 constexpr double kSmallestScale = 0.4, kLargestScale = 2.5;
+/// An offset that would put the resting muscle farther out on the force-length curve than this, where little force is
+/// left to begin with, makes it count as no longer than the curve's top.
+constexpr double kFarthestAtRest = 1.4, kTop = 1.02;
 /// Rotation for the slope of the tension, small against any curvature, large against rounding [rad].
 constexpr double kProbe_rad = 1e-6;
 
@@ -88,6 +91,16 @@ LineAgreement measure(const LineTarget& target, const Skeleton& skeleton, LimbMu
   return agreement;
 }
 
+/// Tension of the muscle when it is excited at rest, over the line's; NaN when it finds none. A muscle may agree on the
+/// way here and never get there from rest.
+double pull_from_rest(const LineTarget& target, const Skeleton& skeleton, LimbMuscle& muscle) {
+  for (const double activation : {0.0, kActivation}) {
+    muscle.state.activation = activation;
+    if (!settle_muscle(skeleton, Vec3::Zero(), kRoundShare, muscle)) return std::nan("");
+  }
+  return muscle.system.tension_N / target.force.force_N;
+}
+
 double bounded(double factor) {
   return std::clamp(factor, 1.0 / kLargestFactor, kLargestFactor);
 }
@@ -112,12 +125,16 @@ LineAgreement calibrate_muscle(const anatomy::Specimen& specimen, int index, con
     const double short_of = map.rest_stretch - mean_fibre_length(muscle.tissue, muscle.state.now.stretch);
     const double part = round < kWholeRounds ? 1.0 : 0.5;
     map.offset += part * short_of;
+    const double at_rest = map.rest_stretch + map.offset;
+    map.beyond = at_rest > kFarthestAtRest ? (kTop - 1.0) / (at_rest - 1.0) : 1.0;
     if (std::abs(short_of) > kLengthFits) continue;  // force and slope mean little at another length
     map.scale = std::clamp(map.scale * bounded(std::pow(now.force, -part)), kSmallestScale, kLargestScale);
     const double steeper = now.stiffness > 0.0 ? bounded(std::pow(now.stiffness, -part)) : kLargestFactor;
     map.gain = std::clamp(map.gain * steeper, kSmallestScale * plain.gain, kLargestScale * plain.gain);
   }
   map = best_map;
+  muscle.state = make_state(muscle.tissue);
+  best.force = pull_from_rest(target, skeleton, muscle);
   muscle.state = make_state(muscle.tissue);
   return best;
 }

@@ -7,7 +7,7 @@ namespace myotact::simulation {
 /// How well a muscle's tissue agrees with its line at the file pose, half active: both 1 when it agrees. NaN when no
 /// static solve came to rest.
 struct LineAgreement {
-  double force = 0.0;      // isometric tension over the line's force
+  double force = 0.0;      // isometric tension, excited at rest, over the line's force
   double stiffness = 0.0;  // dF/dL by rotating a joint, over the line's; 1 when no joint changes the line's length
 };
 

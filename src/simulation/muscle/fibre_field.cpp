@@ -69,12 +69,19 @@ FibreStress fibre_stress(const FibreInputs& in, std::size_t t, std::size_t p) {
 FibreInputs fibre_inputs(const MuscleTissue& tissue, const TissueState& state, const TissueLoad& load) {
   const double mean_length = mean_fibre_length(tissue, state.now.stretch);
   const double last_mean_length = mean_fibre_length(tissue, state.last.stretch);
-  return {tissue, state, load, mean_length, active_force_length(mean_length), active_force_length(last_mean_length)};
+  const FibreMap& map = tissue.fibre_map;
+  return {tissue,
+          state,
+          load,
+          mean_length,
+          active_force_length(map.on_curve(mean_length)),
+          active_force_length(map.on_curve(last_mean_length))};
 }
 
 double mean_tangent_Nm(const FibreInputs& in) {
   const FibreMap& map = in.tissue.fibre_map;
-  const double slope = active_force_length_slope(in.mean_length) - kEvenness;
+  const double slope =
+      active_force_length_slope(map.on_curve(in.mean_length)) * map.on_curve_slope(in.mean_length) - kEvenness;
   return in.state.activation * map.scale * fibre_weight_Nm(in.tissue) / map.gain * slope;
 }
 

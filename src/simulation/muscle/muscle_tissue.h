@@ -62,11 +62,16 @@ struct FibreMap {
   double gain = 1.0;          // dn / d(stretch)
   double offset = 0.0;        // of n
   double scale = 1.0;         // of the peak stress
+  double beyond = 1.0;        // how much of what n exceeds 1 by counts for active force, in (0, 1]
 
   /// n by which active force goes, and that by which passive force goes.
   double length(double stretch) const { return passive_length(stretch) + offset; }
   /// The offset compensates what active fibres shorten by against their soft ends; at rest they are as long as given.
   double passive_length(double stretch) const { return rest_stretch + gain * (stretch - 1.0); }
+  /// Where on the force-length curve a muscle of that mean n is. An offset that is large would put the resting muscle
+  /// beyond the curve's end, from where it could never begin to pull.
+  double on_curve(double n) const { return n > 1.0 ? 1.0 + beyond * (n - 1.0) : n; }
+  double on_curve_slope(double n) const { return n > 1.0 ? beyond : 1.0; }
 };
 
 /// A muscle as the solver sees it: everything that does not change while it moves. n nodes, of which some are clamped
