@@ -30,6 +30,8 @@ const std::map<std::string, double> kExceptions_m = {{"vastus_lateralis", 4e-3},
                                                      {"gastrocnemius", 2.5e-3},
                                                      {"extensor_digitorum_longus", 2.5e-3},
                                                      {"peroneus_brevis", 5e-3}};
+/// The same in the two limbs of lofted sections.
+const std::map<std::string, double> kLoftedExceptions_m = {{"vastus_lateralis", 4e-3}};
 constexpr int kAnglesPerJoint = 9;
 constexpr int kTogether = 24;  // poses with all joints bent
 /// Of all tets of the followers, in the worst pose.
@@ -151,12 +153,14 @@ TEST_P(Followers, StayOnTheirBonesAndOutOfOthersOverAllRanges) {
       worst[index(m)] = {std::max(worst[index(m)].first, off_m), std::max(worst[index(m)].second, in_m)};
     }
   }
+  const bool whole = std::string(GetParam()).starts_with("canine_whole");
+  const std::map<std::string, double>& exceptions_m = whole ? kExceptions_m : kLoftedExceptions_m;
   for (int m = 0; m < count(); ++m) {
     const auto [off_m, in_m] = worst[index(m)];
     const std::string& key = specimen_.muscles[index(m)].key;
     std::printf("%-40s off %5.2f mm, in %5.2f mm\n", key.c_str(), 1e3 * off_m, 1e3 * in_m);
-    const auto exception = kExceptions_m.find(key);
-    EXPECT_LE(std::max(off_m, in_m), exception == kExceptions_m.end() ? kAllowed_m : exception->second) << key;
+    const auto exception = exceptions_m.find(key);
+    EXPECT_LE(std::max(off_m, in_m), exception == exceptions_m.end() ? kAllowed_m : exception->second) << key;
   }
 }
 

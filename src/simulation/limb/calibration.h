@@ -16,7 +16,7 @@ struct LineAgreement {
 /// their mean length to rest_stretch, the scale of the peak stress returns the force, and the gain the slope dF/dL.
 /// Leaves the muscle as it was when the tissue agrees already or cannot be brought nearer, and always at rest.
 /// `index`: of the muscle in the specimen, a soft one that has its line; `skeleton` is at the file pose. Returns the
-/// best agreement found. Costs some ten static solves, 40 at most. Muscles may be calibrated by different threads at
+/// best agreement found. Costs some ten static solves, 42 at most. Muscles may be calibrated by different threads at
 /// once.
 LineAgreement calibrate_muscle(const anatomy::Specimen& specimen, int index, const Skeleton& skeleton,
                                LimbMuscle& muscle);

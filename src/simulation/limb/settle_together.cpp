@@ -31,8 +31,6 @@ constexpr int kHeldRounds = 40;
 /// quarter of what a step in motion leaves.
 constexpr int kRoundsBeforeFlips = 150;
 constexpr double kFlipShare = 5e-3;
-/// And on faces that stay, this: where a safe tangent stands in for one that is not positive, steps gain a tenth each.
-constexpr double kLateShare = 1e-5;
 
 /// Where all nodes are, muscle by muscle.
 Eigen::VectorXd node_places(const Limb& limb) {
@@ -119,8 +117,7 @@ bool settle_together(Limb& limb, double wanted_share, WorkerPool& workers) {
   double share = largest_share(limb, workers), best = share, time_s = kFirstRound_s;
   int waited = 0, held = 0;  // rounds: since the best share was halved; for which the faces stay yet
   for (int round = 0; round < kMostRounds && !(share < wanted_share); ++round) {
-    const bool late = round >= kRoundsBeforeFlips;
-    const double faces_share = late ? kFlipShare : kFacesShare;
+    const double faces_share = round < kRoundsBeforeFlips ? kFacesShare : kFlipShare;
     const Eigen::VectorXd start_m = node_places(limb);
     const double start_share = share, start_time_s = time_s;
     const Relaxation step = relax(limb, {share, time_s, kFarthest_m}, workers);
@@ -130,7 +127,7 @@ bool settle_together(Limb& limb, double wanted_share, WorkerPool& workers) {
       --held;
       see_neighbours(limb);
       share = largest_share(limb, workers);
-      if (!(share < (late ? std::max(wanted_share, kLateShare) : wanted_share))) continue;
+      if (!(share < wanted_share)) continue;
       share = share_on_new_faces(limb, workers);
       if (share < faces_share) return true;
       held = waited = 0;
