@@ -20,6 +20,9 @@ namespace myotact::prepare {
 
 namespace {
 
+/// A child that neither works nor ends (it waits for a lock) meets a limit, too, and one on a busy machine does not.
+constexpr int kClockPerCpu = 10;
+
 void write_all(int pipe, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t done = ::write(pipe, bytes.data(), bytes.size());
@@ -29,8 +32,8 @@ void write_all(int pipe, std::string_view bytes) {
   }
 }
 
-void set_limits(int limit_s) {
-  const auto cpu_s = static_cast<rlim_t>(limit_s);
+void set_limits(int limit_cpu_s) {
+  const auto cpu_s = static_cast<rlim_t>(limit_cpu_s);
   const rlimit cpu{cpu_s, cpu_s + 1};  // equal limits would end it by a signal that does not show why
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CPU, &cpu);
@@ -38,14 +41,14 @@ void set_limits(int limit_s) {
 }
 
 /// The child's whole life. Faults end it by the system's default, whatever handlers the parent had.
-[[noreturn]] void run_child(const std::function<std::string()>& work, int limit_s, int pipe) {
+[[noreturn]] void run_child(const std::function<std::string()>& work, int limit_cpu_s, int pipe) {
   // Pipes of children that other threads started: as long as this one held them, too, their readers would wait for it.
   constexpr int kOwnPipe = STDERR_FILENO + 1;
   ::dup2(pipe, kOwnPipe);
   ::close_range(kOwnPipe + 1, ~0U, 0);
   pipe = kOwnPipe;
   for (const int fault : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL}) ::signal(fault, SIG_DFL);
-  set_limits(limit_s);
+  set_limits(limit_cpu_s);
   const int silent = ::open("/dev/null", O_WRONLY);
   if (silent >= 0) {  // TetGen talks on standard output, which carries data
     ::dup2(silent, STDOUT_FILENO);
@@ -81,7 +84,7 @@ std::string read_until_closed(int pipe, int limit_s, bool& timed_out) {
 
 }  // namespace
 
-ChildResult run_in_child(const std::function<std::string()>& work, int limit_s) {
+ChildResult run_in_child(const std::function<std::string()>& work, int limit_cpu_s) {
   using End = ChildResult::End;
   int ends[2] = {-1, -1};
   if (::pipe(ends) != 0) throw Error(ExitStatus::Internal, std::string("cannot make a pipe: ") + std::strerror(errno));
@@ -91,12 +94,12 @@ ChildResult run_in_child(const std::function<std::string()>& work, int limit_s) 
   }
   if (child == 0) {
     ::close(ends[0]);
-    run_child(work, limit_s, ends[1]);
+    run_child(work, limit_cpu_s, ends[1]);
   }
   ::close(ends[1]);
   bool timed_out = false;
   ChildResult result;
-  result.bytes = read_until_closed(ends[0], limit_s, timed_out);
+  result.bytes = read_until_closed(ends[0], kClockPerCpu * limit_cpu_s, timed_out);
   ::close(ends[0]);
   if (timed_out) ::kill(child, SIGKILL);
   int status = 0;

@@ -13,9 +13,10 @@ struct ChildResult {
   std::string bytes;
 };
 
-/// Runs the work in a child process with a limit on time, because libraries that are given odd surfaces end their
-/// process or go round in circles. The work must not touch other threads' locks.
+/// Runs the work in a child process with a limit on its processor time, because libraries that are given odd surfaces
+/// end their process or go round in circles. The clock on the wall does not count: what comes out would depend on what
+/// else the machine does. The work must not touch other threads' locks.
 /// Throws Error Internal when no child can be made.
-ChildResult run_in_child(const std::function<std::string()>& work, int limit_s);
+ChildResult run_in_child(const std::function<std::string()>& work, int limit_cpu_s);
 
 }  // namespace myotact::prepare

@@ -20,7 +20,7 @@ using geometry::TetMesh;
 using geometry::TriangleMesh;
 
 /// Surfaces of this project take 3 .. 12 ms; one that is not done by then goes round in circles.
-constexpr int kTimeLimit_s = 60;
+constexpr int kTimeLimit_cpu_s = 60;
 
 /// What the child leaves in the pipe before the nodes (3 doubles each) and tets (4 ints each).
 struct ResultHeader {
@@ -94,12 +94,12 @@ TetMesh parse_result(const std::string& name, const std::string& bytes) {
 }  // namespace
 
 TetMesh tetrahedralise(const std::string& name, const TriangleMesh& surface) {
-  const ChildResult result = run_in_child([&] { return run_tetgen(surface); }, kTimeLimit_s);
+  const ChildResult result = run_in_child([&] { return run_tetgen(surface); }, kTimeLimit_cpu_s);
   switch (result.end) {
     case ChildResult::End::Done:
       return parse_result(name, result.bytes);
     case ChildResult::End::TimedOut:
-      throw bad_data(name, "tetrahedra", fmt::format("took more than {} s; simplify the surface", kTimeLimit_s));
+      throw bad_data(name, "tetrahedra", fmt::format("took more than {} s of processor time; simplify the surface", kTimeLimit_cpu_s));
     case ChildResult::End::Signalled:
       throw bad_data(name, "tetrahedra",
                      fmt::format("TetGen ended with signal {}; most likely triangles of the surface cross each other. "
