@@ -74,7 +74,7 @@ void main() {
   vec3 half_way = normalize(key_world + to_eye);
   float straight = max(dot(n, half_way), 0.0);
   float along = dot(along_fibre.xyz, half_way);
-  float silk = pow(1.0 - along * along, 8.0) * straight * straight + 0.55 * pow(straight, 40.0);
+  float silk = pow(max(1.0 - along * along, 0.0), 8.0) * straight * straight + 0.55 * pow(straight, 40.0);
   float sheen = mix(pow(straight, 24.0), silk, finish.w * step(0.25, dot(along_fibre.xyz, along_fibre.xyz)));
   float rim = 1.0 - dot(n, to_eye);
   rim *= rim * rim;

@@ -14,6 +14,7 @@
 #include "core/json_reader.h"
 #include "core/text.h"
 #include "device/profile_file.h"
+#include "scene/fascia_file.h"
 #include "scene/tether_file.h"
 #include "scene/texture_file.h"
 #include "simulation/line/line_model.h"
@@ -275,6 +276,8 @@ void read_parts(JsonObject& root, Scene& scene) {
   if (const auto lines = root.find("lines")) read_lines(*lines, scene);
   if (const auto joints = root.find("joints")) read_joints(*joints, scene);
   if (const auto contact = root.find("contact")) scene.settings.contact = contact->boolean();
+  if (const auto fascia = root.find("fascia"); fascia && fascia->boolean())
+    scene.settings.fascia = read_fascia(fascia_path());
   if (const auto tissue = root.find("tissue")) read_tissue(*tissue, scene);
   if (const auto rest_stretch = root.find("rest_stretch")) read_rest_stretch(*rest_stretch, scene);
   if (const auto activations = root.find("activations")) read_activations(*activations, scene);

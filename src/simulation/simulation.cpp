@@ -30,7 +30,7 @@ double unit_range(double value) {
 Simulation::Impl::Impl(const anatomy::Specimen& given, const SimulationSettings& chosen)
     : specimen(given),
       settings(chosen),
-      limb(specimen, settings.tissue, settings.tendon, settings.contact),
+      limb(specimen, settings.tissue, settings.tendon, settings.contact, settings.fascia),
       workers(chosen.workers),
       surfaces(specimen, limb) {
   limb.gravity_m_s2 = settings.gravity_m_s2;

@@ -12,6 +12,7 @@
 #include "messages/local_model.h"
 #include "messages/scene_frame.h"
 #include "messages/tool_state.h"
+#include "simulation/contact/contact_law.h"
 #include "simulation/line/hill_muscle.h"
 #include "simulation/muscle/tissue_model.h"
 #include "simulation/particle/tether.h"
@@ -26,6 +27,7 @@ struct SimulationSettings {
   std::vector<TissueModel> tissue;   // one a muscle; empty: all Fem
   Tendon tendon = Tendon::Elastic;   // of the Line muscles
   bool contact = true;  // muscles touch bones and each other; false is for speed where touch is all that counts
+  Fascia fascia = {};   // holds muscles to each other that lie side by side at the file pose; zero: none
   std::optional<TetherSettings> tether = {};  // then nothing else is felt
 };
 

@@ -89,6 +89,16 @@ TEST_F(Program, RefusesAFileThatIsNoMesh) {
   EXPECT_TRUE(nothing_left_behind());
 }
 
+TEST_F(Program, RefusesAScanOfBonesAlone) {
+  std::string octahedron = "v 0.02 0 0\nv 0 0.02 0\nv -0.02 0 0\nv 0 -0.02 0\nv 0 0 0.02\nv 0 0 -0.02\n";
+  octahedron += "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\nf 2 1 6\nf 3 2 6\nf 4 3 6\nf 1 4 6\n";
+  put("one.obj", octahedron);
+  EXPECT_EQ(run(scan() + "/one.obj --bones one --units m -o " + specimen()), status(ExitStatus::BadData)) << error_;
+  EXPECT_THAT(error_, HasSubstr("no muscle"));
+  EXPECT_THAT(error_, HasSubstr("--bones"));
+  EXPECT_TRUE(nothing_left_behind());
+}
+
 TEST_F(Program, StopsAfterAStageWithAScanThatCanBePreparedFurther) {
   const std::string recipe = source_folder() + "/assets/canine/hindlimb.json";
   const fs::path read = folder_ / "read", repaired = folder_ / "repaired";

@@ -35,4 +35,19 @@ inline constexpr ContactLaw kBoneContact{2e9, 0.2e-3};
 /// squeezed by its neighbours, press it in by 0.28 mm, 100 kPa by 0.7 mm.
 inline constexpr ContactLaw kTissueContact{2e8, 0.4e-3};
 
+/// Loose connective tissue that holds what lies side by side at rest: a linear spring an area, softer than what keeps
+/// the two from overlapping. All zero: none.
+struct Fascia {
+  double tension_Pa_m = 0.0;  // against being drawn apart, along the normal
+  double shear_Pa_m = 0.0;    // against sliding, all directions alike; part of the tension above
+  double reach_m = 0.0;       // surfaces closer than this at the file pose are held
+};
+
+/// The law between two surfaces that fascia holds: its tension in both directions, and contact's on top where they
+/// overlap. Real-time safe.
+inline ContactPressure held_pressure(const ContactLaw& law, double tension_Pa_m, double overlap_m) {
+  const ContactPressure contact = contact_pressure(law, overlap_m);
+  return {contact.pressure_Pa + tension_Pa_m * overlap_m, contact.slope_Pa_m + tension_Pa_m};
+}
+
 }  // namespace myotact::simulation

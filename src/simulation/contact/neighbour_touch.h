@@ -6,26 +6,39 @@
 
 namespace myotact::simulation {
 
-/// One node of a muscle against a flat quarter of a neighbour's face, as one of the two muscles sees it. Which face,
-/// the place on it and the normal stay for a step; the overlap
+/// One node of a muscle against a place on a neighbour, as one of the two muscles sees it. With the gap
 ///
-///   s = others_m + sum_k weights_k normal . x_k
+///   g = others_m + sum_k weights_k x_k
 ///
-/// then is linear in the nodes of both muscles. Energy: area times the law's over s, shared by the two.
+/// which is linear in the nodes of both muscles for a step, two kinds:
+/// - the node over a flat quarter of a face. Face, place and normal stay for a step; the overlap is
+///   s = normal . g - rest_depth, the energy area times the law's over s.
+/// - a tie of fascia, for good: the place lies in the neighbour's tet, where it was at the file pose, and the energy is
+///   stiffness / 2 g^2.
 struct NeighbourTouch {
-  int count = 0;                                // own nodes: 1 (it touches) or 3 (it is touched)
-  std::array<int, 3> nodes{};                   // own
-  std::array<double, 3> weights{};              // -1, or the place on the face
-  Vec3 normal_W = Vec3::Zero();                 // out of the touched muscle
-  double area_m2 = 0.0;                         // half of what the touching node carries
-  double rest_depth_m = 0.0;                    // overlap at the file pose, which counts as touching
-  double others_m = 0.0;                        // the neighbour's nodes' part of s, less the rest depth
-  int neighbour = -1, counterpart = -1;         // muscle, and the same touch in its list
-  std::array<int, 3> rider_bodies{-1, -1, -1};  // that clamp nodes of the face: joints move it
-  std::array<Vec3, 3> riders_rest_m{};          // L
-  std::array<double, 3> rider_weights{};        // barycentric, on the face
-  bool touched = false;    // sees it from the touched side, which hands the riders' forces to the joints
-  double slope_N_m = 0.0;  // of the last tangent
+  int count = 0;                                    // own nodes: 1 (it touches), or 3 or 4 (it is touched)
+  std::array<int, 4> nodes{};                       // own
+  std::array<double, 4> weights{};                  // -1, or the place on the face or in the tet
+  bool tie = false;                                 // the second kind
+  Vec3 normal_W = Vec3::Zero();                     // out of the touched muscle; unused by a tie
+  double area_m2 = 0.0;                             // half of what the touching node carries
+  double tension_Pa_m = 0.0;                        // of the fascia that holds the two; 0: they may come apart
+  double rest_depth_m = 0.0;                        // overlap at the file pose, which counts as touching
+  Vec3 others_m = Vec3::Zero();                     // W: the neighbour's nodes' part of g
+  int neighbour = -1, counterpart = -1;             // muscle, and the same touch in its list
+  std::array<int, 4> rider_bodies{-1, -1, -1, -1};  // that clamp nodes of the place: joints move it
+  std::array<Vec3, 4> riders_rest_m{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};  // L
+  std::array<double, 4> rider_weights{};  // barycentric, of the place
+  bool touched = false;                   // sees it from the touched side, which hands the riders' forces to the joints
+  double slope_N_m = 0.0;                 // of the last tangent: along the normal, or of a tie in all directions
 };
+
+/// What a slope makes of a gap's change (3 x any number of columns): its force.
+template <class Derived>
+auto slope_times(const NeighbourTouch& touch, double slope_N_m, const Eigen::MatrixBase<Derived>& gap) {
+  using Gap = Eigen::Matrix<double, 3, Derived::ColsAtCompileTime>;
+  if (touch.tie) return Gap(slope_N_m * gap);
+  return Gap(slope_N_m * touch.normal_W * (touch.normal_W.transpose() * gap));
+}
 
 }  // namespace myotact::simulation

@@ -55,15 +55,16 @@ void add_coupling(const Limb& limb, const LimbMuscle& muscle, const ColumnsOf& c
     const double slope_N_m = shared_slope(touch, theirs);
     const Eigen::MatrixXd& columns = columns_of(touch.neighbour);
     if (slope_N_m == 0.0 || columns.size() == 0) continue;
-    Eigen::RowVectorXd overlap = Eigen::RowVectorXd::Zero(out.cols());
+    Eigen::Matrix3Xd gap = Eigen::Matrix3Xd::Zero(3, out.cols());
     for (std::size_t k = 0; k < at(theirs.count); ++k) {
       const int row = other.tissue.free_index[at(theirs.nodes[k])];
       if (row < 0) continue;
-      overlap += theirs.weights[k] * touch.normal_W.transpose() * columns.middleRows<3>(3 * row);
+      gap += theirs.weights[k] * columns.middleRows<3>(3 * row);
     }
+    const Eigen::Matrix3Xd force = slope_times(touch, slope_N_m, gap);
     for (std::size_t k = 0; k < at(touch.count); ++k) {
       const int row = muscle.tissue.free_index[at(touch.nodes[k])];
-      if (row >= 0) out.middleRows<3>(3 * row) += slope_N_m * touch.weights[k] * touch.normal_W * overlap;
+      if (row >= 0) out.middleRows<3>(3 * row) += touch.weights[k] * force;
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/at.h"
+#include "simulation/muscle/fascia_bonds.h"
 
 namespace myotact::simulation {
 namespace {
@@ -42,7 +43,7 @@ void search(const Limb& limb, int other, const Eigen::VectorXd& position_m, Touc
     const double rest_depth_m = depths_m.empty() ? 0.0 : depths_m[i];
     double& clear_until_m = surface.clear_until_m[at(other)][i];
     const double travelled_m = surface.travelled_m + theirs.travelled_m;
-    if (rest_depth_m < 0.0 || travelled_m < clear_until_m) continue;
+    if (rest_depth_m < 0.0 || travelled_m < clear_until_m || surface.held_by[i] == other) continue;
     const double reach_m = rest_depth_m + 1.5 * kWatched_m;
     int& last_triangle = surface.last_triangles[at(other)][i];
     const double no_farther_m = distance_m(p, theirs.tree, last_triangle, positions_m);
@@ -58,38 +59,66 @@ void search(const Limb& limb, int other, const Eigen::VectorXd& position_m, Touc
   }
 }
 
-/// The touch as both muscles see it.
-void add_touch(Limb& limb, int muscle, const TouchSurface::Found& found) {
-  const TouchSurface& surface = limb.touch_surfaces[at(muscle)];
-  const MuscleTissue& theirs = limb.muscles[at(found.other)].tissue;
-  const std::vector<double>& depths_m = surface.rest_depths_m[at(found.other)];
+/// Puts a touch into the lists of both muscles: `touch` says all but whose nodes it is between, and how they count.
+void add_sides(Limb& limb, int muscle, int node, int other, std::span<const int> place, NeighbourTouch touch) {
+  const MuscleTissue& theirs = limb.muscles[at(other)].tissue;
   std::vector<NeighbourTouch>& own = limb.muscles[at(muscle)].state.touches;
-  std::vector<NeighbourTouch>& others = limb.muscles[at(found.other)].state.touches;
-  NeighbourTouch touch;
-  touch.normal_W = found.normal_W;
-  // Each of the two surfaces touches the other with its own nodes: half the pressure each.
-  touch.area_m2 = 0.5 * surface.nodes[at(found.node)].area_m2;
-  touch.rest_depth_m = depths_m.empty() ? 0.0 : depths_m[at(found.node)];
-  const std::array<int, 3>& corners = limb.touch_surfaces[at(found.other)].tree.triangle(found.triangle);
-  for (std::size_t k = 0; k < 3; ++k) {
-    touch.rider_bodies[k] = theirs.body[at(corners[k])];
-    touch.riders_rest_m[k] = theirs.mesh.nodes_m[at(corners[k])];
-    touch.rider_weights[k] = found.weights[k];
+  std::vector<NeighbourTouch>& others = limb.muscles[at(other)].state.touches;
+  for (std::size_t k = 0; k < place.size(); ++k) {
+    touch.rider_bodies[k] = theirs.body[at(place[k])];
+    touch.riders_rest_m[k] = theirs.mesh.nodes_m[at(place[k])];
   }
   NeighbourTouch side = touch;
   touch.count = 1;
-  touch.nodes[0] = surface.nodes[at(found.node)].node;
+  touch.nodes[0] = node;
   touch.weights[0] = -1.0;
-  touch.neighbour = found.other;
+  touch.neighbour = other;
   touch.counterpart = static_cast<int>(others.size());
-  side.count = 3;
-  side.nodes = corners;
-  side.weights = found.weights;
+  side.count = static_cast<int>(place.size());
+  std::copy(place.begin(), place.end(), side.nodes.begin());
+  side.weights = touch.rider_weights;
   side.neighbour = muscle;
   side.counterpart = static_cast<int>(own.size());
   side.touched = true;
   own.push_back(touch);
   others.push_back(side);
+}
+
+/// Over a face. Each of two surfaces touches the other with its own nodes: half the pressure each.
+void add_touch(Limb& limb, int muscle, const TouchSurface::Found& found, double rest_depth_m, double tension_Pa_m) {
+  const TouchSurface& surface = limb.touch_surfaces[at(muscle)];
+  NeighbourTouch touch;
+  touch.normal_W = found.normal_W;
+  touch.area_m2 = 0.5 * surface.nodes[at(found.node)].area_m2;
+  touch.tension_Pa_m = tension_Pa_m;
+  touch.rest_depth_m = rest_depth_m;
+  std::copy(found.weights.begin(), found.weights.end(), touch.rider_weights.begin());
+  add_sides(limb, muscle, surface.nodes[at(found.node)].node, found.other,
+            limb.touch_surfaces[at(found.other)].tree.triangle(found.triangle), touch);
+}
+
+void add_tie(Limb& limb, int muscle, const FasciaBond& bond) {
+  const SurfaceNode& node = limb.touch_surfaces[at(muscle)].nodes[at(bond.node)];
+  NeighbourTouch touch;
+  touch.tie = true;
+  touch.area_m2 = 0.5 * node.area_m2;
+  touch.tension_Pa_m = limb.fascia.shear_Pa_m;
+  touch.rider_weights = bond.anchor_weights;
+  add_sides(limb, muscle, node.node, bond.other, bond.anchor, touch);
+}
+
+/// What fascia holds: over the faces where it has slid to, and tied to where it was.
+void add_bonds(Limb& limb, int muscle) {
+  for (FasciaBond& bond : limb.touch_surfaces[at(muscle)].bonds) {
+    const TouchSurface& theirs = limb.touch_surfaces[at(bond.other)];
+    const Vec3 p = node_vector(limb.muscles[at(muscle)].state.now.position_m,
+                               limb.touch_surfaces[at(muscle)].nodes[at(bond.node)].node);
+    const TouchSurface::Found face =
+        slide_bond(p, theirs, as_points(limb.muscles[at(bond.other)].state.now.position_m), bond);
+    if (face.triangle >= 0)
+      add_touch(limb, muscle, face, bond.rest_depth_m, limb.fascia.tension_Pa_m - limb.fascia.shear_Pa_m);
+    if (limb.fascia.shear_Pa_m > 0.0) add_tie(limb, muscle, bond);
+  }
 }
 
 }  // namespace
@@ -106,13 +135,18 @@ void find_touches(Limb& limb, WorkerPool& workers) {
     TouchSurface& surface = limb.touch_surfaces[at(m)];
     surface.found.clear();
     for (int other = 0; other < count; ++other) {
-      const bool touchable = other != m && !limb.muscles[at(m)].rigid && !limb.muscles[at(other)].rigid;
+      const bool touchable = limb.contact && other != m && !limb.muscles[at(m)].rigid && !limb.muscles[at(other)].rigid;
       if (touchable) search(limb, other, limb.muscles[at(m)].state.now.position_m, surface);
     }
   });
   for (LimbMuscle& muscle : limb.muscles) muscle.state.touches.clear();
   for (int m = 0; m < count; ++m) {
-    for (const TouchSurface::Found& found : limb.touch_surfaces[at(m)].found) add_touch(limb, m, found);
+    const TouchSurface& surface = limb.touch_surfaces[at(m)];
+    for (const TouchSurface::Found& found : surface.found) {
+      const std::vector<double>& depths_m = surface.rest_depths_m[at(found.other)];
+      add_touch(limb, m, found, depths_m.empty() ? 0.0 : depths_m[at(found.node)], 0.0);
+    }
+    add_bonds(limb, m);
   }
   see_neighbours(limb);
 }
@@ -134,10 +168,9 @@ void see_neighbours(Limb& limb) {
     for (NeighbourTouch& touch : muscle.state.touches) {
       const LimbMuscle& other = limb.muscles[at(touch.neighbour)];
       const NeighbourTouch& theirs = other.state.touches[at(touch.counterpart)];
-      touch.others_m = -touch.rest_depth_m;
+      touch.others_m.setZero();
       for (std::size_t k = 0; k < at(theirs.count); ++k) {
-        const Vec3 x = node_vector(other.state.now.position_m, theirs.nodes[k]);
-        touch.others_m += theirs.weights[k] * touch.normal_W.dot(x);
+        touch.others_m += theirs.weights[k] * node_vector(other.state.now.position_m, theirs.nodes[k]);
       }
     }
   }

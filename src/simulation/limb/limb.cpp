@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "simulation/muscle/build_tissue.h"
+#include "simulation/muscle/fascia_bonds.h"
 
 namespace myotact::simulation {
 namespace {
@@ -28,8 +29,9 @@ std::span<const double> as_span(const Eigen::VectorXd& v) {
 
 }  // namespace
 
-Limb::Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> models, Tendon tendon, bool contact)
-    : skeleton(specimen) {
+Limb::Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> models, Tendon tendon, bool with_contact,
+           const Fascia& held_by)
+    : skeleton(specimen), contact(with_contact), fascia(held_by) {
   now.angle_rad = now.velocity_rad_s = Eigen::VectorXd::Zero(skeleton.joint_count());
   last = before = now;
   external_torque_Nm = now.angle_rad;
@@ -55,10 +57,12 @@ Limb::Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> model
         Eigen::VectorXd::Zero(skeleton.joint_count());
     muscles.push_back(std::move(muscle));
   }
-  if (!contact) return;
+  const bool held = fascia.tension_Pa_m > 0.0;
+  if (!contact && !held) return;
   std::vector<MuscleTissue*> soft;
   for (LimbMuscle& muscle : muscles) soft.push_back(muscle.rigid ? nullptr : &muscle.tissue);
   touch_surfaces = make_touch_surfaces(soft);
+  if (held) lay_bonds(soft, fascia, touch_surfaces);
 }
 
 Vec3 spring_point(const Limb& limb, const ToolSpring& spring) {
@@ -177,6 +181,9 @@ void return_to_file_pose(Limb& limb) {
     muscle.state = make_state(muscle.tissue);
     muscle.stiffness_Nm_rad.setZero();
     muscle.contact_stiffness_Nm_rad.setZero();
+  }
+  for (TouchSurface& surface : limb.touch_surfaces) {
+    for (FasciaBond& bond : surface.bonds) bond.place = bond.rest;
   }
   follow_angles(limb);
   for (LimbMuscle& muscle : limb.muscles) {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "simulation/contact/contact_law.h"
 #include "simulation/follower/follower.h"
 #include "simulation/line/line_tissue.h"
 #include "simulation/linear/block_factor.h"
@@ -76,10 +77,10 @@ struct JointFrameState {
 /// may run for several muscles at once.
 struct Limb {
   /// `models`: one a muscle; empty: all Fem. `tendon`: of the Line ones. `contact`: the others touch bones and each
-  /// other. At the file pose, at rest. Throws Error BadData as Skeleton, build_muscle_tissue() and make_line_tissue()
-  /// do.
+  /// other. `fascia`: holds those that lie side by side. At the file pose, at rest. Throws Error BadData as Skeleton,
+  /// build_muscle_tissue() and make_line_tissue() do.
   explicit Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> models = {},
-                Tendon tendon = Tendon::Elastic, bool contact = true);
+                Tendon tendon = Tendon::Elastic, bool contact = true, const Fascia& fascia = {});
 
   Skeleton skeleton;                         // in the pose of `now`
   SkeletonLoads loads;                       // computed last
@@ -87,7 +88,9 @@ struct Limb {
   Eigen::VectorXd external_torque_Nm;        // one a joint, positive flexes
   Vec3 gravity_m_s2 = Vec3::Zero();          // W
   std::vector<LimbMuscle> muscles;           // as in the specimen
-  std::vector<TouchSurface> touch_surfaces;  // one a muscle; none without contact
+  bool contact = true;                       // as given
+  Fascia fascia;                             // as given
+  std::vector<TouchSurface> touch_surfaces;  // one a muscle; none without contact and fascia
   std::vector<ToolSpring> springs;           // of the present step
   std::vector<Vec3> spring_force_N;          // on the tissue or bone, at the end of the step
   std::vector<Mat3> spring_compliance_m_N;   // of what each pulls at, all springs of its tool left out

@@ -85,20 +85,28 @@ void follow(const Eigen::VectorXd& position_m, TouchSurface& surface) {
   }
 }
 
-Under face_under(const Vec3& p, const TouchSurface& other, std::span<const Vec3> positions_m, double radius_m) {
-  Under under;
-  const geometry::SurfacePlace place = other.tree.nearest(p, positions_m, radius_m);
-  under.nearest_m = place.distance_m;
-  if (place.triangle < 0) return under;
+TouchSurface::Found face_at(const TouchSurface& other, const geometry::SurfacePlace& place) {
   const std::array<int, 3>& corners = other.tree.triangle(place.triangle);
   Vec3 normal = Vec3::Zero();
   for (std::size_t c = 0; c < 3; ++c) {
     normal += place.point.barycentric[c] * other.normals_W[at(corners[c])].normalized();
   }
-  if (!(normal.norm() > 0.1)) return under;  // a fold: no side is outside
-  under.face.triangle = place.triangle;
-  under.face.weights = place.point.barycentric;
-  under.face.normal_W = normal.normalized();
+  TouchSurface::Found face;
+  if (!(normal.norm() > 0.1)) return face;  // a fold: no side is outside
+  face.triangle = place.triangle;
+  face.weights = place.point.barycentric;
+  face.normal_W = normal.normalized();
+  return face;
+}
+
+Under face_under(const Vec3& p, const TouchSurface& other, std::span<const Vec3> positions_m, double radius_m) {
+  Under under;
+  const geometry::SurfacePlace place = other.tree.nearest(p, positions_m, radius_m);
+  under.nearest_m = place.distance_m;
+  if (place.triangle < 0) return under;
+  under.place = place;
+  under.face = face_at(other, place);
+  if (under.face.triangle < 0) return under;
   under.distance_m = under.face.normal_W.dot(p - place.point.position_m);
   return under;
 }
@@ -113,6 +121,7 @@ std::vector<TouchSurface> make_touch_surfaces(const std::vector<MuscleTissue*>& 
     }
     surfaces[m].tree = geometry::TriangleTree(flat_surface(tissue.mesh));
     surfaces[m].normals_W.resize(tissue.mesh.nodes_m.size());
+    surfaces[m].held_by.assign(surfaces[m].nodes.size(), -1);
     surfaces[m].clear_until_m.resize(tissues.size());
     surfaces[m].last_triangles.resize(tissues.size());
     surfaces[m].searched_at_m = make_state(tissue).now.position_m;

@@ -12,6 +12,17 @@
 
 namespace myotact::simulation {
 
+/// A node of a surface that fascia holds at a neighbour.
+struct FasciaBond {
+  int node = -1;                           // of the surface's list
+  int other = -1;                          // muscle
+  geometry::SurfacePlace rest;             // on the other's tree, where the node lay over it at the file pose
+  geometry::SurfacePlace place;            // and where it has slid to, material: weights stay, the position does not
+  double rest_depth_m = 0.0;               // overlap at the file pose, < 0 where there was a gap
+  std::array<int, 4> anchor{};             // corners of a tet of the other
+  std::array<double, 4> anchor_weights{};  // sum 1: where in that tet, or beside it, the node was at the file pose
+};
+
 /// The surface of a muscle as its neighbours touch it, and which of them it touches. Faces of quadratic tets are four
 /// flat triangles.
 struct TouchSurface {
@@ -36,6 +47,9 @@ struct TouchSurface {
   double travelled_m = 0.0;                      // sum of the largest ways of a node from one search to the next
   Eigen::VectorXd searched_at_m;                 // node positions of the last search
   std::vector<Found> found;                      // by the last search
+  std::vector<FasciaBond> bonds;
+  std::vector<int> held_by;              // of each node: the muscle that fascia holds it at, or -1
+  std::vector<std::vector<int>> around;  // of each node: triangles that it is a corner of; none without fascia
 };
 
 /// Surfaces of all muscles that are not rigid, at the file pose, with the depths that count as touching. One a muscle;
@@ -51,16 +65,20 @@ double farthest_way_m(const Eigen::VectorXd& position_m, const TouchSurface& sur
 /// Brings tree, box and normals to these positions and adds to the way travelled.
 void follow(const Eigen::VectorXd& position_m, TouchSurface& surface);
 
+/// The place on a triangle as a touched face; its node and other are not set. The normal rotates smoothly from one flat
+/// triangle to the next. Triangle -1 in a fold, where no side is outside.
+TouchSurface::Found face_at(const TouchSurface& other, const geometry::SurfacePlace& place);
+
 /// What lies under a point.
 struct Under {
   TouchSurface::Found face;                                    // its node and other are not set
+  geometry::SurfacePlace place;                                // of it
   double distance_m = 0.0;                                     // along the normal, < 0 inside
   double nearest_m = std::numeric_limits<double>::infinity();  // distance of the face, no sign
 };
 
-/// The face of `other` nearest to p, within the radius; face.triangle -1 when none is. The normal rotates smoothly from
-/// one flat triangle to the next. `positions_m`: one a node, those that `other` followed last. Const: may be called
-/// from several threads.
+/// The face of `other` nearest to p, within the radius; face.triangle -1 when none is. `positions_m`: one a node, those
+/// that `other` followed last. Const: may be called from several threads.
 Under face_under(const Vec3& p, const TouchSurface& other, std::span<const Vec3> positions_m, double radius_m);
 
 }  // namespace myotact::simulation
