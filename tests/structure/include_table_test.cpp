@@ -73,7 +73,7 @@ const std::map<std::string, Rooms> kRooms = {
        {"line", {"curves", "skeleton"}},
        {"muscle", {"contact", "curves", "element", "line", "linear", "material", "simd", "skeleton"}},
        {"follower", {"line", "skeleton", "skin"}},
-       {"limb", {"follower", "line", "linear", "muscle", "skeleton", "skin"}},
+       {"limb", {"contact", "follower", "line", "linear", "muscle", "skeleton", "skin"}},
        {"touch", {"limb", "line", "muscle", "skin"}},
        {"solid", {"element", "linear", "material", "simd"}}}}},
     {"haptics",
