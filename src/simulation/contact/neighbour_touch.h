@@ -24,7 +24,8 @@ struct NeighbourTouch {
   double area_m2 = 0.0;                             // half of what the touching node carries
   double tension_Pa_m = 0.0;                        // of the fascia that holds the two; 0: they may come apart
   double rest_depth_m = 0.0;                        // overlap at the file pose, which counts as touching
-  Vec3 others_m = Vec3::Zero();                     // W: the neighbour's nodes' part of g
+  double others_overlap_m = 0.0;                    // the neighbour's nodes' part of s, less the rest depth
+  Vec3 others_m = Vec3::Zero();                     // W: of a tie, the neighbour's nodes' part of g
   int neighbour = -1, counterpart = -1;             // muscle, and the same touch in its list
   std::array<int, 4> rider_bodies{-1, -1, -1, -1};  // that clamp nodes of the place: joints move it
   std::array<Vec3, 4> riders_rest_m{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};  // L
@@ -32,13 +33,5 @@ struct NeighbourTouch {
   bool touched = false;                   // sees it from the touched side, which hands the riders' forces to the joints
   double slope_N_m = 0.0;                 // of the last tangent: along the normal, or of a tie in all directions
 };
-
-/// What a slope makes of a gap's change (3 x any number of columns): its force.
-template <class Derived>
-auto slope_times(const NeighbourTouch& touch, double slope_N_m, const Eigen::MatrixBase<Derived>& gap) {
-  using Gap = Eigen::Matrix<double, 3, Derived::ColsAtCompileTime>;
-  if (touch.tie) return Gap(slope_N_m * gap);
-  return Gap(slope_N_m * touch.normal_W * (touch.normal_W.transpose() * gap));
-}
 
 }  // namespace myotact::simulation

@@ -45,6 +45,38 @@ double shared_slope(const NeighbourTouch& touch, const NeighbourTouch& theirs) {
   return std::sqrt(touch.slope_N_m * theirs.slope_N_m);
 }
 
+/// Numbers of two muscles' nodes among their free ones.
+struct FreeIndices {
+  const std::vector<int>& own;
+  const std::vector<int>& theirs;
+};
+
+void add_face_coupling(const NeighbourTouch& touch, const NeighbourTouch& theirs, const FreeIndices& free,
+                       double slope_N_m, const Eigen::MatrixXd& columns, Eigen::MatrixXd& out) {
+  Eigen::RowVectorXd overlap = Eigen::RowVectorXd::Zero(out.cols());
+  for (std::size_t k = 0; k < at(theirs.count); ++k) {
+    const int row = free.theirs[at(theirs.nodes[k])];
+    if (row >= 0) overlap += theirs.weights[k] * touch.normal_W.transpose() * columns.middleRows<3>(3 * row);
+  }
+  for (std::size_t k = 0; k < at(touch.count); ++k) {
+    const int row = free.own[at(touch.nodes[k])];
+    if (row >= 0) out.middleRows<3>(3 * row) += slope_N_m * touch.weights[k] * touch.normal_W * overlap;
+  }
+}
+
+void add_tie_coupling(const NeighbourTouch& touch, const NeighbourTouch& theirs, const FreeIndices& free,
+                      const Eigen::MatrixXd& columns, Eigen::MatrixXd& out) {
+  Eigen::Matrix3Xd gap = Eigen::Matrix3Xd::Zero(3, out.cols());
+  for (std::size_t k = 0; k < at(theirs.count); ++k) {
+    const int row = free.theirs[at(theirs.nodes[k])];
+    if (row >= 0) gap += theirs.weights[k] * columns.middleRows<3>(3 * row);
+  }
+  for (std::size_t k = 0; k < at(touch.count); ++k) {
+    const int row = free.own[at(touch.nodes[k])];
+    if (row >= 0) out.middleRows<3>(3 * row) += touch.slope_N_m * touch.weights[k] * gap;
+  }
+}
+
 /// The rows of one muscle of the coupling blocks times what its neighbours' columns hold. `columns_of(muscle)`: one row
 /// a free coordinate, or empty.
 template <class ColumnsOf>
@@ -55,17 +87,10 @@ void add_coupling(const Limb& limb, const LimbMuscle& muscle, const ColumnsOf& c
     const double slope_N_m = shared_slope(touch, theirs);
     const Eigen::MatrixXd& columns = columns_of(touch.neighbour);
     if (slope_N_m == 0.0 || columns.size() == 0) continue;
-    Eigen::Matrix3Xd gap = Eigen::Matrix3Xd::Zero(3, out.cols());
-    for (std::size_t k = 0; k < at(theirs.count); ++k) {
-      const int row = other.tissue.free_index[at(theirs.nodes[k])];
-      if (row < 0) continue;
-      gap += theirs.weights[k] * columns.middleRows<3>(3 * row);
-    }
-    const Eigen::Matrix3Xd force = slope_times(touch, slope_N_m, gap);
-    for (std::size_t k = 0; k < at(touch.count); ++k) {
-      const int row = muscle.tissue.free_index[at(touch.nodes[k])];
-      if (row >= 0) out.middleRows<3>(3 * row) += touch.weights[k] * force;
-    }
+    if (touch.tie)
+      add_tie_coupling(touch, theirs, {muscle.tissue.free_index, other.tissue.free_index}, columns, out);
+    else
+      add_face_coupling(touch, theirs, {muscle.tissue.free_index, other.tissue.free_index}, slope_N_m, columns, out);
   }
 }
 

@@ -168,9 +168,12 @@ void see_neighbours(Limb& limb) {
     for (NeighbourTouch& touch : muscle.state.touches) {
       const LimbMuscle& other = limb.muscles[at(touch.neighbour)];
       const NeighbourTouch& theirs = other.state.touches[at(touch.counterpart)];
+      touch.others_overlap_m = -touch.rest_depth_m;
       touch.others_m.setZero();
       for (std::size_t k = 0; k < at(theirs.count); ++k) {
-        touch.others_m += theirs.weights[k] * node_vector(other.state.now.position_m, theirs.nodes[k]);
+        const Vec3 x = node_vector(other.state.now.position_m, theirs.nodes[k]);
+        touch.others_overlap_m += theirs.weights[k] * touch.normal_W.dot(x);
+        if (touch.tie) touch.others_m += theirs.weights[k] * x;
       }
     }
   }
