@@ -52,7 +52,8 @@ struct FreeIndices {
 };
 
 void add_face_coupling(const NeighbourTouch& touch, const NeighbourTouch& theirs, const FreeIndices& free,
-                       double slope_N_m, const Eigen::MatrixXd& columns, Eigen::MatrixXd& out) {
+                       const Eigen::MatrixXd& columns, Eigen::MatrixXd& out) {
+  const double slope_N_m = shared_slope(touch, theirs);
   Eigen::RowVectorXd overlap = Eigen::RowVectorXd::Zero(out.cols());
   for (std::size_t k = 0; k < at(theirs.count); ++k) {
     const int row = free.theirs[at(theirs.nodes[k])];
@@ -90,7 +91,7 @@ void add_coupling(const Limb& limb, const LimbMuscle& muscle, const ColumnsOf& c
     if (touch.tie)
       add_tie_coupling(touch, theirs, {muscle.tissue.free_index, other.tissue.free_index}, columns, out);
     else
-      add_face_coupling(touch, theirs, {muscle.tissue.free_index, other.tissue.free_index}, slope_N_m, columns, out);
+      add_face_coupling(touch, theirs, {muscle.tissue.free_index, other.tissue.free_index}, columns, out);
   }
 }
 

@@ -59,8 +59,10 @@ void search(const Limb& limb, int other, const Eigen::VectorXd& position_m, Touc
   }
 }
 
-/// Puts a touch into the lists of both muscles: `touch` says all but whose nodes it is between, and how they count.
-void add_sides(Limb& limb, int muscle, int node, int other, std::span<const int> place, NeighbourTouch touch) {
+/// Puts a touch of a node at a place on touch.neighbour into the lists of both muscles. `touch` says all but whose
+/// nodes it is between, and how they count.
+void add_sides(Limb& limb, int muscle, int node, std::span<const int> place, NeighbourTouch touch) {
+  const int other = touch.neighbour;
   const MuscleTissue& theirs = limb.muscles[at(other)].tissue;
   std::vector<NeighbourTouch>& own = limb.muscles[at(muscle)].state.touches;
   std::vector<NeighbourTouch>& others = limb.muscles[at(other)].state.touches;
@@ -72,7 +74,6 @@ void add_sides(Limb& limb, int muscle, int node, int other, std::span<const int>
   touch.count = 1;
   touch.nodes[0] = node;
   touch.weights[0] = -1.0;
-  touch.neighbour = other;
   touch.counterpart = static_cast<int>(others.size());
   side.count = static_cast<int>(place.size());
   std::copy(place.begin(), place.end(), side.nodes.begin());
@@ -88,23 +89,25 @@ void add_sides(Limb& limb, int muscle, int node, int other, std::span<const int>
 void add_touch(Limb& limb, int muscle, const TouchSurface::Found& found, double rest_depth_m, double tension_Pa_m) {
   const TouchSurface& surface = limb.touch_surfaces[at(muscle)];
   NeighbourTouch touch;
+  touch.neighbour = found.other;
   touch.normal_W = found.normal_W;
   touch.area_m2 = 0.5 * surface.nodes[at(found.node)].area_m2;
   touch.tension_Pa_m = tension_Pa_m;
   touch.rest_depth_m = rest_depth_m;
   std::copy(found.weights.begin(), found.weights.end(), touch.rider_weights.begin());
-  add_sides(limb, muscle, surface.nodes[at(found.node)].node, found.other,
+  add_sides(limb, muscle, surface.nodes[at(found.node)].node,
             limb.touch_surfaces[at(found.other)].tree.triangle(found.triangle), touch);
 }
 
 void add_tie(Limb& limb, int muscle, const FasciaBond& bond) {
   const SurfaceNode& node = limb.touch_surfaces[at(muscle)].nodes[at(bond.node)];
   NeighbourTouch touch;
+  touch.neighbour = bond.other;
   touch.tie = true;
   touch.area_m2 = 0.5 * node.area_m2;
   touch.tension_Pa_m = limb.fascia.shear_Pa_m;
   touch.rider_weights = bond.anchor_weights;
-  add_sides(limb, muscle, node.node, bond.other, bond.anchor, touch);
+  add_sides(limb, muscle, node.node, bond.anchor, touch);
 }
 
 /// What fascia holds: over the faces where it has slid to, and tied to where it was.
