@@ -96,16 +96,16 @@ anatomy::CompanionFiles companions_of(const Options& options) {
 }
 
 void finish_limb(LimbWork& limb, const Options& options, const fs::path& output, anatomy::CompanionFiles companions) {
+  if (!options.until.empty()) {
+    stop_at_stage(limb, options, output);
+    return;
+  }
   if (limb.muscles.empty()) {
     throw bad_data(
         options.inputs.empty() ? output.string() : options.inputs.front().string(), "parts",
         fmt::format("holds {} bones and no muscle; there must be one at least. Leave what is a muscle out of "
                     "--bones, or map its name to a muscle's",
                     limb.bones.size()));
-  }
-  if (!options.until.empty()) {
-    stop_at_stage(limb, options, output);
-    return;
   }
   anatomy::Specimen specimen =
       with_progress([&](const OnProgress& on_progress) { return prepare_limb(limb, on_progress); });

@@ -6,15 +6,12 @@
 
 namespace myotact::simulation {
 
-/// One node of a muscle against a place on a neighbour, as one of the two muscles sees it. With the gap
-///
-///   g = others_m + sum_k weights_k x_k
-///
-/// which is linear in the nodes of both muscles for a step, two kinds:
-/// - the node over a flat quarter of a face. Face, place and normal stay for a step; the overlap is
-///   s = normal . g - rest_depth, the energy area times the law's over s.
-/// - a tie of fascia, for good: the place lies in the neighbour's tet, where it was at the file pose, and the energy is
-///   stiffness / 2 g^2.
+/// One node of a muscle against a place on a neighbour, as one of the two muscles sees it. The gap from the node to the
+/// place, g = sum over both muscles' nodes of weight x, is linear in them for a step. Two kinds:
+/// - the node over a flat quarter of a face. Face, place and normal stay for a step; the energy is the area times the
+///   law's over the overlap s = normal . g - rest_depth, shared by the two.
+/// - a tie of fascia, for good: the place lies in the neighbour's tet, where the node was at the file pose, and the
+///   energy is area tension / 2 g^2.
 struct NeighbourTouch {
   int count = 0;                                    // own nodes: 1 (it touches), or 3 or 4 (it is touched)
   std::array<int, 4> nodes{};                       // own

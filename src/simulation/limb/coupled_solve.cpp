@@ -85,9 +85,8 @@ void add_coupling(const Limb& limb, const LimbMuscle& muscle, const ColumnsOf& c
   for (const NeighbourTouch& touch : muscle.state.touches) {
     const LimbMuscle& other = limb.muscles[at(touch.neighbour)];
     const NeighbourTouch& theirs = other.state.touches[at(touch.counterpart)];
-    const double slope_N_m = shared_slope(touch, theirs);
     const Eigen::MatrixXd& columns = columns_of(touch.neighbour);
-    if (slope_N_m == 0.0 || columns.size() == 0) continue;
+    if (touch.slope_N_m == 0.0 || theirs.slope_N_m == 0.0 || columns.size() == 0) continue;
     if (touch.tie)
       add_tie_coupling(touch, theirs, {muscle.tissue.free_index, other.tissue.free_index}, columns, out);
     else

@@ -99,7 +99,8 @@ TetMesh tetrahedralise(const std::string& name, const TriangleMesh& surface) {
     case ChildResult::End::Done:
       return parse_result(name, result.bytes);
     case ChildResult::End::TimedOut:
-      throw bad_data(name, "tetrahedra", fmt::format("took more than {} s of processor time; simplify the surface", kTimeLimit_cpu_s));
+      throw bad_data(name, "tetrahedra",
+                     fmt::format("took more than {} s of processor time; simplify the surface", kTimeLimit_cpu_s));
     case ChildResult::End::Signalled:
       throw bad_data(name, "tetrahedra",
                      fmt::format("TetGen ended with signal {}; most likely triangles of the surface cross each other. "
