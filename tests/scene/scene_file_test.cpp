@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "scene/fascia_file.h"
 #include "support/synthetic_specimen.h"
 
 namespace myotact::scene {
@@ -133,6 +134,27 @@ TEST_F(SceneFile, TakesOneTissueModelForAllAndOneForAMuscle) {
   EXPECT_EQ(parse(R"(, "tissue": {"default": "line"})").settings.tendon, simulation::Tendon::Elastic);
   EXPECT_EQ(parse(R"(, "tissue": {"tendon": "rigid"})").settings.tendon, simulation::Tendon::Rigid);
   EXPECT_THAT(complaint(R"(, "tissue": {"default": "lines"})"), HasSubstr("line"));
+}
+
+TEST_F(SceneFile, FasciaIsThereWhereItIsAskedFor) {
+  EXPECT_DOUBLE_EQ(parse("").settings.fascia.tension_Pa_m, 0.0);
+  EXPECT_DOUBLE_EQ(parse(R"(, "fascia": false)").settings.fascia.tension_Pa_m, 0.0);
+  const simulation::Fascia fascia = parse(R"(, "fascia": true)").settings.fascia;
+  EXPECT_GT(fascia.tension_Pa_m, fascia.shear_Pa_m);  // soft along
+  EXPECT_GT(fascia.shear_Pa_m, 0.0);
+  EXPECT_GT(fascia.reach_m, 0.0);
+  EXPECT_THAT(complaint(R"(, "fascia": 3)"), HasSubstr("/fascia"));
+}
+
+TEST_F(SceneFile, FasciaThatIsStifferAlongThanAcrossIsRefused) {
+  write_file(folder_ / "stiff.json", R"({"schema": 1, "tension_Pa_m": 1e6, "shear_Pa_m": 2e6, "reach_m": 0.001})");
+  try {
+    read_fascia(folder_ / "stiff.json");
+    FAIL() << "was read";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), ExitStatus::BadData);
+    EXPECT_THAT(error.what(), ::testing::AllOf(HasSubstr("stiff.json"), HasSubstr("/shear_Pa_m")));
+  }
 }
 
 TEST_F(SceneFile, ReadsTheFrictionOfATool) {
