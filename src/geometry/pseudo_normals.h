@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -25,5 +26,13 @@ class PseudoNormals {
   std::vector<Vec3> faces_, corners_;
   std::map<std::pair<int, int>, Vec3> edges_;
 };
+
+/// The triangles that each of so many vertices is a corner of.
+std::vector<std::vector<int>> triangles_around(const TriangleTree& surface, std::size_t vertices);
+
+/// PseudoNormals::at() of a surface whose vertices have moved to `positions_m`, from the triangles that meet at the
+/// place. `around`: its triangles_around(). Several threads may call it.
+Vec3 pseudo_normal(const TriangleTree& surface, std::span<const std::vector<int>> around,
+                   std::span<const Vec3> positions_m, const SurfacePlace& place);
 
 }  // namespace myotact::geometry

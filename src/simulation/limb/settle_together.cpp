@@ -18,14 +18,15 @@ constexpr double kFirstRound_s = 0.02;
 /// neighbour may come towards it.
 constexpr double kFarthest_m = 1e-3;
 /// Shares below this come from faces that change under the nodes, which costs a step its second order (it then gains a
-/// constant factor, or swings to and fro): the steps are extrapolated.
+/// constant factor, or swings to and fro): the steps are extrapolated. Above, they are once so many steps have not
+/// halved the share, and a step that made it grow ends half way.
 constexpr double kFacesChange = 1e-2;
+constexpr int kPatience = 12;
 /// A share that grows by more than this means that the step was too long for the faces.
 constexpr double kTooLong = 2.0;
-/// Muscles rest when the faces that they rest on leave no more than this once they are found anew. A share that so many
-/// steps have not halved below it stays where it is: so do the faces, then, for as many as a rest on them takes.
-constexpr double kFacesShare = 1e-3;
-constexpr int kPatience = 12;
+/// Muscles rest when the faces that they rest on leave no more than this once they are found anew. A share below it
+/// that is not halved any more stays where it is: so do the faces, then, for as many steps as a rest on them takes.
+constexpr double kFacesShare = 1e-4;
 constexpr int kHeldRounds = 40;
 /// A node that flips between two faces has no rest on either. After so many rounds what such flips leave will do: a
 /// quarter of what a step in motion leaves.
@@ -66,21 +67,34 @@ double largest_share(Limb& limb, WorkerPool& workers) {
   return share;
 }
 
-double share_on_new_faces(Limb& limb, WorkerPool& workers) {
-  find_touches(limb, workers);
+/// The faces under the nodes at a place: as they were, or found anew.
+enum class Faces { Held, Found };
+
+double share_on(Faces faces, Limb& limb, WorkerPool& workers) {
+  if (faces == Faces::Found)
+    find_touches(limb, workers);
+  else
+    see_neighbours(limb);
   return largest_share(limb, workers);
 }
 
 /// Goes on to where the last steps lead, unless that is worse than where the last one ended. Returns the share there.
-double extrapolate(Limb& limb, const Eigen::VectorXd& start_m, double share, Extrapolation& extrapolation,
+double extrapolate(Limb& limb, Faces faces, const Eigen::VectorXd& start_m, double share, Extrapolation& extrapolation,
                    WorkerPool& workers) {
   const Eigen::VectorXd end_m = node_places(limb);
   put_nodes(extrapolation.next(start_m, end_m), limb);
-  const double there = share_on_new_faces(limb, workers);
+  const double there = share_on(faces, limb, workers);
   if (there < kTooLong * share) return there;
   extrapolation.forget();
   put_nodes(end_m, limb);
-  return share_on_new_faces(limb, workers);
+  return share_on(faces, limb, workers);
+}
+
+/// Half way back to where the last step began: where steps swing round a place, that is nearer to it. Returns the share
+/// there.
+double go_half_back(const Eigen::VectorXd& start_m, Limb& limb, WorkerPool& workers) {
+  put_nodes(0.5 * (start_m + node_places(limb)), limb);
+  return share_on(Faces::Found, limb, workers);
 }
 
 /// For the step after one that was too long for the faces.
@@ -123,26 +137,31 @@ bool settle_together(Limb& limb, double wanted_share, WorkerPool& workers) {
     const Relaxation step = relax(limb, {share, time_s, kFarthest_m}, workers);
     time_s = next_time_s(time_s, step.sound ? step.part : 0.0);
     if (!step.sound && !take_back(start_m, start_time_s, limb)) return false;
+    const Faces faces = held > 0 ? Faces::Held : Faces::Found;
+    share = share_on(faces, limb, workers);
+    waited = share < 0.5 * best ? 0 : waited + 1;
+    best = std::min(best, share);
+    const bool swings = waited >= kPatience;
+    if (step.sound && step.part == 1.0 && (held > 0 || swings || share < kFacesChange))
+      share = extrapolate(limb, faces, start_m, share, extrapolation, workers);
+    else
+      extrapolation.forget();
     if (held > 0) {
       --held;
-      see_neighbours(limb);
-      share = largest_share(limb, workers);
       if (!(share < wanted_share)) continue;
-      share = share_on_new_faces(limb, workers);
+      share = share_on(Faces::Found, limb, workers);
       if (share < faces_share) return true;
       held = waited = 0;
       best = share;
+      extrapolation.forget();
       continue;
     }
-    share = share_on_new_faces(limb, workers);
-    if (step.sound && step.part == 1.0 && share < kFacesChange)
-      share = extrapolate(limb, start_m, share, extrapolation, workers);
-    else
-      extrapolation.forget();
+    if (swings && share > start_share) share = go_half_back(start_m, limb, workers);
     if (share > kTooLong * start_share) time_s = cautious_time_s(time_s, start_time_s);
-    waited = share < 0.5 * best || best > faces_share ? 0 : waited + 1;
-    best = std::min(best, share);
-    if (waited >= kPatience && share < faces_share) held = kHeldRounds;
+    if (swings && share < faces_share) {
+      held = kHeldRounds;
+      extrapolation.forget();
+    }
   }
   return share < wanted_share;
 }

@@ -18,14 +18,6 @@ constexpr double kSlidFar_m = 1e-3;
 /// Triangles that a bond crosses at once at most: many times kSlidFar_m.
 constexpr int kMostCrossed = 8;
 
-std::vector<std::vector<int>> triangles_around(const geometry::TriangleTree& tree, std::size_t nodes) {
-  std::vector<std::vector<int>> around(nodes);
-  for (int t = 0; t < tree.triangle_count(); ++t) {
-    for (const int node : tree.triangle(t)) around[at(node)].push_back(t);
-  }
-  return around;
-}
-
 /// The tet that a flat triangle of the surface belongs to.
 std::size_t tet_of(const geometry::TetMesh& mesh, const std::array<int, 3>& triangle) {
   for (std::size_t t = 0; t < mesh.corners.size(); ++t) {
@@ -81,7 +73,6 @@ FasciaBond bond_of(const std::vector<MuscleTissue*>& tissues, const Fascia& fasc
 void lay_bonds(const std::vector<MuscleTissue*>& tissues, const Fascia& fascia, std::vector<TouchSurface>& surfaces) {
   for (int m = 0; m < static_cast<int>(surfaces.size()); ++m) {
     TouchSurface& surface = surfaces[at(m)];
-    surface.around = triangles_around(surface.tree, surface.normals_W.size());
     for (int i = 0; i < static_cast<int>(surface.nodes.size()); ++i) {
       const FasciaBond bond = bond_of(tissues, fascia, surfaces, m, i);
       if (bond.other < 0) continue;

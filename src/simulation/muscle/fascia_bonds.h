@@ -12,7 +12,7 @@ namespace myotact::simulation {
 // and so does the place on it until the two have slid far: nothing flips between faces while they come to rest.
 
 /// Finds what fascia holds: each free surface node at the neighbour nearest to it, where that is within reach and faces
-/// it. At the file pose; fills `bonds`, `held_by` and `around`. One surface a muscle; null for those without.
+/// it. At the file pose; fills `bonds` and `held_by`. One surface a muscle; null for those without.
 void lay_bonds(const std::vector<MuscleTissue*>& tissues, const Fascia& fascia, std::vector<TouchSurface>& surfaces);
 
 /// The face that a bond holds its node p at. Where p has slid far from it, the bond's place is first carried to the one

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "core/at.h"
+#include "geometry/pseudo_normals.h"
 #include "geometry/tet_topology.h"
 #include "simulation/muscle/tissue_pass.h"
 
@@ -107,7 +108,11 @@ Under face_under(const Vec3& p, const TouchSurface& other, std::span<const Vec3>
   under.place = place;
   under.face = face_at(other, place);
   if (under.face.triangle < 0) return under;
-  under.distance_m = under.face.normal_W.dot(p - place.point.position_m);
+  const Vec3 way = p - place.point.position_m;
+  under.distance_m = under.face.normal_W.dot(way);
+  const bool inside =
+      under.distance_m >= 0.0 || geometry::pseudo_normal(other.tree, other.around, positions_m, place).dot(way) < 0.0;
+  if (!inside) under.face.triangle = -1;
   return under;
 }
 
@@ -121,6 +126,7 @@ std::vector<TouchSurface> make_touch_surfaces(const std::vector<MuscleTissue*>& 
     }
     surfaces[m].tree = geometry::TriangleTree(flat_surface(tissue.mesh));
     surfaces[m].normals_W.resize(tissue.mesh.nodes_m.size());
+    surfaces[m].around = geometry::triangles_around(surfaces[m].tree, surfaces[m].normals_W.size());
     surfaces[m].held_by.assign(surfaces[m].nodes.size(), -1);
     surfaces[m].clear_until_m.resize(tissues.size());
     surfaces[m].last_triangles.resize(tissues.size());

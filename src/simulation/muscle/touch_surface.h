@@ -49,7 +49,7 @@ struct TouchSurface {
   std::vector<Found> found;                      // by the last search
   std::vector<FasciaBond> bonds;
   std::vector<int> held_by;              // of each node: the muscle that fascia holds it at, or -1
-  std::vector<std::vector<int>> around;  // of each node: triangles that it is a corner of; none without fascia
+  std::vector<std::vector<int>> around;  // of each node of the mesh: triangles that it is a corner of
 };
 
 /// Surfaces of all muscles that are not rigid, at the file pose, with the depths that count as touching. One a muscle;
@@ -77,7 +77,8 @@ struct Under {
   double nearest_m = std::numeric_limits<double>::infinity();  // distance of the face, no sign
 };
 
-/// The face of `other` nearest to p, within the radius; face.triangle -1 when none is. `positions_m`: one a node, those
+/// The face of `other` nearest to p, within the radius; face.triangle -1 when none is, or when p lies outside of a
+/// surface whose smooth normal says inside, as beside a sharp rim. `positions_m`: one a node, those
 /// that `other` followed last. Const: may be called from several threads.
 Under face_under(const Vec3& p, const TouchSurface& other, std::span<const Vec3> positions_m, double radius_m);
 
