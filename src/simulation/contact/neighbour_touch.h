@@ -31,4 +31,10 @@ struct NeighbourTouch {
   double slope_N_m = 0.0;                 // of the last tangent: along the normal, or of a tie in all directions
 };
 
+/// d2(energy)/d(gap)2 [N/m], by its slope along the normal or, of a tie, in all directions.
+inline Mat3 touch_slope(const NeighbourTouch& touch, double slope_N_m) {
+  if (touch.tie) return slope_N_m * Mat3::Identity();
+  return slope_N_m * touch.normal_W * touch.normal_W.transpose();
+}
+
 }  // namespace myotact::simulation

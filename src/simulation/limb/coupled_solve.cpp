@@ -41,41 +41,8 @@ Columns zeros(const Limb& limb, Eigen::Index columns) {
 
 /// Both sides have computed the slope, perhaps not in the same Newton step; the mean of this kind keeps the whole
 /// positive.
-double shared_slope(const NeighbourTouch& touch, const NeighbourTouch& theirs) {
-  return std::sqrt(touch.slope_N_m * theirs.slope_N_m);
-}
-
-/// Numbers of two muscles' nodes among their free ones.
-struct FreeIndices {
-  const std::vector<int>& own;
-  const std::vector<int>& theirs;
-};
-
-void add_face_coupling(const NeighbourTouch& touch, const NeighbourTouch& theirs, const FreeIndices& free,
-                       const Eigen::MatrixXd& columns, Eigen::MatrixXd& out) {
-  const double slope_N_m = shared_slope(touch, theirs);
-  Eigen::RowVectorXd overlap = Eigen::RowVectorXd::Zero(out.cols());
-  for (std::size_t k = 0; k < at(theirs.count); ++k) {
-    const int row = free.theirs[at(theirs.nodes[k])];
-    if (row >= 0) overlap += theirs.weights[k] * touch.normal_W.transpose() * columns.middleRows<3>(3 * row);
-  }
-  for (std::size_t k = 0; k < at(touch.count); ++k) {
-    const int row = free.own[at(touch.nodes[k])];
-    if (row >= 0) out.middleRows<3>(3 * row) += slope_N_m * touch.weights[k] * touch.normal_W * overlap;
-  }
-}
-
-void add_tie_coupling(const NeighbourTouch& touch, const NeighbourTouch& theirs, const FreeIndices& free,
-                      const Eigen::MatrixXd& columns, Eigen::MatrixXd& out) {
-  Eigen::Matrix3Xd gap = Eigen::Matrix3Xd::Zero(3, out.cols());
-  for (std::size_t k = 0; k < at(theirs.count); ++k) {
-    const int row = free.theirs[at(theirs.nodes[k])];
-    if (row >= 0) gap += theirs.weights[k] * columns.middleRows<3>(3 * row);
-  }
-  for (std::size_t k = 0; k < at(touch.count); ++k) {
-    const int row = free.own[at(touch.nodes[k])];
-    if (row >= 0) out.middleRows<3>(3 * row) += touch.slope_N_m * touch.weights[k] * gap;
-  }
+Mat3 shared_slope(const NeighbourTouch& touch, const NeighbourTouch& theirs) {
+  return touch_slope(touch, std::sqrt(touch.slope_N_m * theirs.slope_N_m));
 }
 
 /// The rows of one muscle of the coupling blocks times what its neighbours' columns hold. `columns_of(muscle)`: one row
@@ -87,10 +54,16 @@ void add_coupling(const Limb& limb, const LimbMuscle& muscle, const ColumnsOf& c
     const NeighbourTouch& theirs = other.state.touches[at(touch.counterpart)];
     const Eigen::MatrixXd& columns = columns_of(touch.neighbour);
     if (touch.slope_N_m == 0.0 || theirs.slope_N_m == 0.0 || columns.size() == 0) continue;
-    if (touch.tie)
-      add_tie_coupling(touch, theirs, {muscle.tissue.free_index, other.tissue.free_index}, columns, out);
-    else
-      add_face_coupling(touch, theirs, {muscle.tissue.free_index, other.tissue.free_index}, columns, out);
+    Eigen::Matrix3Xd gap = Eigen::Matrix3Xd::Zero(3, out.cols());
+    for (std::size_t k = 0; k < at(theirs.count); ++k) {
+      const int row = other.tissue.free_index[at(theirs.nodes[k])];
+      if (row >= 0) gap += theirs.weights[k] * columns.middleRows<3>(3 * row);
+    }
+    const Eigen::Matrix3Xd pull = shared_slope(touch, theirs) * gap;
+    for (std::size_t k = 0; k < at(touch.count); ++k) {
+      const int row = muscle.tissue.free_index[at(touch.nodes[k])];
+      if (row >= 0) out.middleRows<3>(3 * row) += touch.weights[k] * pull;
+    }
   }
 }
 
