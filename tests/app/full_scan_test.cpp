@@ -21,8 +21,8 @@ nlohmann::json read_json(const std::filesystem::path& path) {
   return nlohmann::json::parse(file);
 }
 
-/// K takes the normals of a touch as they are, which rotate where muscles slide on each other: slack ones, which contact
-/// shapes most, are up to this much less stiff when the joint is rotated.
+/// K takes the normals of a touch as they are, which rotate where muscles slide on each other: slack ones, which
+/// contact shapes most, are up to this much less stiff when the joint is rotated.
 constexpr double kStiffnessShare = 0.06;
 
 TEST(FullScan, RunsTheElbow) {

@@ -26,10 +26,11 @@ constexpr int kPatience = 12;
 constexpr double kTooLong = 2.0;
 /// Muscles rest when the faces that they rest on leave no more than this once they are found anew. A share below it
 /// that is not halved any more stays where it is: so do the faces, then, for as many steps as a rest on them takes.
-constexpr double kFacesShare = 1e-4;
+constexpr double kFacesShare = 1e-3;
 constexpr int kHeldRounds = 40;
 /// A node that flips between two faces has no rest on either. After so many rounds what such flips leave will do: a
-/// quarter of what a step in motion leaves.
+/// quarter of what a step in motion leaves. So will, of a slack muscle that creeps on faces that are held, what they
+/// may leave anyway.
 constexpr int kRoundsBeforeFlips = 150;
 constexpr double kFlipShare = 5e-3;
 
@@ -148,9 +149,10 @@ bool settle_together(Limb& limb, double wanted_share, WorkerPool& workers) {
       extrapolation.forget();
     if (held > 0) {
       --held;
-      if (!(share < wanted_share)) continue;
+      const bool rests = share < wanted_share;
+      if (!rests && (held > 0 || round < kRoundsBeforeFlips)) continue;
       share = share_on(Faces::Found, limb, workers);
-      if (share < faces_share) return true;
+      if (share < (rests ? faces_share : kFacesShare)) return true;
       held = waited = 0;
       best = share;
       extrapolation.forget();
