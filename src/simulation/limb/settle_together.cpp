@@ -68,36 +68,6 @@ double largest_share(Limb& limb, WorkerPool& workers) {
   return share;
 }
 
-/// The faces under the nodes at a place: as they were, or found anew.
-enum class Faces { Held, Found };
-
-double share_on(Faces faces, Limb& limb, WorkerPool& workers) {
-  if (faces == Faces::Found)
-    find_touches(limb, workers);
-  else
-    see_neighbours(limb);
-  return largest_share(limb, workers);
-}
-
-/// Goes on to where the last steps lead, unless that is worse than where the last one ended. Returns the share there.
-double extrapolate(Limb& limb, Faces faces, const Eigen::VectorXd& start_m, double share, Extrapolation& extrapolation,
-                   WorkerPool& workers) {
-  const Eigen::VectorXd end_m = node_places(limb);
-  put_nodes(extrapolation.next(start_m, end_m), limb);
-  const double there = share_on(faces, limb, workers);
-  if (there < kTooLong * share) return there;
-  extrapolation.forget();
-  put_nodes(end_m, limb);
-  return share_on(faces, limb, workers);
-}
-
-/// Half way back to where the last step began: where steps swing round a place, that is nearer to it. Returns the share
-/// there.
-double go_half_back(const Eigen::VectorXd& start_m, Limb& limb, WorkerPool& workers) {
-  put_nodes(0.5 * (start_m + node_places(limb)), limb);
-  return share_on(Faces::Found, limb, workers);
-}
-
 /// For the step after one that was too long for the faces.
 double cautious_time_s(double time_s, double last_time_s) {
   return std::max(kShortestTime_s, std::min(time_s, 0.5 * last_time_s));
@@ -109,6 +79,105 @@ bool take_back(const Eigen::VectorXd& start_m, double time_s, Limb& limb) {
   put_nodes(start_m, limb);
   return true;
 }
+
+/// Muscles on their way to rest, round after round: a step of all of them, then the faces under them found anew.
+class Settling {
+ public:
+  Settling(Limb& limb, double wanted_share, WorkerPool& workers)
+      : limb_(limb),
+        workers_(workers),
+        wanted_share_(wanted_share),
+        share_(largest_share(limb, workers)),
+        best_(share_) {}
+
+  bool run() {
+    for (; round_ < kMostRounds && !(share_ < wanted_share_); ++round_) {
+      start_m_ = node_places(limb_);
+      const double start_share = share_, start_time_s = time_s_;
+      const Relaxation step = relax(limb_, {share_, time_s_, kFarthest_m}, workers_);
+      time_s_ = next_time_s(time_s_, step.sound ? step.part : 0.0);
+      if (!step.sound && !take_back(start_m_, start_time_s, limb_)) return false;
+      weigh(step);
+      if (held_ == 0)
+        watch(start_share, start_time_s);
+      else if (--held_; rests())
+        return true;
+    }
+    return share_ < wanted_share_;
+  }
+
+ private:
+  /// The share where the step ended, or where the last ones lead.
+  void weigh(const Relaxation& step) {
+    share_ = share_here();
+    waited_ = share_ < 0.5 * best_ ? 0 : waited_ + 1;
+    best_ = std::min(best_, share_);
+    if (step.sound && step.part == 1.0 && (held_ > 0 || swings() || share_ < kFacesChange))
+      extrapolate();
+    else
+      extrapolation_.forget();
+  }
+
+  double share_here() {
+    if (held_ == 0)
+      find_touches(limb_, workers_);
+    else
+      see_neighbours(limb_);
+    return largest_share(limb_, workers_);
+  }
+
+  bool swings() const { return waited_ >= kPatience; }
+  /// What a rest on faces may leave when they are found anew.
+  double faces_share() const { return round_ < kRoundsBeforeFlips ? kFacesShare : kFlipShare; }
+
+  /// Goes on to where the last steps lead, unless that is worse than where the last one ended.
+  void extrapolate() {
+    const Eigen::VectorXd end_m = node_places(limb_);
+    put_nodes(extrapolation_.next(start_m_, end_m), limb_);
+    const double there = share_here();
+    if (there < kTooLong * share_) {
+      share_ = there;
+      return;
+    }
+    extrapolation_.forget();
+    put_nodes(end_m, limb_);
+    share_ = share_here();
+  }
+
+  /// Shortens steps that were too long for the faces, and holds the faces once they alone keep the muscles from rest.
+  void watch(double start_share, double start_time_s) {
+    if (swings() && share_ > start_share) {  // half way back is nearer to what they swing round
+      put_nodes(0.5 * (start_m_ + node_places(limb_)), limb_);
+      share_ = share_here();
+    }
+    if (share_ > kTooLong * start_share) time_s_ = cautious_time_s(time_s_, start_time_s);
+    if (!swings() || !(share_ < faces_share())) return;
+    held_ = kHeldRounds;
+    extrapolation_.forget();
+  }
+
+  /// On faces that were held. Where they leave too much once found anew, all begins again.
+  bool rests() {
+    const bool at_rest = share_ < wanted_share_;
+    if (!at_rest && (held_ > 0 || round_ < kRoundsBeforeFlips)) return false;
+    held_ = 0;
+    share_ = share_here();
+    if (share_ < (at_rest ? faces_share() : kFacesShare)) return true;
+    waited_ = 0;
+    best_ = share_;
+    extrapolation_.forget();
+    return false;
+  }
+
+  Limb& limb_;
+  WorkerPool& workers_;
+  const double wanted_share_;
+  double share_, best_, time_s_ = kFirstRound_s;
+  int round_ = 0;
+  int waited_ = 0, held_ = 0;  // rounds: since the best share was halved; for which the faces stay yet
+  Eigen::VectorXd start_m_;    // where the round began
+  Extrapolation extrapolation_;
+};
 
 }  // namespace
 
@@ -128,44 +197,7 @@ double rest_share(const LimbMuscle& muscle) {
 }
 
 bool settle_together(Limb& limb, double wanted_share, WorkerPool& workers) {
-  Extrapolation extrapolation;
-  double share = largest_share(limb, workers), best = share, time_s = kFirstRound_s;
-  int waited = 0, held = 0;  // rounds: since the best share was halved; for which the faces stay yet
-  for (int round = 0; round < kMostRounds && !(share < wanted_share); ++round) {
-    const double faces_share = round < kRoundsBeforeFlips ? kFacesShare : kFlipShare;
-    const Eigen::VectorXd start_m = node_places(limb);
-    const double start_share = share, start_time_s = time_s;
-    const Relaxation step = relax(limb, {share, time_s, kFarthest_m}, workers);
-    time_s = next_time_s(time_s, step.sound ? step.part : 0.0);
-    if (!step.sound && !take_back(start_m, start_time_s, limb)) return false;
-    const Faces faces = held > 0 ? Faces::Held : Faces::Found;
-    share = share_on(faces, limb, workers);
-    waited = share < 0.5 * best ? 0 : waited + 1;
-    best = std::min(best, share);
-    const bool swings = waited >= kPatience;
-    if (step.sound && step.part == 1.0 && (held > 0 || swings || share < kFacesChange))
-      share = extrapolate(limb, faces, start_m, share, extrapolation, workers);
-    else
-      extrapolation.forget();
-    if (held > 0) {
-      --held;
-      const bool rests = share < wanted_share;
-      if (!rests && (held > 0 || round < kRoundsBeforeFlips)) continue;
-      share = share_on(Faces::Found, limb, workers);
-      if (share < (rests ? faces_share : kFacesShare)) return true;
-      held = waited = 0;
-      best = share;
-      extrapolation.forget();
-      continue;
-    }
-    if (swings && share > start_share) share = go_half_back(start_m, limb, workers);
-    if (share > kTooLong * start_share) time_s = cautious_time_s(time_s, start_time_s);
-    if (swings && share < faces_share) {
-      held = kHeldRounds;
-      extrapolation.forget();
-    }
-  }
-  return share < wanted_share;
+  return Settling(limb, wanted_share, workers).run();
 }
 
 }  // namespace myotact::simulation
