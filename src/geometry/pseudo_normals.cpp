@@ -67,6 +67,7 @@ Vec3 pseudo_normal(const TriangleTree& surface, std::span<const std::vector<int>
   const std::array<int, 3>& here = surface.triangle(place.triangle);
   const auto far = [&](std::size_t corner) { return place.point.barycentric[corner] < kOnEdge; };
   const auto corner = static_cast<std::size_t>(far(0) ? (far(1) ? 2 : 1) : 0);  // that is not far
+  const bool on_corner = far((corner + 1) % 3) && far((corner + 2) % 3);
   Vec3 sum = Vec3::Zero();
   for (const int t : around[at(here[corner])]) {
     const std::array<int, 3>& triangle = surface.triangle(t);
@@ -75,7 +76,6 @@ Vec3 pseudo_normal(const TriangleTree& surface, std::span<const std::vector<int>
     for (std::size_t c = 0; c < 3; ++c) meets = meets && (far(c) || index(here[c]) != triangle.end());
     if (!meets) continue;
     const std::array<Vec3, 3> p = corners_of(triangle, positions_m);
-    const bool on_corner = far((corner + 1) % 3) && far((corner + 2) % 3);
     const auto which = static_cast<std::size_t>(index(here[corner]) - triangle.begin());
     sum += (on_corner ? angle_rad(p, which) : 1.0) * face_normal(p);
   }

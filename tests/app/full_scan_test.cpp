@@ -21,9 +21,11 @@ nlohmann::json read_json(const std::filesystem::path& path) {
   return nlohmann::json::parse(file);
 }
 
-/// K takes the normals of a touch as they are, which rotate where muscles slide on each other: slack ones, which
-/// contact shapes most, are up to this much less stiff when the joint is rotated.
-constexpr double kStiffnessShare = 0.06;
+/// Of K, by which it may differ from the perturbed one. K takes the normals of a touch as they are, which rotate where
+/// muscles slide on each other: at rest, where contact shapes them most, 5.2 % were measured.
+double allowed_share(double common) {
+  return common > 0.0 ? 0.05 : 0.06;
+}
 
 TEST(FullScan, RunsTheElbow) {
   const char* canine = std::getenv("MYOTACT_CANINE_DIR");
@@ -43,7 +45,8 @@ TEST(FullScan, RunsTheElbow) {
   EXPECT_GT(summary.at("contact_s").get<double>(), 0.1);
   for (const nlohmann::json& level : summary.at("stiffness")) {
     const double perturbed = level.at("K_perturbed_Nm_rad");
-    EXPECT_NEAR(level.at("K_schur_Nm_rad"), perturbed, kStiffnessShare * std::abs(perturbed)) << level;
+    EXPECT_NEAR(level.at("K_schur_Nm_rad"), perturbed, allowed_share(level.at("common")) * std::abs(perturbed))
+        << level;
   }
 }
 

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/at.h"
 #include "geometry/depth_inside.h"
 #include "geometry/plain_surfaces.h"
 
@@ -18,6 +17,12 @@ TriangleMesh wedge() {
   return mesh;
 }
 
+/// One of many points in and round it, spread by irrational steps.
+Vec3 probe(int i) {
+  const double a = std::fmod(i * 0.618034, 1.0), b = std::fmod(i * 0.414214, 1.0), c = std::fmod(i * 0.732051, 1.0);
+  return {0.12 * (a - 0.5), 0.07 * (b - 0.4), 0.05 * (c - 0.5)};
+}
+
 // The winding number looks at every triangle; the normal at the nearest place says the same about the side.
 TEST(PseudoNormals, OfMovedVerticesTellInsideFromOutside) {
   const TriangleMesh start = make_box(Vec3(0.06, 0.03, 0.02), 3), moved = wedge();
@@ -26,8 +31,7 @@ TEST(PseudoNormals, OfMovedVerticesTellInsideFromOutside) {
   const std::vector<std::vector<int>> around = triangles_around(tree, start.positions_m.size());
   int inside = 0;
   for (int i = 0; i < 3000; ++i) {
-    const double a = std::fmod(i * 0.618034, 1.0), b = std::fmod(i * 0.414214, 1.0), c = std::fmod(i * 0.732051, 1.0);
-    const Vec3 p(0.12 * (a - 0.5), 0.07 * (b - 0.4), 0.05 * (c - 0.5));
+    const Vec3 p = probe(i);
     const SurfacePlace place = tree.nearest(p, moved.positions_m);
     const Vec3 normal = pseudo_normal(tree, around, moved.positions_m, place);
     const bool wound = winding_number(moved, moved.positions_m, p) > 0.5;
@@ -43,9 +47,7 @@ TEST(PseudoNormals, AreThoseOfASurfaceAtRest) {
   const std::vector<std::vector<int>> around = triangles_around(tree, mesh.positions_m.size());
   const PseudoNormals normals(mesh);
   for (int i = 0; i < 500; ++i) {
-    const double a = std::fmod(i * 0.618034, 1.0), b = std::fmod(i * 0.414214, 1.0), c = std::fmod(i * 0.732051, 1.0);
-    const SurfacePlace place =
-        tree.nearest(Vec3(0.12 * (a - 0.5), 0.07 * (b - 0.4), 0.05 * (c - 0.5)), mesh.positions_m);
+    const SurfacePlace place = tree.nearest(probe(i), mesh.positions_m);
     const Vec3 normal = pseudo_normal(tree, around, mesh.positions_m, place).normalized();
     EXPECT_NEAR(normal.dot(normals.at(place).normalized()), 1.0, 1e-12);
   }

@@ -110,8 +110,8 @@ Under face_under(const Vec3& p, const TouchSurface& other, std::span<const Vec3>
   if (under.face.triangle < 0) return under;
   const Vec3 way = p - place.point.position_m;
   under.distance_m = under.face.normal_W.dot(way);
-  const bool inside =
-      under.distance_m >= 0.0 || geometry::pseudo_normal(other.tree, other.around, positions_m, place).dot(way) < 0.0;
+  if (under.distance_m >= 0.0) return under;
+  const bool inside = geometry::pseudo_normal(other.tree, other.around, positions_m, place).dot(way) < 0.0;
   if (!inside) under.face.triangle = -1;
   return under;
 }

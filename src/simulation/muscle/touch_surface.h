@@ -78,8 +78,8 @@ struct Under {
 };
 
 /// The face of `other` nearest to p, within the radius; face.triangle -1 when none is, or when p lies outside of a
-/// surface whose smooth normal says inside, as beside a sharp rim. `positions_m`: one a node, those
-/// that `other` followed last. Const: may be called from several threads.
+/// surface whose smooth normal says inside, as beside a sharp rim. `positions_m`: one a node, those that `other`
+/// followed last. Const: may be called from several threads.
 Under face_under(const Vec3& p, const TouchSurface& other, std::span<const Vec3> positions_m, double radius_m);
 
 }  // namespace myotact::simulation
