@@ -43,6 +43,7 @@ messages::LocalLine Simulation::Impl::line_at(const messages::ToolState& tool, i
   const std::vector<LineReading> lines_now = read_lines();
   for (std::size_t m = 0; m < lines.size(); ++m) points.push_back(line_points_W(*lines[m].line, limb.skeleton));
   for (std::size_t m = 0; m < lines.size(); ++m) {
+    if (limb.muscles[m].rigid && !limb.muscles[m].line) continue;  // pulls at nothing, and would hide those that do
     const LineForce force = lines_now[m].force;
     views.push_back({static_cast<int>(m), points[m], lines[m].fractions, std::max(0.0, tension_N(static_cast<int>(m))),
                      force.stiffness_N_m, force.damping_Ns_m});

@@ -189,5 +189,19 @@ TEST(TwoTools, EachKeepsTheLineThatItWasOffered) {
   EXPECT_EQ(model.line.muscle, 1);
 }
 
+// A muscle that only follows its bones pulls at nothing: its line would hide those that do.
+TEST(TwoTools, LinesThatPullAtNothingAreNotOffered) {
+  SimulationSettings settings;
+  settings.tissue = {TissueModel::Rigid, TissueModel::Fem};
+  Simulation simulation(coarse_pair(), settings);
+  ToolState on_line;
+  messages::LocalModel model;
+  for (const double z_m : {0.02, -0.02}) {
+    on_line.tool_position_world_m = {-0.03, 0.0, z_m};
+    simulation.write_local_model(on_line, model, 0);
+    EXPECT_EQ(model.line.muscle, z_m > 0.0 ? -1 : 1);
+  }
+}
+
 }  // namespace
 }  // namespace myotact::simulation
