@@ -111,6 +111,15 @@ TEST(BadVolume, NumbersThatAreNoLabels) {
   EXPECT_THAT(complaint(file, "p.nrrd"), HasSubstr("has the label 9223372036854775808"));
 }
 
+TEST(BadVolume, AnImageInPlaceOfASegmentation) {
+  std::string file = testing::nrrd_file({}, "LPS", Vec3::Ones(), {2, false, false});
+  for (std::size_t byte = file.size() - 2 * 9240, number = 0; byte < file.size(); byte += 2, ++number) {
+    file[byte] = static_cast<char>(number % 256);
+    file[byte + 1] = static_cast<char>(number / 256);
+  }
+  EXPECT_THAT(complaint(file, "p.nrrd"), HasSubstr("holds 9239 labels; must be 1 .. 1000"));
+}
+
 TEST(BadVolume, DataThatDoNotFit) {
   const std::string whole = nrrd();
   EXPECT_THAT(complaint(whole.substr(0, whole.size() - 1), "p.nrrd"),

@@ -72,6 +72,9 @@ std::vector<Labels> points_of(const VolumeFile& volume, ByteSource& source, cons
   return read_points(volume.header, *plain, file);
 }
 
+/// A body has fewer parts; an image of grey values has thousands.
+constexpr std::size_t kMostSegments = 1000;
+
 /// The file's segments that occur, with the labels that it does not name.
 void name_segments(LabelVolume& volume, std::vector<Segment> named, const std::string& file) {
   for (std::size_t layer = 0; layer < volume.layers.size(); ++layer) {
@@ -96,6 +99,12 @@ void name_segments(LabelVolume& volume, std::vector<Segment> named, const std::s
   if (!empty.empty()) volume.notes.push_back("segments that hold no point of their own, left out: " + join(empty));
   if (volume.segments.empty()) {
     throw bad_data(file, "data", "holds no segment: every point is 0. Save the segmentation, not an empty volume");
+  }
+  if (volume.segments.size() > kMostSegments) {
+    throw bad_data(file, "data",
+                   fmt::format("holds {} labels; must be 1 .. {}. Save the segmentation, not the image that it was "
+                               "made of",
+                               volume.segments.size(), kMostSegments));
   }
 }
 
