@@ -1,8 +1,8 @@
 #!/bin/sh
 # Makes the embedded specimens anew: plane, plate, pad, particle and spring; both whole limbs from their volumes in
-# assets/canine; and, as far as one elliptical centreline describes their muscles, fore- and hindlimb from the figures there. The same machine gives the same bytes. meshes/canine_elbow
-# was made before neighbouring muscles were parted; tests and figures rest on it. Its lines are those that
-# `loft elbow.json` gives today. Tetrahedra and lines of meshes/canine_forelimb are of an earlier rule.
+# assets/canine. The same machine gives the same bytes. meshes/canine_elbow, canine_forelimb and canine_hindlimb were
+# lofted from the measured sections before there were volumes, and are kept as they are: tests and figures rest on them.
+# The lines of canine_elbow are those that `loft elbow.json` gives today.
 # Usage: tools/make_specimens.sh [BUILD_FOLDER [OUTPUT]]      (build all first; default: build meshes)
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -13,16 +13,10 @@ if [ ! -x "$prepare" ]; then
   echo "$prepare: is not there; build it: cmake -S $root -B $build && cmake --build $build --target myotact-prepare" >&2
   exit 66
 fi
-loft() {
-  "$prepare" loft "$root/assets/canine/$1.json" -o "$output/canine_$1"
-  rm "$output/canine_$1/report.html" # pictures are no sources
-}
 whole() {
   "$prepare" "$root/assets/canine/$1.seg.nrrd" --recipe "$root/assets/canine/$1.json" -o "$output/canine_whole_$1"
   rm "$output/canine_whole_$1/report.html" "$output/canine_whole_$1/recipe.json" # a report is no source, the recipe is in assets
 }
-loft forelimb
-loft hindlimb
 whole forelimb
 whole hindlimb
 "$build/tools/plain_specimens/myotact-plain-specimens" "$output"

@@ -102,6 +102,14 @@ TEST(FindBelly, EndsWhereTheSectionFallsBelow45PercentOfTheLargest) {
   EXPECT_NEAR(belly.end_m, 0.06, 1e-12);
 }
 
+TEST(FindBelly, EndsWhereTheMuscleDividesIntoSlenderBranches) {
+  MuscleProfile profile = profile_of({0.5, 1.0, 1.0, 1.0, 0.8, 0.9, 1.0, 0.9}, 0.04);
+  profile.radius_m = {4e-3, 5e-3, 5e-3, 4e-3, 2e-3, 1e-3, 1e-3, 1e-3};  // 1 mm on 320 mm
+  EXPECT_NEAR(find_belly(profile).end_m, 0.2, 1e-12);
+  profile.radius_m.assign(8, 1e-3);  // a sheet is thin all over
+  EXPECT_NEAR(find_belly(profile).end_m, 0.32, 1e-12);
+}
+
 TEST(FindBelly, KeepsHalfOfTheLength) {
   const BellySpan belly = find_belly(profile_of({0.1, 0.1, 0.1, 1.0, 1.0, 0.1, 0.1, 0.1, 0.1, 0.1}, 0.01));
   EXPECT_NEAR(belly.end_m - belly.begin_m, 0.05, 1e-12);

@@ -129,6 +129,32 @@ TEST(TraceLine, LeavesOutWhatOfTheMiddleLiesPastItsEnds) {
   EXPECT_EQ(points.back().position_m, Vec3(0.1, 0.0, 0.0));
 }
 
+/// How many points lie beside the joint at x = 0.05 on the line of a longer rod whose middle sinks by 20 mm there, as
+/// tendons do in front of a carpus.
+int points_beside_joint(double radius_m) {
+  const Line l;
+  MuscleProfile profile = straight_profile();
+  profile.length_m = 0.3;
+  for (double& arc_m : profile.arc_m) arc_m *= 3.0;
+  profile.radius_m = {5e-3, 5e-3, 5e-3, 5e-3, radius_m, radius_m, radius_m, radius_m, radius_m, radius_m};
+  LineGuide guide{{-0.1, 0.0, 0.0}, {0.2, 0.0, 0.0}, {}};
+  for (double x = -0.095; x < 0.2; x += 0.005) {
+    guide.middle_m.emplace_back(x, 0.0, -0.02 * (1.0 - std::abs(x - 0.05) / 0.15));
+  }
+  int beside = 0;
+  for (const anatomy::LinePoint& point : trace_line("rod", profile, {0.0, 0.12}, guide, l.bones).points) {
+    const double x = point.position_m.x();
+    EXPECT_EQ(point.body, x < 0.05 ? 0 : 1) << x;
+    if (std::abs(x - 0.05) < 0.013) ++beside;
+  }
+  return beside;
+}
+
+TEST(TraceLine, HoldsATendonOnBothSidesOfAJointOverWhichItWouldBeABowstring) {
+  EXPECT_EQ(points_beside_joint(1e-3), 2);
+  EXPECT_EQ(points_beside_joint(4e-3), 0);  // needs no retinaculum
+}
+
 TEST(TraceLine, RefusesACrossingOfAJointThatIsNotOnTheWay) {
   Line l;
   l.limb.anatomy.joints.push_back(l.limb.anatomy.joints[0]);

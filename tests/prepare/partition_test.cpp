@@ -1,6 +1,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -13,6 +14,7 @@
 #include "prepare/partition/cut_parts.h"
 #include "prepare/partition/interfaces.h"
 #include "prepare/partition/part_volume_file.h"
+#include "prepare/partition/smooth_interfaces.h"
 #include "prepare/partition/smooth_labels.h"
 #include "prepare/surface/surface_pieces.h"
 #include "prepare/volume/read_label_volume.h"
@@ -123,6 +125,65 @@ TEST(Partition, NeighboursShareTheirTriangles) {
   const double close_m = 7e-4;  // of a step: in the crevice round the disc no point belongs to nothing
   EXPECT_NEAR(std::sqrt(shared_m2(parts.fine[0], parts.fine[1]) / std::numbers::pi), disc_m, close_m);
   EXPECT_NEAR(std::sqrt(shared_m2(parts.skins[0], parts.skins[1]) / std::numbers::pi), disc_m, close_m);
+}
+
+/// Round a line through a place, askew to the lattice.
+const Vec3 kAlong = Vec3(1.0, 0.37, 0.21).normalized();
+
+Depth tube(const Vec3& middle_m, double radius_m) {
+  return [=](const Vec3& p) {
+    const Vec3 away_m = p - middle_m;
+    return std::min(radius_m - (away_m - kAlong * kAlong.dot(away_m)).norm(), 12e-3 - std::abs(kAlong.dot(away_m)));
+  };
+}
+
+TEST(Partition, ThinTendonsStayInOnePiece) {
+  const Lattice lattice = cube_lattice(40, 1e-3);
+  Claim thin = claim(lattice, "tendon", tube({0.3e-3, 0.2e-3, 0.4e-3}, 0.5e-3), 0.5e-3);
+  const PartVolume before = volume_of(lattice, {thin});
+  EXPECT_GT(pieces_of(surfaces_of(cut_interfaces(before), 1)[0]).size(), 1U);
+  thicken(thin.samples);
+  const CutParts parts = cut_parts(volume_of(lattice, {thin}), 1);
+  expect_whole(parts.skins[0], 0);
+  const double length_m = 24e-3, radius_m = kLeastRadius * 1e-3;  // longer at both ends by what it is thicker
+  const double expected_m3 = std::numbers::pi * radius_m * radius_m * (length_m + 2.0 * (radius_m - 0.5e-3));
+  EXPECT_NEAR(geometry::enclosed_volume_m3(parts.skins[0]) / expected_m3, 1.0, 0.13);  // 2.4 steps thick
+}
+
+/// Length of the lines where two tubes and the free meet, away from the tubes' ends [m]: longer, the more jagged.
+double line_length_m(const Interfaces& interfaces) {
+  std::map<std::pair<int, int>, std::set<std::uint16_t>> labels;  // by edge
+  for (const auto& [vertices, inner, outer] : interfaces.faces) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto ends = std::minmax(vertices[k], vertices[(k + 1) % 3]);
+      labels[{ends.first, ends.second}].insert({inner, outer});
+    }
+  }
+  double length_m = 0.0;
+  for (const auto& [edge, meeting] : labels) {
+    const Vec3& p = interfaces.positions_m[static_cast<std::size_t>(edge.first)];
+    const Vec3& q = interfaces.positions_m[static_cast<std::size_t>(edge.second)];
+    if (meeting.size() == 3 && std::abs(kAlong.dot(p + q)) < 16e-3) length_m += (p - q).norm();
+  }
+  return length_m;
+}
+
+TEST(Partition, LinesWhereThreeMeetAreEvened) {
+  const Lattice lattice = cube_lattice(40, 1e-3);
+  const Vec3 across = kAlong.cross(Vec3(0.2, -0.3, 1.0)).normalized();
+  const auto half = [&](const char* key, double side) {
+    return claim(lattice, key, tube(0.8e-3 * side * across, 1.2e-3), 1.2e-3);
+  };
+  const PartVolume volume = volume_of(lattice, {half("superficial", 1.0), half("deep", -1.0)});
+  const Interfaces cut = cut_interfaces(volume), smooth = smooth_interfaces(cut);
+  const double straight_m = 2.0 * 16e-3;
+  EXPECT_LT(line_length_m(smooth) - straight_m, 0.5 * (line_length_m(cut) - straight_m));
+  const auto before = surfaces_of(cut, 2), after = surfaces_of(smooth, 2);
+  for (std::size_t part = 0; part < 2; ++part) {
+    const double ratio = geometry::enclosed_volume_m3(after[part]) / geometry::enclosed_volume_m3(before[part]);
+    EXPECT_NEAR(ratio, 1.0, 0.05);
+    EXPECT_EQ(before[part].triangles, after[part].triangles);
+  }
 }
 
 TEST(Partition, KeepsHandles) {

@@ -23,13 +23,14 @@ namespace {
 /// What a skin may come off a bone that it touched, or enter one, against the file pose [m].
 constexpr double kAllowed_m = 2e-3;
 /// Muscles that are worse, and how far. What is clamped to a patella, which rides on the crus here and not on the
-/// femur, and touches the femur cannot have both; the short peroneal tendon lies between malleolus and calcaneus and
-/// cannot stay with either; gastrocnemius is pressed into the femur by 0.5 mm more at full flexion.
-const std::map<std::string, double> kExceptions_m = {{"vastus_lateralis", 4e-3},
-                                                     {"vastus_intermedius", 3.5e-3},
-                                                     {"gastrocnemius", 2.5e-3},
-                                                     {"extensor_digitorum_longus", 2.5e-3},
-                                                     {"peroneus_brevis", 5e-3}};
+/// femur, and touches the femur cannot have both; digital tendons that lie on a bone at either side of a joint leave
+/// one of them by a tendon's thickness at its full flexion.
+const std::map<std::string, double> kExceptions_m = {{"vastus_lateralis", 4.1e-3},
+                                                     {"vastus_intermedius", 3e-3},
+                                                     {"sartorius_cranial", 2.5e-3},
+                                                     {"fore.extensor_digitorum_lateralis", 3e-3},
+                                                     {"hind.extensor_digitorum_lateralis", 2.5e-3},
+                                                     {"hind.flexor_digitorum_profundus", 3e-3}};
 /// The same in the two limbs of lofted sections.
 const std::map<std::string, double> kLoftedExceptions_m = {{"vastus_lateralis", 4e-3}};
 constexpr int kAnglesPerJoint = 9;
@@ -39,7 +40,7 @@ constexpr double kInvertedShare = 0.02;
 /// A straight way between two samples ends in a kink: what a vertex may leave the straight way by, over three angles
 /// half a degree apart [m].
 constexpr double kSmoothStep_rad = 0.5 * 3.14159265358979323846 / 180.0;
-constexpr double kLargestKink_m = 2e-3;
+constexpr double kLargestKink_m = 2.1e-3;
 
 /// A line goes round a surface that stands for the bone, the skin round the bone itself: so far a point of the line may
 /// come out of the skin [m], and more than that in this share of all points and poses.

@@ -22,6 +22,9 @@ using anatomy::LinePointKind;
 constexpr int kVias = 5;
 /// No via point within this of a joint's axis along the line [m]: four times the axis's uncertainty of 3 mm.
 constexpr double kClearOfAxis_m = 12e-3;
+/// A tendon's line may pass a joint this far beside the tendon; where it would pass farther, as in front of a carpus,
+/// retinacula hold it at both sides of the axis [m].
+constexpr double kBowstring_m = 4e-3;
 /// Points closer than this say nothing more [m].
 constexpr double kLeastSpacing_m = 8e-3;
 /// Steps at which the way is looked at when the place nearest to an axis is sought.
@@ -116,6 +119,34 @@ std::vector<double> wanted_arcs_m(const Way& way, const MuscleProfile& profile, 
 bool clear_of(const std::vector<double>& others_m, double arc_m, double spacing_m) {
   return std::all_of(others_m.begin(), others_m.end(),
                      [&](double other_m) { return std::abs(other_m - arc_m) >= spacing_m; });
+}
+
+/// How far the way is from the straight line between two of its places.
+double bow_m(const Way& way, double begin_m, double end_m) {
+  const Vec3 from_m = way.at(begin_m), along = (way.at(end_m) - from_m).normalized();
+  double most_m = 0.0;
+  for (int i = 1; i < kSamples; ++i) {
+    const Vec3 away_m = way.at(begin_m + (end_m - begin_m) * i / kSamples) - from_m;
+    most_m = std::max(most_m, (away_m - along * along.dot(away_m)).norm());
+  }
+  return most_m;
+}
+
+/// More points beside joints over which a tendon would be a bowstring; both lists rise.
+std::vector<double> retinacula_m(const Way& way, const std::vector<double>& taken_m,
+                                 const std::vector<double>& crossed_m) {
+  std::vector<double> held_m;
+  for (const double joint_m : crossed_m) {
+    const auto after = std::upper_bound(taken_m.begin(), taken_m.end(), joint_m);
+    if (after == taken_m.begin() || after == taken_m.end() || bow_m(way, *(after - 1), *after) < kBowstring_m) continue;
+    for (const double arc_m : {joint_m - kClearOfAxis_m, joint_m + kClearOfAxis_m}) {
+      const bool on_way = arc_m > 0.0 && arc_m < way.length_m();
+      if (on_way && clear_of(taken_m, arc_m, kLeastSpacing_m) && clear_of(held_m, arc_m, kLeastSpacing_m)) {
+        held_m.push_back(arc_m);
+      }
+    }
+  }
+  return held_m;
 }
 
 bool find_path(const LineBones& bones, int from, std::vector<bool>& seen, std::vector<int>& path) {
@@ -260,12 +291,19 @@ anatomy::MuscleLine trace_line(const std::string& name, const MuscleProfile& pro
       if (clear_of(taken_m, arc_m, 1e-9)) taken_m.push_back(arc_m);
     }
   }
+  const auto in_gap = [&](double arc_m) {
+    return std::any_of(gaps.begin(), gaps.end(), [&](const Gap& gap) { return gap.holds(arc_m); });
+  };
   for (const double arc_m : wanted_arcs_m(way, profile, belly)) {
-    const bool in_gap = std::any_of(gaps.begin(), gaps.end(), [&](const Gap& gap) { return gap.holds(arc_m); });
-    if (!in_gap && clear_of(taken_m, arc_m, kLeastSpacing_m) && clear_of(crossed_m, arc_m, kClearOfAxis_m)) {
+    if (!in_gap(arc_m) && clear_of(taken_m, arc_m, kLeastSpacing_m) && clear_of(crossed_m, arc_m, kClearOfAxis_m)) {
       taken_m.push_back(arc_m);
     }
   }
+  std::sort(taken_m.begin(), taken_m.end());
+  std::vector<double> by_tendon_m = crossed_m;  // where recipes do not say how
+  const double scale = way.length_m() / profile.length_m;
+  std::erase_if(by_tendon_m, [&](double arc_m) { return in_gap(arc_m) || !is_slender(profile, arc_m / scale); });
+  for (const double arc_m : retinacula_m(way, taken_m, by_tendon_m)) taken_m.push_back(arc_m);
   std::sort(taken_m.begin(), taken_m.end());
   anatomy::MuscleLine line;
   for (const double arc_m : taken_m) {

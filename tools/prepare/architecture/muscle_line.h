@@ -34,8 +34,9 @@ struct LineGuide {
 /// A line through the middle of the muscle: origin, borders of the belly, points between, insertion; 4 to 8 points.
 /// A point rides on the body before a joint until the line has passed its axis. Near an axis there is none, so that the
 /// part of the line that changes length is long against the uncertainty of the axis; where the guide says how the line
-/// crosses a joint, there is none between the two points of the crossing. `muscle` is left at -1. Throws Error BadData
-/// for a crossing of a joint that is not on the way.
+/// crosses a joint, there is none between the two points of the crossing; else two points beside the axis hold a
+/// tendon that would be a bowstring. `muscle` is left at -1. Throws Error BadData for a crossing of a joint that is not
+/// on the way.
 anatomy::MuscleLine trace_line(const std::string& name, const MuscleProfile& profile, const BellySpan& belly,
                                const LineGuide& guide, const LineBones& bones);
 

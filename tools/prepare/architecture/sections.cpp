@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace myotact::prepare {
@@ -23,6 +24,9 @@ constexpr double kLeastFlux = 0.01;
 /// tendons of the canine elbow muscles have 10 .. 40 %.
 constexpr double kTendonSection = 0.45;
 constexpr double kLeastBelly = 0.5;
+/// A slice is slender when its balls are smaller than this part of the whole way, and than this part of the largest:
+/// the tendons of the canine digits have .003 to .005 and a fifth to a half.
+constexpr double kSlender = 5e-3, kSlenderer = 0.6;
 
 struct CutTet {
   double potential = 0.0;  // at the centre
@@ -70,6 +74,40 @@ double usual_section_m2(const std::vector<Slice>& slices) {
   return sections_m2[sections_m2.size() / 2];
 }
 
+std::size_t nearest_slice(const MuscleProfile& profile, double arc_m) {
+  const auto above = std::lower_bound(profile.arc_m.begin(), profile.arc_m.end(), arc_m);
+  const auto slice = std::min(static_cast<std::size_t>(above - profile.arc_m.begin()), profile.arc_m.size() - 1);
+  return slice > 0 && arc_m - profile.arc_m[slice - 1] < profile.arc_m[slice] - arc_m ? slice - 1 : slice;
+}
+
+bool is_slender_slice(const MuscleProfile& profile, std::size_t slice) {
+  if (profile.radius_m.empty()) return false;
+  const double largest_m = *std::max_element(profile.radius_m.begin(), profile.radius_m.end());
+  return profile.radius_m[slice] < std::min(kSlender * profile.length_m, kSlenderer * largest_m);
+}
+
+/// As the profile's, but 0 where the muscle is slender.
+std::vector<double> sections_of_thick_slices(const MuscleProfile& profile) {
+  std::vector<double> sections_m2 = profile.section_m2;
+  for (std::size_t s = 0; s < sections_m2.size(); ++s) {
+    if (is_slender_slice(profile, s)) sections_m2[s] = 0.0;
+  }
+  return sections_m2;
+}
+
+/// The one whose centre is nearest.
+std::size_t nearest_tet(const geometry::TetMesh& tets, const Vec3& p_m) {
+  std::size_t nearest = 0;
+  double best_m2 = std::numeric_limits<double>::infinity();
+  for (std::size_t t = 0; t < tets.corners.size(); ++t) {
+    Vec3 centre_m = Vec3::Zero();
+    for (const int n : tets.corners[t]) centre_m += 0.25 * tets.nodes_m[static_cast<std::size_t>(n)];
+    const double away_m2 = (centre_m - p_m).squaredNorm();
+    if (away_m2 < best_m2) best_m2 = away_m2, nearest = t;
+  }
+  return nearest;
+}
+
 }  // namespace
 
 MuscleProfile slice_muscle(const geometry::TetMesh& tets, const FibreField& field) {
@@ -115,13 +153,34 @@ MuscleProfile slice_muscle(const geometry::TetMesh& tets, const FibreField& fiel
   return profile;
 }
 
+void measure_radii(const std::vector<TouchingBall>& balls, const geometry::TetMesh& tets, MuscleProfile& profile) {
+  const std::size_t n = profile.arc_m.size();
+  std::vector<double> sums_m(n, 0.0), counts(n, 0.0);
+  for (const TouchingBall& ball : balls) {
+    const double arc_m = profile.tet_arc_m[nearest_tet(tets, ball.place_m)];
+    const std::size_t slice = nearest_slice(profile, arc_m);
+    sums_m[slice] += ball.radius_m;
+    counts[slice] += 1.0;
+  }
+  profile.radius_m.resize(n);
+  for (std::size_t s = 0; s < n; ++s) {
+    const double before_m = s > 0 ? profile.radius_m[s - 1] : std::numeric_limits<double>::infinity();
+    profile.radius_m[s] = counts[s] > 0.0 ? sums_m[s] / counts[s] : before_m;  // unseen ones are as those before
+  }
+}
+
+bool is_slender(const MuscleProfile& profile, double arc_m) {
+  return is_slender_slice(profile, nearest_slice(profile, arc_m));
+}
+
 BellySpan find_belly(const MuscleProfile& profile) {
-  const double tendon_m2 = kTendonSection * *std::max_element(profile.section_m2.begin(), profile.section_m2.end());
+  const std::vector<double> sections_m2 = sections_of_thick_slices(profile);
+  const double tendon_m2 = kTendonSection * *std::max_element(sections_m2.begin(), sections_m2.end());
   const auto fleshy = [&](double section_m2) { return section_m2 > tendon_m2; };
-  const auto first = std::find_if(profile.section_m2.begin(), profile.section_m2.end(), fleshy);
-  const auto last = std::find_if(profile.section_m2.rbegin(), profile.section_m2.rend(), fleshy);
-  const auto index = static_cast<std::size_t>(first - profile.section_m2.begin());
-  const auto back = static_cast<std::size_t>(last - profile.section_m2.rbegin());
+  const auto first = std::find_if(sections_m2.begin(), sections_m2.end(), fleshy);
+  const auto last = std::find_if(sections_m2.rbegin(), sections_m2.rend(), fleshy);
+  const auto index = static_cast<std::size_t>(first - sections_m2.begin());
+  const auto back = static_cast<std::size_t>(last - sections_m2.rbegin());
   const std::size_t n = profile.section_m2.size();
   // The border lies half-way between the last tendinous slice and the first fleshy one.
   double head_m = index == 0 ? 0.0 : 0.5 * (profile.arc_m[index - 1] + profile.arc_m[index]);

@@ -29,6 +29,20 @@ double touching_radius_m(const SignedDistance& body, const Vec3& p, const Vec3& 
 
 }  // namespace
 
+std::vector<TouchingBall> touching_balls(const SignedDistance& body) {
+  const geometry::TriangleMesh& surface = body.surface();
+  const std::size_t stride = 1 + surface.triangles.size() / kSamples;
+  std::vector<TouchingBall> balls;
+  for (std::size_t t = 0; t < surface.triangles.size(); t += stride) {
+    const auto& [a, b, c] = surface.triangles[t];
+    const auto place = [&](int v) -> const Vec3& { return surface.positions_m[static_cast<std::size_t>(v)]; };
+    const Vec3 centre_m = (place(a) + place(b) + place(c)) / 3.0;
+    const Vec3 normal = (place(b) - place(a)).cross(place(c) - place(a)).normalized();
+    balls.push_back({centre_m, touching_radius_m(body, centre_m, normal)});
+  }
+  return balls;
+}
+
 LocalRadius::LocalRadius(const SignedDistance& body) {
   const Eigen::AlignedBox3d& box = body.box();
   spacing_m_ = box.sizes().maxCoeff() / kNodesAlong;
@@ -36,16 +50,7 @@ LocalRadius::LocalRadius(const SignedDistance& body) {
   counts_ = (box.sizes() / spacing_m_).array().ceil().cast<int>() + 2;
   radii_m_.assign(static_cast<std::size_t>(counts_.prod()), 0.0);
 
-  const geometry::TriangleMesh& surface = body.surface();
-  const std::size_t stride = 1 + surface.triangles.size() / kSamples;
-  std::vector<std::pair<Vec3, double>> samples;
-  for (std::size_t t = 0; t < surface.triangles.size(); t += stride) {
-    const auto& [a, b, c] = surface.triangles[t];
-    const auto place = [&](int v) -> const Vec3& { return surface.positions_m[static_cast<std::size_t>(v)]; };
-    const Vec3 centre_m = (place(a) + place(b) + place(c)) / 3.0;
-    const Vec3 normal = (place(b) - place(a)).cross(place(c) - place(a)).normalized();
-    samples.emplace_back(centre_m, touching_radius_m(body, centre_m, normal));
-  }
+  const std::vector<TouchingBall> samples = touching_balls(body);
   for (int x = 0; x < counts_[0]; ++x) {
     for (int y = 0; y < counts_[1]; ++y) {
       for (int z = 0; z < counts_[2]; ++z) {

@@ -13,6 +13,15 @@ namespace myotact::prepare {
 /// radius varies in space: level sets are extracted from such fields times this.
 constexpr double kFlattening = 0.75;
 
+/// A ball inside a body that touches its surface at a place and at another.
+struct TouchingBall {
+  Vec3 place_m;
+  double radius_m = 0.0;
+};
+
+/// At some hundred places spread over the surface.
+std::vector<TouchingBall> touching_balls(const SignedDistance& body);
+
 /// How thick a body is near a place: the radius of the largest balls that fit inside there [m], smoothed over a few
 /// millimetres. Measured at the triangles (the ball that touches there), spread to a lattice, interpolated between.
 class LocalRadius {

@@ -93,6 +93,9 @@ MeasuredLimb measure_limb(const LimbWork& limb, double step_m, const std::functi
     genera[b] = genus(*bodies[b].surface);
     measured();
   });
+  for (Claim& claim : claims) {
+    if (!claim.bone) thicken(claim.samples);
+  }
   std::vector<Share> shares;
   MeasuredLimb result{share_out(lattice, claims, shares), {}, {}};
   const std::vector<Wholeness> wholeness = keep_whole(result.volume, claims, genera);

@@ -72,6 +72,14 @@ class Sampler {
 
 }  // namespace
 
+void thicken(std::vector<DepthSample>& samples) {
+  for (DepthSample& sample : samples) {
+    const float more = std::max(0.0F, kLeastRadius - sample.radius);
+    sample.depth += more;
+    sample.radius += more;
+  }
+}
+
 std::vector<DepthSample> sample_depths(const geometry::TriangleMesh& surface, const Lattice& lattice) {
   return Sampler(surface, lattice).run();
 }

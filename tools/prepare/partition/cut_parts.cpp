@@ -10,6 +10,7 @@
 #include "prepare/partition/give_back_volumes.h"
 #include "prepare/partition/interfaces.h"
 #include "prepare/partition/simplify_interfaces.h"
+#include "prepare/partition/smooth_interfaces.h"
 #include "prepare/remesh/crossing_triangles.h"
 
 namespace myotact::prepare {
@@ -22,8 +23,14 @@ struct Coarseness {
   double tolerance = 0.0, longest_edge = 0.0;
 };
 constexpr Coarseness kFine{0.15, 7.0}, kSkin{0.3, 9.0};
+/// Small and thin parts stay truer: their tolerance is no more than this part of their thickness, three times their
+/// volume through their area (a ball's radius). Else a carpal bone would be left with 70 triangles.
+constexpr double kThicknessTolerance = 0.05;
 /// Where triangles came to cross, all within this many steps stay as they were cut.
 constexpr double kKept = 3.0;
+/// Where smoothing would make triangles cross, all within this many steps move less.
+constexpr double kUnsmoothed = 1.0;
+constexpr int kHalvings = 6;
 constexpr int kRounds = 6;
 /// Vertices move no farther than this when volumes are given back [steps]: more could bring thin parts' sides together.
 constexpr double kMostGiven = 0.1;
@@ -50,10 +57,21 @@ struct Simplified {
   std::vector<geometry::TriangleMesh> surfaces;  // of its parts
 };
 
+/// One a part, with volumes as given.
+std::vector<double> tolerances_m(const Interfaces& interfaces, double most_m, const std::vector<double>& volumes_m3) {
+  const std::vector<double> areas = areas_m2(interfaces, volumes_m3.size());
+  std::vector<double> result_m(volumes_m3.size());
+  for (std::size_t p = 0; p < result_m.size(); ++p) {
+    result_m[p] = std::min(most_m, kThicknessTolerance * 3.0 * volumes_m3[p] / areas[p]);
+  }
+  return result_m;
+}
+
 /// Simplified so far that no part crosses itself.
 Simplified simplify_without_crossings(const Interfaces& interfaces, double step_m, const Coarseness& coarseness,
                                       const std::vector<double>& volumes_m3, int threads) {
-  const SimplifySettings settings{coarseness.tolerance * step_m, coarseness.longest_edge * step_m};
+  const SimplifySettings settings{tolerances_m(interfaces, coarseness.tolerance * step_m, volumes_m3),
+                                  coarseness.longest_edge * step_m};
   std::vector<Vec3> kept_m;
   for (int round = 0; round < kRounds; ++round) {
     const NearPlaces kept(kept_m, kKept * step_m);
@@ -69,11 +87,29 @@ Simplified simplify_without_crossings(const Interfaces& interfaces, double step_
                              1e3 * kept_m.back().x(), 1e3 * kept_m.back().y(), 1e3 * kept_m.back().z()));
 }
 
+/// Smoothed as far as no part crosses itself: near where one would, half as far, and again.
+Interfaces smooth_without_crossings(const Interfaces& cut, double step_m, std::size_t parts, int threads) {
+  const Interfaces smooth = smooth_interfaces(cut);
+  std::vector<double> share(cut.positions_m.size(), 1.0);
+  Interfaces result = smooth;
+  for (int round = 0; round < kHalvings; ++round) {
+    const std::vector<Vec3> found_m = crossings(surfaces_of(result, static_cast<int>(parts)), threads);
+    if (found_m.empty()) return result;
+    const NearPlaces near(found_m, kUnsmoothed * step_m);
+    const double factor = round + 1 < kHalvings ? 0.5 : 0.0;
+    for (std::size_t v = 0; v < share.size(); ++v) {
+      if (near.contain(result.positions_m[v])) share[v] *= factor;
+      result.positions_m[v] = cut.positions_m[v] + share[v] * (smooth.positions_m[v] - cut.positions_m[v]);
+    }
+  }
+  return crossings(surfaces_of(result, static_cast<int>(parts)), threads).empty() ? result : cut;
+}
+
 }  // namespace
 
 CutParts cut_parts(const PartVolume& volume, int threads) {
   const double length_m = step_m(volume.lattice);
-  const Interfaces cut = cut_interfaces(volume);
+  const Interfaces cut = smooth_without_crossings(cut_interfaces(volume), length_m, volume.keys.size(), threads);
   const std::vector<double> volumes_m3 = enclosed_volumes_m3(cut, volume.keys.size());
   Simplified fine = simplify_without_crossings(cut, length_m, kFine, volumes_m3, threads);
   Simplified skins = simplify_without_crossings(fine.interfaces, length_m, kSkin, volumes_m3, threads);

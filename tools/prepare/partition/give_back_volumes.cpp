@@ -52,6 +52,16 @@ std::vector<double> enclosed_volumes_m3(const Interfaces& interfaces, std::size_
   return volumes_m3;
 }
 
+std::vector<double> areas_m2(const Interfaces& interfaces, std::size_t parts) {
+  std::vector<double> areas(parts, 0.0);
+  for (const Interfaces::Face& face : interfaces.faces) {
+    const double area = area_m2(interfaces, face).norm();
+    areas[face.inner - std::size_t{1}] += area;
+    if (face.outer > 0) areas[face.outer - std::size_t{1}] += area;
+  }
+  return areas;
+}
+
 void give_back_volumes(const std::vector<double>& volumes_m3, double most_m, const NearPlaces& kept,
                        Interfaces& interfaces) {
   const std::vector<int> part = free_parts(interfaces, kept);

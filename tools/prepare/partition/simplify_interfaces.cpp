@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <queue>
 
 #include <Eigen/Cholesky>
@@ -189,6 +190,14 @@ class Simplifier {
     return both.nearest_place(0.5 * (p + q), (p - q).norm());
   }
 
+  double least_tolerance_m(const Meeting& meeting) const {
+    double least_m = std::numeric_limits<double>::infinity();
+    for (const std::uint16_t label : meeting) {
+      if (label > 0) least_m = std::min(least_m, settings_.tolerances_m[label - std::size_t{1}]);
+    }
+    return least_m;
+  }
+
   void offer_all(int vertex, bool rising_only) {
     for (const int other : neighbours(vertex)) {
       if (rising_only && other < vertex) continue;
@@ -205,7 +214,8 @@ class Simplifier {
     both.add(distances_[at(to)]);
     const Vec3 place_m = meeting_[at(to)] == edge ? place_between(from, to, both) : mesh_.positions_m[at(to)];
     const double cost = both.mean_at(place_m);
-    if (cost > settings_.tolerance_m * settings_.tolerance_m) return;
+    const double tolerance_m = least_tolerance_m(meeting_[at(from)]);
+    if (cost > tolerance_m * tolerance_m) return;
     queue_.push({cost, from, to, stamp_[at(from)] + stamp_[at(to)]});
   }
 

@@ -1,12 +1,16 @@
 #pragma once
 
+#include <vector>
+
 #include "prepare/partition/interfaces.h"
 #include "prepare/partition/near_places.h"
 
 namespace myotact::prepare {
 
 struct SimplifySettings {
-  double tolerance_m = 0.0;     // root mean square distance of a vertex from the triangles it stands for
+  /// Root mean square distance of a vertex from the triangles it stands for, one a part; where parts meet, the least of
+  /// theirs.
+  std::vector<double> tolerances_m;
   double longest_edge_m = 0.0;  // no edge grows beyond this
 };
 

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "geometry/triangle_tree.h"
 #include "prepare/architecture/muscle_line.h"
+#include "prepare/field/local_radius.h"
 #include "prepare/parallel.h"
 #include "prepare/stages/stages.h"
 #include "prepare/surface/surface_pieces.h"
@@ -148,6 +149,7 @@ void lay_fibres(LimbWork& limb, const PartDone& done) {
     const std::string& name = muscle.data.mechanics.key;
     muscle.fibres = solve_fibres(name, muscle.cage.tets, muscle.cage.surface, muscle.origins, muscle.insertions);
     muscle.profile = slice_muscle(muscle.cage.tets, muscle.fibres);
+    measure_radii(touching_balls(SignedDistance(muscle.surface)), muscle.cage.tets, muscle.profile);
     muscle.belly = find_belly(muscle.profile);
     SurfaceReport& report = muscle.report;
     report.filled_tets = muscle.fibres.filled_tets;
