@@ -106,7 +106,7 @@ const std::map<std::string, Rooms> kRooms = {
        {"part", {"field", "recipe", "surface"}},
        {"partition", {"part", "recipe", "remesh", "volume"}},
        {"measure", {"field", "part", "partition", "surface", "volume"}},
-       {"architecture", {"recipe"}},
+       {"architecture", {"field", "recipe"}},
        {"tets", {"field", "remesh"}},
        {"check", {"field", "part", "remesh", "tets"}},
        {"report", {"repair", "tets"}},

@@ -27,6 +27,18 @@ double touching_radius_m(const SignedDistance& body, const Vec3& p, const Vec3& 
   return std::max(low_m, kLeastRadius_m);
 }
 
+/// Of all balls, those within the reach counting most.
+double mean_radius_m(const std::vector<TouchingBall>& balls, const Vec3& p, double reach_m) {
+  double sum = 0.0, weights = 0.0;
+  for (const auto& [place_m, radius_m] : balls) {
+    const double away = (p - place_m).squaredNorm() / (reach_m * reach_m);
+    const double weight = 1.0 / ((1.0 + away) * (1.0 + away) * (1.0 + away));
+    sum += weight * radius_m;
+    weights += weight;
+  }
+  return sum / weights;
+}
+
 }  // namespace
 
 std::vector<TouchingBall> touching_balls(const SignedDistance& body) {
@@ -50,31 +62,21 @@ LocalRadius::LocalRadius(const SignedDistance& body) {
   counts_ = (box.sizes() / spacing_m_).array().ceil().cast<int>() + 2;
   radii_m_.assign(static_cast<std::size_t>(counts_.prod()), 0.0);
 
-  const std::vector<TouchingBall> samples = touching_balls(body);
+  const std::vector<TouchingBall> balls = touching_balls(body);
   for (int x = 0; x < counts_[0]; ++x) {
     for (int y = 0; y < counts_[1]; ++y) {
       for (int z = 0; z < counts_[2]; ++z) {
         const Vec3 p = origin_m_ + spacing_m_ * Vec3(x, y, z);
         if (box.exteriorDistance(p) > spacing_m_) continue;
-        double sum = 0.0, weights = 0.0;
-        for (const auto& [place_m, radius_m] : samples) {
-          const double away = (p - place_m).squaredNorm() / (spacing_m_ * spacing_m_);
-          const double weight = 1.0 / ((1.0 + away) * (1.0 + away) * (1.0 + away));
-          sum += weight * radius_m;
-          weights += weight;
-        }
-        at({x, y, z}) = sum / weights;
+        radii_m_[number_of({x, y, z})] = mean_radius_m(balls, p, spacing_m_);
       }
     }
   }
 }
 
-double& LocalRadius::at(const Eigen::Array3i& node) {
-  return radii_m_[static_cast<std::size_t>((node[0] * counts_[1] + node[1]) * counts_[2] + node[2])];
-}
-
-double LocalRadius::at(const Eigen::Array3i& node) const {
-  return radii_m_[static_cast<std::size_t>((node[0] * counts_[1] + node[1]) * counts_[2] + node[2])];
+std::size_t LocalRadius::number_of(const Eigen::Array3i& node) const {
+  const Eigen::Array<std::size_t, 3, 1> n = node.cast<std::size_t>(), counts = counts_.cast<std::size_t>();
+  return (n[0] * counts[1] + n[1]) * counts[2] + n[2];
 }
 
 double LocalRadius::operator()(const Vec3& p) const {
@@ -86,7 +88,7 @@ double LocalRadius::operator()(const Vec3& p) const {
     const Eigen::Array3i step(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1);
     double weight = 1.0;
     for (Eigen::Index k = 0; k < 3; ++k) weight *= step[k] == 1 ? part[k] : 1.0 - part[k];
-    value_m += weight * at(Eigen::Array3i(cell + step));
+    value_m += weight * radii_m_[number_of(cell + step)];
   }
   return std::max(value_m, kLeastRadius_m);
 }

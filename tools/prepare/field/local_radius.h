@@ -31,8 +31,7 @@ class LocalRadius {
   double operator()(const Vec3& p) const;
 
  private:
-  double& at(const Eigen::Array3i& node);
-  double at(const Eigen::Array3i& node) const;
+  std::size_t number_of(const Eigen::Array3i& node) const;
 
   Vec3 origin_m_;
   double spacing_m_ = 0.0;
