@@ -43,7 +43,7 @@ messages::LocalLine Simulation::Impl::line_at(const messages::ToolState& tool, i
   const std::vector<LineReading> lines_now = read_lines();
   for (std::size_t m = 0; m < lines.size(); ++m) points.push_back(line_points_W(*lines[m].line, limb.skeleton));
   for (std::size_t m = 0; m < lines.size(); ++m) {
-    if (limb.muscles[m].rigid && !limb.muscles[m].line) continue;  // pulls at nothing, and would hide those that do
+    if (only_follows(limb.muscles[m])) continue;  // pulls at nothing, and would hide those that do
     const LineForce force = lines_now[m].force;
     views.push_back({static_cast<int>(m), points[m], lines[m].fractions, std::max(0.0, tension_N(static_cast<int>(m))),
                      force.stiffness_N_m, force.damping_Ns_m});
@@ -58,7 +58,7 @@ void Simulation::Impl::write_grip(const messages::ToolState& tool, int index, me
   const int joints = limb.skeleton.joint_count();
   Eigen::MatrixXd damping_Nms_rad = Eigen::MatrixXd::Zero(joints, joints);
   for (int m = 0; m < static_cast<int>(limb.muscles.size()); ++m) {
-    if (limb.muscles[at(m)].rigid && !limb.muscles[at(m)].line) continue;
+    if (only_follows(limb.muscles[at(m)])) continue;
     const LineGeometry geometry = line_geometry_of(m);
     damping_Nms_rad +=
         line_force_of(m, geometry).damping_Ns_m * geometry.slope_m_rad * geometry.slope_m_rad.transpose();

@@ -33,7 +33,7 @@ std::vector<LineReading> Simulation::Impl::read_lines() const {
 /// That the muscle hands to its tendon; of one that is only a shape, what its line would.
 double Simulation::Impl::tension_N(int muscle) const {
   const LimbMuscle& m = limb.muscles[at(muscle)];
-  return m.rigid && !m.line ? line_force_of(muscle, line_geometry_of(muscle)).force_N : m.readout.tension_N;
+  return only_follows(m) ? line_force_of(muscle, line_geometry_of(muscle)).force_N : m.readout.tension_N;
 }
 
 /// Of one that is only a shape, what its line would have.
@@ -54,7 +54,7 @@ double Simulation::muscle_torque_Nm(int muscle, int joint) const {
 /// A muscle that is only a shape has no part in any joint.
 MuscleAtJoint Simulation::Impl::at_joint(int muscle, int joint, const LineReading& line) const {
   const LimbMuscle& m = limb.muscles[at(muscle)];
-  if (m.rigid && !m.line) return {};
+  if (only_follows(m)) return {};
   const LineJointTerms terms = line_joint_terms(line.geometry, line.force, joint);
   MuscleAtJoint part;
   part.torque_Nm = m.readout.torque_Nm[joint];
@@ -128,9 +128,7 @@ std::vector<Vec3> Simulation::line_world_m(int muscle) const {
 
 int Simulation::stuck_line() const {
   for (int m = 0; m < static_cast<int>(impl_->lines.size()); ++m) {
-    const LimbMuscle& muscle = impl_->limb.muscles[at(m)];
-    const bool only_shape = muscle.rigid && !muscle.line;
-    if (only_shape || impl_->lines[at(m)].line->wraps.empty()) continue;
+    if (only_follows(impl_->limb.muscles[at(m)]) || impl_->lines[at(m)].line->wraps.empty()) continue;
     if (impl_->line_geometry_of(m).stuck_wrap >= 0) return m;
   }
   return -1;

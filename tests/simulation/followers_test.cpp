@@ -25,10 +25,10 @@ constexpr double kAllowed_m = 2e-3;
 /// Muscles that are worse, and how far. What is clamped to a patella, which rides on the crus here and not on the
 /// femur, and touches the femur cannot have both; digital tendons that lie on a bone at either side of a joint leave
 /// one of them by a tendon's thickness at its full flexion.
-const std::map<std::string, double> kExceptions_m = {{"vastus_lateralis", 4.1e-3},
+const std::map<std::string, double> kExceptions_m = {{"vastus_lateralis", 4e-3},
                                                      {"vastus_intermedius", 3e-3},
                                                      {"sartorius_cranial", 2.5e-3},
-                                                     {"fore.extensor_digitorum_lateralis", 3e-3},
+                                                     {"fore.extensor_digitorum_lateralis", 2.7e-3},
                                                      {"hind.extensor_digitorum_lateralis", 2.5e-3},
                                                      {"hind.flexor_digitorum_profundus", 3e-3}};
 /// The same in the two limbs of lofted sections.
@@ -40,7 +40,9 @@ constexpr double kInvertedShare = 0.02;
 /// A straight way between two samples ends in a kink: what a vertex may leave the straight way by, over three angles
 /// half a degree apart [m].
 constexpr double kSmoothStep_rad = 0.5 * 3.14159265358979323846 / 180.0;
-constexpr double kLargestKink_m = 2.1e-3;
+constexpr double kLargestKink_m = 2e-3;
+/// The one muscle that is worse: 2.02 mm, in front of the bent elbow.
+const std::map<std::string, double> kKinkExceptions_m = {{"extensor_carpi_radialis", 2.1e-3}};
 
 /// A line goes round a surface that stands for the bone, the skin round the bone itself: so far a point of the line may
 /// come out of the skin [m], and more than that in this share of all points and poses.
@@ -63,9 +65,14 @@ double largest_kink_m(const std::vector<Vec3>& before, const std::vector<Vec3>& 
 }
 
 struct Kink {
-  double size_m = 0.0;
+  double size_m = 0.0, allowed_m = kLargestKink_m;
   std::string where;
 };
+
+double allowed_kink_m(const std::string& muscle) {
+  const auto exception = kKinkExceptions_m.find(muscle);
+  return exception == kKinkExceptions_m.end() ? kLargestKink_m : exception->second;
+}
 
 class Followers : public ::testing::TestWithParam<const char*> {
  protected:
@@ -217,13 +224,16 @@ TEST_P(Followers, MoveWithoutJumps) {
       if (frames.size() < 3) continue;
       for (std::size_t m = 0; m < index(count()); ++m) {
         const double here_m = largest_kink_m(frames[0][m], frames[1][m], frames[2][m]);
-        if (here_m > worst.size_m) worst = {here_m, specimen_.muscles[m].key + " at " + std::to_string(q) + " rad"};
+        const std::string& key = specimen_.muscles[m].key;
+        const double allowed_m = allowed_kink_m(key);
+        if (here_m / allowed_m <= worst.size_m / worst.allowed_m) continue;
+        worst = {here_m, allowed_m, key + " at " + std::to_string(q) + " rad"};
       }
       frames.erase(frames.begin());
     }
   }
   std::printf("largest kink %.2f mm in %s\n", 1e3 * worst.size_m, worst.where.c_str());
-  EXPECT_LE(worst.size_m, kLargestKink_m) << worst.where;
+  EXPECT_LE(worst.size_m, worst.allowed_m) << worst.where;
 }
 
 /// The same muscles outside a Simulation, for their meshes' sake.

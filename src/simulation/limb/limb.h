@@ -67,6 +67,11 @@ struct LimbMuscle {
   Eigen::VectorXd contact_stiffness_Nm_rad;  // what contact adds to it, of the last such refresh
 };
 
+/// A shape on its bones: neither its tissue nor its line is solved for.
+inline bool only_follows(const LimbMuscle& muscle) {
+  return muscle.rigid && !muscle.line;
+}
+
 /// Angles of all joints at one instant, and their rates. One a joint, positive flexes.
 struct JointFrameState {
   Eigen::VectorXd angle_rad;

@@ -31,7 +31,8 @@ struct LineGuide {
   std::vector<Vec3> middle_m = {};  // from the origin; empty: the profile's, which a coarse cage moves by millimetres
 };
 
-/// A line through the middle of the muscle: origin, borders of the belly, points between, insertion; 4 to 8 points.
+/// A line through the middle of the muscle: origin, borders of the belly, points between, insertion; 4 to 8 points, and
+/// up to two more a joint.
 /// A point rides on the body before a joint until the line has passed its axis. Near an axis there is none, so that the
 /// part of the line that changes length is long against the uncertainty of the axis; where the guide says how the line
 /// crosses a joint, there is none between the two points of the crossing; else two points beside the axis hold a

@@ -26,7 +26,7 @@ constexpr double kTendonSection = 0.45;
 constexpr double kLeastBelly = 0.5;
 /// A slice is slender when its balls are smaller than this part of the whole way, and than this part of the largest:
 /// the tendons of the canine digits have .003 to .005 and a fifth to a half.
-constexpr double kSlender = 5e-3, kSlenderer = 0.6;
+constexpr double kSlender = 5e-3, kSlenderAgainstLargest = 0.6;
 
 struct CutTet {
   double potential = 0.0;  // at the centre
@@ -83,7 +83,7 @@ std::size_t nearest_slice(const MuscleProfile& profile, double arc_m) {
 bool is_slender_slice(const MuscleProfile& profile, std::size_t slice) {
   if (profile.radius_m.empty()) return false;
   const double largest_m = *std::max_element(profile.radius_m.begin(), profile.radius_m.end());
-  return profile.radius_m[slice] < std::min(kSlender * profile.length_m, kSlenderer * largest_m);
+  return profile.radius_m[slice] < std::min(kSlender * profile.length_m, kSlenderAgainstLargest * largest_m);
 }
 
 /// As the profile's, but 0 where the muscle is slender.
@@ -162,10 +162,13 @@ void measure_radii(const std::vector<TouchingBall>& balls, const geometry::TetMe
     sums_m[slice] += ball.radius_m;
     counts[slice] += 1.0;
   }
-  profile.radius_m.resize(n);
+  if (balls.empty()) return;
+  auto seen = static_cast<std::size_t>(std::find_if(counts.begin(), counts.end(), [](double c) { return c > 0.0; }) -
+                                       counts.begin());
+  profile.radius_m.clear();
   for (std::size_t s = 0; s < n; ++s) {
-    const double before_m = s > 0 ? profile.radius_m[s - 1] : std::numeric_limits<double>::infinity();
-    profile.radius_m[s] = counts[s] > 0.0 ? sums_m[s] / counts[s] : before_m;  // unseen ones are as those before
+    if (counts[s] > 0.0) seen = s;  // slices without a ball are as the last one with
+    profile.radius_m.push_back(sums_m[seen] / counts[seen]);
   }
 }
 

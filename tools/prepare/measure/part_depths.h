@@ -15,7 +15,7 @@ struct DepthSample {
   float radius = 0.0F;  // of the largest balls that fit inside there
 };
 
-/// Points outside a body are looked at up to here [steps].
+/// Points outside a body are looked at up to here [steps]: margins reach 2, of a body that thicken() moved out by 1.
 constexpr double kDepthBand = 3.0;
 
 /// Bodies are thickened to this radius where they are thinner [steps]: a tube of .87 holds a point of the lattice

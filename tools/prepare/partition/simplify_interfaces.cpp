@@ -14,16 +14,13 @@
 #include "core/at.h"
 #include "prepare/parallel.h"
 #include "prepare/partition/interface_slabs.h"
+#include "prepare/partition/meetings.h"
 #include "prepare/partition/squared_distances.h"
 #include "prepare/remesh/guarded_mesh.h"
 
 namespace myotact::prepare {
 
 namespace {
-
-/// Labels that meet at a vertex or an edge, rising.
-using Meeting = boost::container::small_vector<std::uint16_t, 8>;
-using Indices = boost::container::small_vector<int, 24>;  // of vertices or faces around a place
 
 /// No triangle may turn by more than about 75 degrees in one collapse, nor become flatter than this shape (1:
 /// equilateral) unless it was.
@@ -123,35 +120,12 @@ class Simplifier {
 
   template <class Faces>
   Meeting labels_of(const Faces& faces) const {
-    Meeting labels;
-    for (const int f : faces) {
-      for (const std::uint16_t label : {mesh_.faces[at(f)].inner, mesh_.faces[at(f)].outer}) {
-        if (std::find(labels.begin(), labels.end(), label) == labels.end()) labels.push_back(label);
-      }
-    }
-    std::sort(labels.begin(), labels.end());
-    return labels;
+    return prepare::labels_of(mesh_, faces);
   }
 
-  Indices faces_at_edge(int a, int b) const {
-    Indices faces;
-    for (const int f : faces_at_[at(a)]) {
-      if (has(mesh_.faces[at(f)], b)) faces.push_back(f);
-    }
-    return faces;
-  }
+  Indices faces_at_edge(int a, int b) const { return faces_with(mesh_, faces_at_[at(a)], b); }
 
-  Indices neighbours(int vertex) const {
-    Indices around;
-    for (const int f : faces_at_[at(vertex)]) {
-      for (const int v : mesh_.faces[at(f)].vertices) {
-        if (v != vertex) around.push_back(v);
-      }
-    }
-    std::sort(around.begin(), around.end());
-    around.erase(std::unique(around.begin(), around.end()), around.end());
-    return around;
-  }
+  Indices neighbours(int vertex) const { return neighbours_of(mesh_, faces_at_[at(vertex)], vertex); }
 
   /// Every vertex stands for the planes of its triangles, and for the planes across them along lines of three parts.
   void weigh() {

@@ -1,10 +1,12 @@
 #include "prepare/partition/smooth_interfaces.h"
 
 #include <algorithm>
+#include <vector>
 
 #include <boost/container/small_vector.hpp>
 
 #include "core/at.h"
+#include "prepare/partition/meetings.h"
 
 namespace myotact::prepare {
 
@@ -17,16 +19,13 @@ constexpr int kRings = 3;
 constexpr double kThere = 0.5, kBack = -0.53;
 constexpr int kRounds = 20;
 
-using Indices = boost::container::small_vector<int, 16>;
-using Labels = boost::container::small_vector<std::uint16_t, 8>;
-
 class Smoother {
  public:
   explicit Smoother(const Interfaces& interfaces) : mesh_(interfaces), faces_at_(interfaces.positions_m.size()) {
     for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
       for (const int v : mesh_.faces[f].vertices) faces_at_[at(v)].push_back(static_cast<int>(f));
     }
-    for (std::size_t v = 0; v < faces_at_.size(); ++v) is_line_.push_back(labels_of(faces_at_[v]).size() > 2);
+    for (std::size_t v = 0; v < faces_at_.size(); ++v) is_line_.push_back(labels_of(mesh_, faces_at_[v]).size() > 2);
     measure_rings();
   }
 
@@ -36,7 +35,7 @@ class Smoother {
     for (std::size_t v = 0; v < ring_.size(); ++v) {
       if (ring_[v] > kRings) continue;
       moving.push_back(static_cast<int>(v));
-      neighbours.push_back(neighbours_of(static_cast<int>(v)));
+      neighbours.push_back(evened_with(static_cast<int>(v)));
     }
     for (int round = 0; round < kRounds; ++round) {
       for (const double part : {kThere, kBack}) step(moving, neighbours, part);
@@ -45,39 +44,12 @@ class Smoother {
   }
 
  private:
-  Labels labels_of(const Indices& faces) const {
-    Labels labels;
-    for (const int f : faces) {
-      for (const std::uint16_t label : {mesh_.faces[at(f)].inner, mesh_.faces[at(f)].outer}) {
-        if (std::find(labels.begin(), labels.end(), label) == labels.end()) labels.push_back(label);
-      }
-    }
-    return labels;
-  }
+  Indices around(int vertex) const { return neighbours_of(mesh_, faces_at_[at(vertex)], vertex); }
 
-  Indices around(int vertex) const {
-    Indices around;
-    for (const int f : faces_at_[at(vertex)]) {
-      for (const int v : mesh_.faces[at(f)].vertices) {
-        if (v != vertex) around.push_back(v);
-      }
-    }
-    std::sort(around.begin(), around.end());
-    around.erase(std::unique(around.begin(), around.end()), around.end());
-    return around;
-  }
-
-  bool is_line_edge(int a, int b) const {
-    Indices faces;
-    for (const int f : faces_at_[at(a)]) {
-      const auto& v = mesh_.faces[at(f)].vertices;
-      if (std::find(v.begin(), v.end(), b) != v.end()) faces.push_back(f);
-    }
-    return labels_of(faces).size() > 2;
-  }
+  bool is_line_edge(int a, int b) const { return labels_of(mesh_, faces_with(mesh_, faces_at_[at(a)], b)).size() > 2; }
 
   /// Those that a vertex is evened out with: on a line, the line's.
-  Indices neighbours_of(int vertex) const {
+  Indices evened_with(int vertex) const {
     Indices result = around(vertex);
     if (!is_line_[at(vertex)]) return result;
     result.erase(std::remove_if(result.begin(), result.end(),
@@ -117,7 +89,7 @@ class Smoother {
   }
 
   Interfaces mesh_;
-  std::vector<Indices> faces_at_;
+  std::vector<boost::container::small_vector<int, 8>> faces_at_;
   std::vector<bool> is_line_;
   std::vector<int> ring_;
 };
