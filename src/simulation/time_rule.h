@@ -8,6 +8,8 @@ struct TimeRule {
   double now_1_s = 0.0;     // of the last value y_n
   double before_1_s = 0.0;  // of the value before it, y_(n-1)
 
+  bool operator==(const TimeRule&) const = default;
+
   /// now y_n - before y_(n-1): what is taken from rate y. Value: a number or vector.
   template <class Value>
   Value history(const Value& last, const Value& before_last) const {

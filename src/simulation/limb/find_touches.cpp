@@ -1,8 +1,11 @@
 #include "simulation/limb/find_touches.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <span>
+#include <tuple>
+#include <utility>
 
 #include "core/at.h"
 #include "simulation/muscle/fascia_bonds.h"
@@ -124,25 +127,46 @@ void add_bonds(Limb& limb, int muscle) {
   }
 }
 
-}  // namespace
+/// An order in which touches of one muscle are found again.
+bool before(const NeighbourTouch& a, const NeighbourTouch& b) {
+  return std::tie(a.neighbour, a.tie, a.count, a.nodes) < std::tie(b.neighbour, b.tie, b.count, b.nodes);
+}
 
-void find_touches(Limb& limb, WorkerPool& workers) {
-  if (limb.touch_surfaces.empty()) return;
+/// A muscle that keeps its tangent keeps the slopes that it was made with: of the touches that are still there.
+void keep_slopes(std::vector<NeighbourTouch> old, std::vector<NeighbourTouch>& touches) {
+  std::sort(old.begin(), old.end(), before);
+  for (NeighbourTouch& touch : touches) {
+    const auto found = std::lower_bound(old.begin(), old.end(), touch, before);
+    if (found != old.end() && !before(touch, *found)) touch.slope_N_m = found->slope_N_m;
+  }
+}
+
+/// Faces under the nodes of one muscle. Between two that have not moved those of the last search stay.
+void search_around(Limb& limb, int muscle, const std::vector<char>& moved) {
+  TouchSurface& surface = limb.touch_surfaces[at(muscle)];
+  const std::vector<TouchSurface::Found> last = std::exchange(surface.found, {});
+  if (!limb.contact || limb.muscles[at(muscle)].rigid) return;
+  for (int other = 0; other < static_cast<int>(limb.muscles.size()); ++other) {
+    if (other == muscle || limb.muscles[at(other)].rigid) continue;
+    if (moved[at(muscle)] || moved[at(other)]) {
+      search(limb, other, limb.muscles[at(muscle)].state.now.position_m, surface);
+    } else {
+      std::copy_if(last.begin(), last.end(), std::back_inserter(surface.found),
+                   [&](const TouchSurface::Found& found) { return found.other == other; });
+    }
+  }
+}
+
+/// The touches of all muscles, with new faces beside those that have moved.
+void search_where(Limb& limb, const std::vector<char>& moved, WorkerPool& workers) {
   const int count = static_cast<int>(limb.muscles.size());
   workers.run(count, [&](int m) {
-    if (!limb.muscles[at(m)].rigid) {
+    if (moved[at(m)] && !limb.muscles[at(m)].rigid)
       follow(limb.muscles[at(m)].state.now.position_m, limb.touch_surfaces[at(m)]);
-    }
   });
-  workers.run(count, [&](int m) {
-    TouchSurface& surface = limb.touch_surfaces[at(m)];
-    surface.found.clear();
-    for (int other = 0; other < count; ++other) {
-      const bool touchable = limb.contact && other != m && !limb.muscles[at(m)].rigid && !limb.muscles[at(other)].rigid;
-      if (touchable) search(limb, other, limb.muscles[at(m)].state.now.position_m, surface);
-    }
-  });
-  for (LimbMuscle& muscle : limb.muscles) muscle.state.touches.clear();
+  workers.run(count, [&](int m) { search_around(limb, m, moved); });
+  std::vector<std::vector<NeighbourTouch>> last(limb.muscles.size());
+  for (std::size_t m = 0; m < last.size(); ++m) last[m] = std::exchange(limb.muscles[m].state.touches, {});
   for (int m = 0; m < count; ++m) {
     const TouchSurface& surface = limb.touch_surfaces[at(m)];
     for (const TouchSurface::Found& found : surface.found) {
@@ -151,19 +175,31 @@ void find_touches(Limb& limb, WorkerPool& workers) {
     }
     add_bonds(limb, m);
   }
+  workers.run(count, [&](int m) {
+    LimbMuscle& muscle = limb.muscles[at(m)];
+    if (muscle.kept_rule) keep_slopes(std::move(last[at(m)]), muscle.state.touches);
+  });
   see_neighbours(limb);
 }
 
+}  // namespace
+
+void find_touches(Limb& limb, WorkerPool& workers) {
+  if (limb.touch_surfaces.empty()) return;
+  search_where(limb, std::vector<char>(limb.muscles.size(), 1), workers);
+}
+
 void follow_touches(Limb& limb, WorkerPool& workers) {
-  bool still = true;
-  for (std::size_t m = 0; m < limb.touch_surfaces.size() && still; ++m) {
-    still = limb.muscles[m].rigid ||
-            farthest_way_m(limb.muscles[m].state.now.position_m, limb.touch_surfaces[m]) < kStill_m;
+  if (limb.touch_surfaces.empty()) return;
+  std::vector<char> moved(limb.muscles.size(), 0);
+  for (std::size_t m = 0; m < moved.size(); ++m) {
+    const LimbMuscle& muscle = limb.muscles[m];
+    moved[m] = !muscle.rigid && farthest_way_m(muscle.state.now.position_m, limb.touch_surfaces[m]) >= kStill_m;
   }
-  if (still)
+  if (std::find(moved.begin(), moved.end(), 1) == moved.end())
     see_neighbours(limb);
   else
-    find_touches(limb, workers);
+    search_where(limb, moved, workers);
 }
 
 void see_neighbours(Limb& limb) {

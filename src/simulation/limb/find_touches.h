@@ -9,7 +9,8 @@ namespace myotact::simulation {
 /// workers.
 void find_touches(Limb& limb, WorkerPool& workers);
 
-/// The same where a node has moved by 0.1 mm since; else the faces stay, and the neighbours are seen.
+/// The same for muscles of which a node has moved by 0.1 mm since, and their neighbours; else the faces stay, and the
+/// neighbours are seen.
 void follow_touches(Limb& limb, WorkerPool& workers);
 
 /// Takes over into each touch where the neighbour's nodes are now. No search.

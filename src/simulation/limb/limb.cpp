@@ -139,6 +139,7 @@ void read_out(Limb& limb) {
 
 void compute_system(const Skeleton& skeleton, TissueLoad load, LimbMuscle& muscle, Accuracy accuracy) {
   load.in_factor = accuracy == Accuracy::Single;
+  muscle.kept_rule.reset();
   compute_system(muscle.tissue, skeleton, load, muscle.state, muscle.system);
 }
 

@@ -60,6 +60,8 @@ struct LimbMuscle {
   double energy_slope = 0.0;          // along that change
   double residual_share = 0.0;        // out-of-balance force over the size of the forces, springs included
   bool balanced = false;              // within this step: needs no new tangent
+  bool strained = false;              // one Newton step of this step was not enough
+  std::optional<TimeRule> kept_rule;  // of the step whose factored tangent serves the next one, too; none: it does not
   bool made_definite = false;         // the last tangent had to be
   bool sound = true;                  // the last factorisation and state were finite
   MuscleReadout readout;              // of the last step or settle

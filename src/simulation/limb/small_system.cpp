@@ -31,19 +31,38 @@ Eigen::Index fill_borders(const Limb& limb, const SmallSystem& small, int index,
   return used;
 }
 
+/// What a muscle is solved for: its residual, then the borders that differ from zero.
+Eigen::MatrixXd right_sides(const Limb& limb, const SmallSystem& small, int index, LimbMuscle& muscle) {
+  const Eigen::Index used = fill_borders(limb, small, index, muscle);
+  Eigen::MatrixXd sides(muscle.borders.rows(), 1 + used);
+  sides << muscle.system.residual_N, muscle.borders.leftCols(used);
+  return sides;
+}
+
+void take_solution(const Eigen::MatrixXd& solution, LimbMuscle& muscle) {
+  muscle.free_solution = solution.col(0);
+  muscle.border_solution.setZero(muscle.borders.rows(), muscle.borders.cols());
+  muscle.border_solution.leftCols(solution.cols() - 1) = solution.rightCols(solution.cols() - 1);
+  muscle.reduced.noalias() = muscle.borders.transpose() * muscle.border_solution;
+}
+
 /// Tangent, factor, and the solutions for the residual and the borders.
 Pivots factor_muscle(const Limb& limb, const SmallSystem& small, const TissueLoad& load, int index,
                      LimbMuscle& muscle) {
   compute_system(limb.skeleton, load, muscle);
-  const Eigen::Index used = fill_borders(limb, small, index, muscle);
-  Eigen::MatrixXd sides(muscle.borders.rows(), 1 + used), solution;
-  sides << muscle.system.residual_N, muscle.borders.leftCols(used);
-  const Pivots pivots = factor_system(muscle, sides, solution);
+  Eigen::MatrixXd solution;
+  const Pivots pivots = factor_system(muscle, right_sides(limb, small, index, muscle), solution);
   if (pivots == Pivots::Unusable) return pivots;
-  muscle.free_solution = solution.col(0);
-  muscle.border_solution.setZero(muscle.borders.rows(), muscle.borders.cols());
-  muscle.border_solution.leftCols(used) = solution.rightCols(used);
+  take_solution(solution, muscle);
+  muscle.kept_rule = load.rule;
   return pivots;
+}
+
+/// The same solutions with the factor of an earlier step: only the forces and the springs are new.
+void solve_with_kept(const Limb& limb, const SmallSystem& small, const TissueLoad& load, int index,
+                     LimbMuscle& muscle) {
+  compute_forces(muscle.tissue, limb.skeleton, load, muscle.state, muscle.system);
+  take_solution(solve(muscle, right_sides(limb, small, index, muscle)), muscle);
 }
 
 void add_skeleton(Limb& limb, const TimeRule& rule, SmallSystem& small) {
@@ -159,12 +178,13 @@ SmallSystem make_small_system(const Limb& limb, Joints joints) {
 void eliminate(const Limb& limb, const SmallSystem& small, TissueLoad load, int index, LimbMuscle& muscle) {
   if (muscle.balanced) {
     muscle.free_solution = solve(muscle, muscle.system.residual_N);
+  } else if (muscle.kept_rule == load.rule) {
+    solve_with_kept(limb, small, load, index, muscle);
   } else {
     muscle.made_definite = factor_muscle(limb, small, load, index, muscle) != Pivots::Positive;
     load.definite = true;
     muscle.sound = !muscle.made_definite || factor_muscle(limb, small, load, index, muscle) == Pivots::Positive;
     if (!muscle.sound) return;
-    muscle.reduced.noalias() = muscle.borders.transpose() * muscle.border_solution;
   }
   muscle.reduced_residual.noalias() = muscle.borders.transpose() * muscle.free_solution;
   muscle.sound = muscle.free_solution.allFinite() && muscle.reduced.allFinite();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <Eigen/LU>
 
@@ -20,6 +21,11 @@ constexpr int kMostIterations = 5;
 /// Out-of-balance force, over the size of the elements' forces, at which a step counts as solved. Below the 3 % that
 /// one linearised step costs in force anyway (measured on twitches against steps of 1 ms).
 constexpr double kSolvedShare = 0.02;
+/// A muscle that one Newton step has brought below this share has hardly changed: the next step begins with the same
+/// tangent. Its forces are always new: what the tangent has wrong is left as residual, and the next step makes it good.
+/// While an elbow is pressed and contracts, nine of ten tangents are kept and no node comes out more than 0.04 mm
+/// beside where new ones bring it (0.25 mm with 5e-3, which keeps three more in a hundred).
+constexpr double kKeptShare = 0.001;
 /// Share to which the coupling of touching muscles is solved: a quarter of what counts as solved.
 constexpr double kCoupledShare = 0.005;
 /// The same in a static step, over the share that it starts from: each step then gains two digits at most.
@@ -187,11 +193,28 @@ double allowed_part(const Limb& limb, double farthest_m) {
   return longest_m > farthest_m ? farthest_m / longest_m : 1.0;
 }
 
+/// The muscles to eliminate, those first that take longest: whoever works at the last one keeps all others waiting.
+std::vector<int> longest_first(const Limb& limb, const TimeRule& rule) {
+  std::vector<int> order;
+  for (int m = 0; m < static_cast<int>(limb.muscles.size()); ++m) {
+    if (!limb.muscles[at(m)].rigid) order.push_back(m);
+  }
+  const auto cost = [&](int m) {
+    const LimbMuscle& muscle = limb.muscles[at(m)];
+    const bool factored = muscle.balanced || muscle.kept_rule == rule;
+    return std::pair(factored ? 0 : 1, muscle.tissue.free_nodes);
+  };
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return cost(a) > cost(b); });
+  return order;
+}
+
 Iteration newton_step(Limb& limb, const Task& task, WorkerPool& workers, int& definite_solves) {
   const TissueLoad& load = task.load;
   SmallSystem small = make_small_system(limb, task.joints);
-  workers.run(static_cast<int>(limb.muscles.size()), [&](int m) {
-    if (!limb.muscles[at(m)].rigid) eliminate(limb, small, load, m, limb.muscles[at(m)]);
+  const std::vector<int> order = longest_first(limb, load.rule);
+  workers.run(static_cast<int>(order.size()), [&](int k) {
+    const int m = order[at(k)];
+    eliminate(limb, small, load, m, limb.muscles[at(m)]);
   });
   for (const LimbMuscle& muscle : limb.muscles) {
     if (muscle.rigid) continue;
@@ -215,6 +238,8 @@ Iteration newton_step(Limb& limb, const Task& task, WorkerPool& workers, int& de
     if (muscle.rigid) continue;
     result.residual_share = std::max(result.residual_share, muscle.residual_share);
     muscle.balanced = muscle.residual_share < kSolvedShare;
+    if (!muscle.balanced) muscle.kept_rule.reset();
+    muscle.strained |= !muscle.balanced;
   }
   return result;
 }
@@ -248,7 +273,10 @@ StepReport advance(Limb& limb, const StepInput& input, WorkerPool& workers) {
   follow_angles(limb);
   evaluate_lines(limb, load.rule);
   follow_touches(limb, workers);
-  for (LimbMuscle& muscle : limb.muscles) muscle.balanced = false;
+  for (LimbMuscle& muscle : limb.muscles) {
+    muscle.balanced = muscle.strained = false;
+    if (!input.second_order_in_time) muscle.kept_rule.reset();
+  }
   StepReport report;
   for (report.iterations = 1; report.iterations <= kMostIterations; ++report.iterations) {
     const Iteration iteration = newton_step(limb, {load}, workers, report.definite_solves);
@@ -257,6 +285,9 @@ StepReport advance(Limb& limb, const StepInput& input, WorkerPool& workers) {
     if (!iteration.sound) return report;
     const bool solved = iteration.residual_share < kSolvedShare && iteration.lines_share < kLinesSolvedShare;
     if (solved && iteration.rotation_rad < kLargestRotation_rad) break;
+  }
+  for (LimbMuscle& muscle : limb.muscles) {
+    if (muscle.strained || muscle.residual_share > kKeptShare) muscle.kept_rule.reset();
   }
   report.sound = report.residual_share < 1.0;
   finish(limb, load.rule);
@@ -270,6 +301,7 @@ Relaxation relax(Limb& limb, const RelaxInput& input, WorkerPool& workers) {
   load.gravity_m_s2 = limb.gravity_m_s2;
   for (LimbMuscle& muscle : limb.muscles) {
     muscle.balanced = false;
+    muscle.kept_rule.reset();
     muscle.state.last.position_m = muscle.state.now.position_m;
     muscle.state.last.velocity_m_s.setZero();
   }

@@ -316,21 +316,21 @@ bool BlockFactorOf<Scalar>::factor(const BlockMatrix& matrix) {
   return factor();
 }
 
-/// Right sides, one after the other in elimination order, become the solutions.
 template <class Scalar>
-void BlockFactorOf<Scalar>::solve_four(Scalar* x) const {
+template <std::size_t kSides>
+void BlockFactorOf<Scalar>::solve_sides(Scalar* x) const {
   const std::size_t rows = 3 * order_.size();
-  std::vector<Scalar> local(kRightSides * (largest_front_ + kFrontPadding));
+  std::vector<Scalar> local(kSides * (largest_front_ + kFrontPadding));
   const auto sweep = [&](std::size_t f, auto&& solve_front) {
     const std::vector<int>& nodes = fronts_[f].nodes;
     const std::size_t stride = 3 * nodes.size() + kFrontPadding;
-    for (std::size_t r = 0; r < kRightSides; ++r) {
+    for (std::size_t r = 0; r < kSides; ++r) {
       Scalar* place = local.data() + r * stride;
       for (int node : nodes) place = std::copy_n(x + r * rows + 3 * at(node), 3, place);
       std::fill_n(place, kFrontPadding, Scalar(0));
     }
     solve_front(kept(f), local.data());
-    for (std::size_t r = 0; r < kRightSides; ++r) {
+    for (std::size_t r = 0; r < kSides; ++r) {
       const Scalar* from = local.data() + r * stride;
       for (int node : nodes) {
         std::copy_n(from, 3, x + r * rows + 3 * at(node));
@@ -338,32 +338,40 @@ void BlockFactorOf<Scalar>::solve_four(Scalar* x) const {
       }
     }
   };
-  for (std::size_t f = 0; f < fronts_.size(); ++f) sweep(f, solve_forward<Scalar>);
-  for (std::size_t f = fronts_.size(); f-- > 0;) sweep(f, solve_backward<Scalar>);
+  for (std::size_t f = 0; f < fronts_.size(); ++f) sweep(f, solve_forward<kSides, Scalar>);
+  for (std::size_t f = fronts_.size(); f-- > 0;) sweep(f, solve_backward<kSides, Scalar>);
+}
+
+template <class Scalar>
+template <std::size_t kSides>
+void BlockFactorOf<Scalar>::solve_columns(const Eigen::MatrixXd& right, Eigen::Index first,
+                                          Eigen::MatrixXd& result) const {
+  const Eigen::Index nodes = right.rows() / 3, count = std::min<Eigen::Index>(kSides, right.cols() - first);
+  std::vector<Scalar> sides(kSides * static_cast<std::size_t>(right.rows()));
+  const auto place = [&](Eigen::Index node, Eigen::Index side) {
+    return sides.data() + side * right.rows() + 3 * order_[static_cast<std::size_t>(node)];
+  };
+  for (Eigen::Index side = 0; side < count; ++side) {
+    for (Eigen::Index node = 0; node < nodes; ++node) {
+      for (int i = 0; i < 3; ++i) place(node, side)[i] = static_cast<Scalar>(right(3 * node + i, first + side));
+    }
+  }
+  solve_sides<kSides>(sides.data());
+  for (Eigen::Index side = 0; side < count; ++side) {
+    for (Eigen::Index node = 0; node < nodes; ++node) {
+      for (int i = 0; i < 3; ++i) result(3 * node + i, first + side) = static_cast<double>(place(node, side)[i]);
+    }
+  }
 }
 
 template <class Scalar>
 Eigen::MatrixXd BlockFactorOf<Scalar>::solve(const Eigen::MatrixXd& right) const {
   Eigen::MatrixXd result(right.rows(), right.cols());
-  const Eigen::Index nodes = right.rows() / 3;
-  std::vector<Scalar> sides(kRightSides * static_cast<std::size_t>(right.rows()));
-  const auto place = [&](Eigen::Index node, Eigen::Index side) {
-    return sides.data() + side * right.rows() + 3 * order_[static_cast<std::size_t>(node)];
-  };
   for (Eigen::Index first = 0; first < right.cols(); first += kRightSides) {
-    const Eigen::Index count = std::min<Eigen::Index>(kRightSides, right.cols() - first);
-    std::fill(sides.begin(), sides.end(), Scalar(0));
-    for (Eigen::Index side = 0; side < count; ++side) {
-      for (Eigen::Index node = 0; node < nodes; ++node) {
-        for (int i = 0; i < 3; ++i) place(node, side)[i] = static_cast<Scalar>(right(3 * node + i, first + side));
-      }
-    }
-    solve_four(sides.data());
-    for (Eigen::Index side = 0; side < count; ++side) {
-      for (Eigen::Index node = 0; node < nodes; ++node) {
-        for (int i = 0; i < 3; ++i) result(3 * node + i, first + side) = static_cast<double>(place(node, side)[i]);
-      }
-    }
+    if (right.cols() - first == 1)
+      solve_columns<1>(right, first, result);
+    else
+      solve_columns<kRightSides>(right, first, result);
   }
   return result;
 }

@@ -47,7 +47,7 @@ class BlockFactorOf {
   /// Every pivot of the last factorisation was positive.
   bool positive() const { return positive_; }
 
-  /// matrix^-1 right, four columns at a time: one costs as much as four. Rows as in the matrix.
+  /// matrix^-1 right, four columns at a time, or a last one alone. Rows as in the matrix.
   /// Const, but after a factor(); several threads may solve at once. Allocates.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;
   /// The same, corrected once by its own residual in double: right to 1e-5. `matrix` is the one that was factored.
@@ -89,7 +89,12 @@ class BlockFactorOf {
   void reserve(Workspace& work) const;
   DenseFront<Scalar> assemble_front(std::size_t front, Workspace& work);
   DenseFront<Scalar> kept(std::size_t front) const;
-  void solve_four(Scalar* x) const;
+  /// Right sides, one after the other in elimination order, become the solutions.
+  template <std::size_t kSides>
+  void solve_sides(Scalar* x) const;
+  /// Columns of `right` from `first`, as many as there are up to kSides.
+  template <std::size_t kSides>
+  void solve_columns(const Eigen::MatrixXd& right, Eigen::Index first, Eigen::MatrixXd& result) const;
 
   std::vector<int> order_;            // elimination position of each node
   std::vector<BlockSlot> diagonals_;  // of each node

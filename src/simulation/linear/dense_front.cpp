@@ -144,13 +144,13 @@ MYOTACT_INLINE Pivots eliminate(const DenseFront<Scalar>& front, UpdateColumns<S
   return pivots;
 }
 
-template <class Vector, class Scalar>
+template <class Vector, std::size_t kSides, class Scalar>
 MYOTACT_INLINE void forward(const DenseFront<Scalar>& front, Scalar* values) {
   const int stride = front.stride(0), sides = front.size + kFrontPadding;
   for (int c = 0; c < front.own; c += 3) {
     const Scalar *first = front.column(c), *second = first + stride, *third = second + stride;
-    std::array<std::array<Scalar, 3>, kRightSides> known;
-    for (std::size_t r = 0; r < kRightSides; ++r) {
+    std::array<std::array<Scalar, 3>, kSides> known;
+    for (std::size_t r = 0; r < kSides; ++r) {
       Scalar* x = values + static_cast<std::ptrdiff_t>(r) * sides + c;
       x[1] -= first[c + 1] * x[0];
       x[2] = (x[2] - first[c + 2] * x[0]) - second[c + 2] * x[1];
@@ -159,7 +159,7 @@ MYOTACT_INLINE void forward(const DenseFront<Scalar>& front, Scalar* values) {
     for (int i = c + 3; i < front.size; i += Vector::kLanes) {
       const auto l0 = *Vector::at(first + i), l1 = *Vector::at(second + i), l2 = *Vector::at(third + i);
       Scalar* x = values + i;
-      for (std::size_t r = 0; r < kRightSides; ++r, x += sides) {
+      for (std::size_t r = 0; r < kSides; ++r, x += sides) {
         Vector::store(x, ((*Vector::at(x) - l0 * known[r][0]) - l1 * known[r][1]) - l2 * known[r][2]);
       }
     }
@@ -179,16 +179,16 @@ MYOTACT_INLINE Scalar sum_of(const typename Vector::Type* value) {
   }
 }
 
-template <class Vector, class Scalar>
+template <class Vector, std::size_t kSides, class Scalar>
 MYOTACT_INLINE void backward(const DenseFront<Scalar>& front, Scalar* values) {
   const int stride = front.stride(0), sides = front.size + kFrontPadding;
   for (int c = front.own - 3; c >= 0; c -= 3) {
     const Scalar *first = front.column(c), *second = first + stride, *third = second + stride;
-    typename Vector::Type sum[kRightSides][3] = {};
+    typename Vector::Type sum[kSides][3] = {};
     for (int i = c + 3; i < front.size; i += Vector::kLanes) {
       const auto l0 = *Vector::at(first + i), l1 = *Vector::at(second + i), l2 = *Vector::at(third + i);
       const Scalar* x = values + i;
-      for (int r = 0; r < kRightSides; ++r, x += sides) {
+      for (std::size_t r = 0; r < kSides; ++r, x += sides) {
         const auto below = *Vector::at(x);
         sum[r][0] += l0 * below;
         sum[r][1] += l1 * below;
@@ -196,7 +196,7 @@ MYOTACT_INLINE void backward(const DenseFront<Scalar>& front, Scalar* values) {
       }
     }
     Scalar* x = values + c;
-    for (int r = 0; r < kRightSides; ++r, x += sides) {
+    for (std::size_t r = 0; r < kSides; ++r, x += sides) {
       x[2] = x[2] / third[c + 2] - sum_of<Vector, Scalar>(&sum[r][2]);
       x[1] = (x[1] / second[c + 1] - sum_of<Vector, Scalar>(&sum[r][1])) - second[c + 2] * x[2];
       x[0] = ((x[0] / first[c] - sum_of<Vector, Scalar>(&sum[r][0])) - first[c + 1] * x[1]) - first[c + 2] * x[2];
@@ -233,27 +233,31 @@ Pivots eliminate_front(const DenseFront<Scalar>& front, Scalar* work) {
   return pivots;
 }
 
-template <class Scalar>
+template <std::size_t kSides, class Scalar>
 void solve_forward(const DenseFront<Scalar>& front, Scalar* values) {
   run_for_processor([&]<int kBytes>(std::integral_constant<int, kBytes>)
-                        __attribute__((always_inline)) { forward<VectorOf<Scalar, kBytes>>(front, values); });
+                        __attribute__((always_inline)) { forward<VectorOf<Scalar, kBytes>, kSides>(front, values); });
 }
 
-template <class Scalar>
+template <std::size_t kSides, class Scalar>
 void solve_backward(const DenseFront<Scalar>& front, Scalar* values) {
   run_for_processor([&]<int kBytes>(std::integral_constant<int, kBytes>)
-                        __attribute__((always_inline)) { backward<VectorOf<Scalar, kBytes>>(front, values); });
+                        __attribute__((always_inline)) { backward<VectorOf<Scalar, kBytes>, kSides>(front, values); });
 }
 
 template void zero_remainder(const DenseFront<float>&);
 template void add_remainder(const float*, std::span<const FrontRun>, const DenseFront<float>&);
 template Pivots eliminate_front(const DenseFront<float>&, float*);
-template void solve_forward(const DenseFront<float>&, float*);
-template void solve_backward(const DenseFront<float>&, float*);
+template void solve_forward<1>(const DenseFront<float>&, float*);
+template void solve_forward<kRightSides>(const DenseFront<float>&, float*);
+template void solve_backward<1>(const DenseFront<float>&, float*);
+template void solve_backward<kRightSides>(const DenseFront<float>&, float*);
 template void zero_remainder(const DenseFront<double>&);
 template void add_remainder(const double*, std::span<const FrontRun>, const DenseFront<double>&);
 template Pivots eliminate_front(const DenseFront<double>&, double*);
-template void solve_forward(const DenseFront<double>&, double*);
-template void solve_backward(const DenseFront<double>&, double*);
+template void solve_forward<1>(const DenseFront<double>&, double*);
+template void solve_forward<kRightSides>(const DenseFront<double>&, double*);
+template void solve_backward<1>(const DenseFront<double>&, double*);
+template void solve_backward<kRightSides>(const DenseFront<double>&, double*);
 
 }  // namespace myotact::simulation

@@ -56,15 +56,17 @@ void add_remainder(const Scalar* remainder, std::span<const FrontRun> runs, cons
 template <class Scalar>
 Pivots eliminate_front(const DenseFront<Scalar>& front, Scalar* work);
 
-/// Right sides that are solved at once: four cost little more than one.
-inline constexpr int kRightSides = 4;
+/// Right sides that are solved at once: four cost a little more than one where the factor comes from memory, twice as
+/// much where it is in the cache.
+inline constexpr std::size_t kRightSides = 4;
 
-/// x[own] = L^-1 x[own] and x[below] -= L[below] x[own], gathered in the front's order: `values` holds kRightSides
-/// columns of `size` numbers, each followed by kFrontPadding zeros.
-template <class Scalar>
+/// x[own] = L^-1 x[own] and x[below] -= L[below] x[own], gathered in the front's order: `values` holds kSides columns
+/// of `size` numbers, each followed by kFrontPadding zeros. kSides is 1 or kRightSides; a column's bits do not depend
+/// on it.
+template <std::size_t kSides, class Scalar>
 void solve_forward(const DenseFront<Scalar>& front, Scalar* values);
 /// x[own] = L^-T (D^-1 x[own] - L[below]^T x[below]). Between the two calls D^-1 has not been applied.
-template <class Scalar>
+template <std::size_t kSides, class Scalar>
 void solve_backward(const DenseFront<Scalar>& front, Scalar* values);
 
 }  // namespace myotact::simulation

@@ -31,7 +31,13 @@ class Surfaces {
   /// Vertices of one surface, in the world.
   struct Frame {
     std::vector<Vec3> previous_m, current_m;
+    Eigen::VectorXd nodes_m;  // of a muscle: its mesh where the current frame was made
+    Pose pose;                // of a bone, likewise
+    double radius_m = 0.0;    // of a bone: farthest vertex from its body's origin
+    bool at_rest = false;     // both frames are the same
   };
+  /// Too little has happened since the current frame to be seen or felt.
+  bool is_still(const Limb& limb, int surface) const;
   void update(const Limb& limb, int surface);
   std::vector<messages::TriangleTissue> tissue_of(int surface) const;
 

@@ -104,6 +104,31 @@ TYPED_TEST(DenseFrontOf, EliminatingLeavesTheSchurComplementAndAProductThatIsThe
   }
 }
 
+constexpr int kSides = static_cast<int>(kRightSides);
+
+TYPED_TEST(DenseFrontOf, OneSideAloneGivesTheSameBitsAsBesideOthers) {
+  std::mt19937 random(17);
+  std::normal_distribution<double> normal;
+  for (int round = 0; round < 25; ++round) {
+    const int size = multiple_of_three(6, 120, random), own = multiple_of_three(3, size, random);
+    OwnedFront<TypeParam> owned(well_conditioned(size, 0, random), own);
+    ASSERT_EQ(eliminate_front(owned.front, owned.work.data()), Pivots::Positive);
+    const std::size_t stride = static_cast<std::size_t>(size + kFrontPadding);
+    std::vector<TypeParam> four(kRightSides * stride + kFrontPadding, TypeParam(0));
+    for (std::size_t k = 0; k < kRightSides * stride; ++k) {
+      if (k % stride < static_cast<std::size_t>(size)) four[k] = static_cast<TypeParam>(normal(random));
+    }
+    std::vector<TypeParam> one(four.begin() + static_cast<std::ptrdiff_t>(stride),
+                               four.begin() + static_cast<std::ptrdiff_t>(2 * stride + kFrontPadding));
+    std::fill(one.begin() + size, one.end(), TypeParam(0));
+    solve_forward<kRightSides>(owned.front, four.data());
+    solve_backward<kRightSides>(owned.front, four.data());
+    solve_forward<1>(owned.front, one.data());
+    solve_backward<1>(owned.front, one.data());
+    for (std::size_t k = 0; k < static_cast<std::size_t>(size); ++k) ASSERT_EQ(one[k], four[stride + k]) << size;
+  }
+}
+
 TYPED_TEST(DenseFrontOf, SolvingForthAndBackIsTheInverseOfTheWholeMatrix) {
   const UnitGuard guard;
   for (const VectorUnit unit : kAllUnits) {
@@ -113,27 +138,27 @@ TYPED_TEST(DenseFrontOf, SolvingForthAndBackIsTheInverseOfTheWholeMatrix) {
     for (int round = 0; round < 25; ++round) {
       const int size = multiple_of_three(6, 120, random), own = multiple_of_three(3, size, random);
       const Eigen::MatrixXd matrix = well_conditioned(size, 0, random);
-      const Eigen::MatrixXd right = Eigen::MatrixXd::NullaryExpr(size, kRightSides, [&] { return normal(random); });
+      const Eigen::MatrixXd right = Eigen::MatrixXd::NullaryExpr(size, kSides, [&] { return normal(random); });
       OwnedFront<TypeParam> owned(matrix, own);
       ASSERT_EQ(eliminate_front(owned.front, owned.work.data()), Pivots::Positive);
       const int stride = size + kFrontPadding;
-      std::vector<TypeParam> x(static_cast<std::size_t>(kRightSides * stride) + kFrontPadding, TypeParam(0));
+      std::vector<TypeParam> x(static_cast<std::size_t>(kSides * stride) + kFrontPadding, TypeParam(0));
       const auto at = [&](int row, int side) -> TypeParam& { return x[static_cast<std::size_t>(side * stride + row)]; };
-      for (int side = 0; side < kRightSides; ++side) {
+      for (int side = 0; side < kSides; ++side) {
         for (int row = 0; row < size; ++row) at(row, side) = static_cast<TypeParam>(right(row, side));
       }
-      solve_forward(owned.front, x.data());
+      solve_forward<kRightSides>(owned.front, x.data());
       // What stays is solved by Eigen, as the fronts above would.
       const Eigen::MatrixXd rest = owned.lower(own, size).template selfadjointView<Eigen::Lower>();
-      for (int side = 0; side < kRightSides && own < size; ++side) {
+      for (int side = 0; side < kSides && own < size; ++side) {
         Eigen::VectorXd below(size - own);
         for (int row = own; row < size; ++row) below[row - own] = static_cast<double>(at(row, side));
         below = solve_dense(rest, below);
         for (int row = own; row < size; ++row) at(row, side) = static_cast<TypeParam>(below[row - own]);
       }
-      solve_backward(owned.front, x.data());
+      solve_backward<kRightSides>(owned.front, x.data());
       const Eigen::MatrixXd expected = solve_dense(matrix, right);
-      for (int side = 0; side < kRightSides; ++side) {
+      for (int side = 0; side < kSides; ++side) {
         for (int row = 0; row < size; ++row) {
           ASSERT_NEAR(static_cast<double>(at(row, side)), expected(row, side),
                       kFrontRounding<TypeParam> * expected.norm());
