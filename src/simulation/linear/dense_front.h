@@ -56,8 +56,7 @@ void add_remainder(const Scalar* remainder, std::span<const FrontRun> runs, cons
 template <class Scalar>
 Pivots eliminate_front(const DenseFront<Scalar>& front, Scalar* work);
 
-/// Right sides that are solved at once: four cost a little more than one where the factor comes from memory, twice as
-/// much where it is in the cache.
+/// Right sides that are solved at once, for the factor is read once for all of them.
 inline constexpr std::size_t kRightSides = 4;
 
 /// x[own] = L^-1 x[own] and x[below] -= L[below] x[own], gathered in the front's order: `values` holds kSides columns

@@ -113,7 +113,7 @@ TYPED_TEST(DenseFrontOf, OneSideAloneGivesTheSameBitsAsBesideOthers) {
     const int size = multiple_of_three(6, 120, random), own = multiple_of_three(3, size, random);
     OwnedFront<TypeParam> owned(well_conditioned(size, 0, random), own);
     ASSERT_EQ(eliminate_front(owned.front, owned.work.data()), Pivots::Positive);
-    const std::size_t stride = static_cast<std::size_t>(size + kFrontPadding);
+    const std::size_t stride = static_cast<std::size_t>(size) + kFrontPadding;
     std::vector<TypeParam> four(kRightSides * stride + kFrontPadding, TypeParam(0));
     for (std::size_t k = 0; k < kRightSides * stride; ++k) {
       if (k % stride < static_cast<std::size_t>(size)) four[k] = static_cast<TypeParam>(normal(random));
@@ -142,7 +142,7 @@ TYPED_TEST(DenseFrontOf, SolvingForthAndBackIsTheInverseOfTheWholeMatrix) {
       OwnedFront<TypeParam> owned(matrix, own);
       ASSERT_EQ(eliminate_front(owned.front, owned.work.data()), Pivots::Positive);
       const int stride = size + kFrontPadding;
-      std::vector<TypeParam> x(static_cast<std::size_t>(kSides * stride) + kFrontPadding, TypeParam(0));
+      std::vector<TypeParam> x(kRightSides * static_cast<std::size_t>(stride) + kFrontPadding, TypeParam(0));
       const auto at = [&](int row, int side) -> TypeParam& { return x[static_cast<std::size_t>(side * stride + row)]; };
       for (int side = 0; side < kSides; ++side) {
         for (int row = 0; row < size; ++row) at(row, side) = static_cast<TypeParam>(right(row, side));
