@@ -127,17 +127,30 @@ void add_bonds(Limb& limb, int muscle) {
   }
 }
 
-/// An order in which touches of one muscle are found again.
-bool before(const NeighbourTouch& a, const NeighbourTouch& b) {
-  return std::tie(a.neighbour, a.tie, a.count, a.nodes) < std::tie(b.neighbour, b.tie, b.count, b.nodes);
+using TouchLists = std::vector<std::vector<NeighbourTouch>>;  // one a muscle
+
+/// A muscle touches a neighbour with a node once, and is tied to it by that node once.
+bool is_before(const NeighbourTouch* a, const NeighbourTouch* b) {
+  return std::tie(a->neighbour, a->tie, a->nodes[0]) < std::tie(b->neighbour, b->tie, b->nodes[0]);
 }
 
-/// A muscle that keeps its tangent keeps the slopes that it was made with: of the touches that are still there.
-void keep_slopes(std::vector<NeighbourTouch> old, std::vector<NeighbourTouch>& touches) {
-  std::sort(old.begin(), old.end(), before);
-  for (NeighbourTouch& touch : touches) {
-    const auto found = std::lower_bound(old.begin(), old.end(), touch, before);
-    if (found != old.end() && !before(touch, *found)) touch.slope_N_m = found->slope_N_m;
+/// The touches of one muscle's own nodes that are where they were in `last` get the slopes that they had there, on both
+/// sides: muscles that keep their tangent were made with them. Others get new ones with their new tangent.
+void keep_slopes(const TouchLists& last, int muscle, Limb& limb) {
+  std::vector<const NeighbourTouch*> old;
+  for (const NeighbourTouch& touch : last[at(muscle)]) {
+    if (!touch.touched) old.push_back(&touch);
+  }
+  std::sort(old.begin(), old.end(), is_before);
+  for (NeighbourTouch& touch : limb.muscles[at(muscle)].state.touches) {
+    if (touch.touched) continue;
+    const auto found = std::lower_bound(old.begin(), old.end(), &touch, is_before);
+    if (found == old.end() || is_before(&touch, *found)) continue;
+    NeighbourTouch& side = limb.muscles[at(touch.neighbour)].state.touches[at(touch.counterpart)];
+    const NeighbourTouch& old_side = last[at(touch.neighbour)][at((*found)->counterpart)];
+    if (side.nodes != old_side.nodes) continue;
+    touch.slope_N_m = (*found)->slope_N_m;
+    side.slope_N_m = old_side.slope_N_m;
   }
 }
 
@@ -165,7 +178,7 @@ void search_where(Limb& limb, const std::vector<char>& moved, WorkerPool& worker
       follow(limb.muscles[at(m)].state.now.position_m, limb.touch_surfaces[at(m)]);
   });
   workers.run(count, [&](int m) { search_around(limb, m, moved); });
-  std::vector<std::vector<NeighbourTouch>> last(limb.muscles.size());
+  TouchLists last(limb.muscles.size());
   for (std::size_t m = 0; m < last.size(); ++m) last[m] = std::exchange(limb.muscles[m].state.touches, {});
   for (int m = 0; m < count; ++m) {
     const TouchSurface& surface = limb.touch_surfaces[at(m)];
@@ -175,10 +188,7 @@ void search_where(Limb& limb, const std::vector<char>& moved, WorkerPool& worker
     }
     add_bonds(limb, m);
   }
-  workers.run(count, [&](int m) {
-    LimbMuscle& muscle = limb.muscles[at(m)];
-    if (muscle.kept_rule) keep_slopes(std::move(last[at(m)]), muscle.state.touches);
-  });
+  workers.run(count, [&](int m) { keep_slopes(last, m, limb); });
   see_neighbours(limb);
 }
 

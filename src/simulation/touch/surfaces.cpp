@@ -10,8 +10,8 @@
 namespace myotact::simulation {
 namespace {
 
-/// A surface stays where it was drawn until one of its nodes has moved this far along an axis: at the stiffest contact
-/// of a hand, 3000 N/m, it is felt as 1.5 mN, a tenth of what a fingertip notices.
+/// A surface stays where it was drawn until one of its nodes has moved this far along an axis: at 8000 N/m, the
+/// stiffest of the devices in assets/devices, that is felt as 7 mN at most.
 constexpr double kUnfelt_m = 0.5e-6;
 
 }  // namespace

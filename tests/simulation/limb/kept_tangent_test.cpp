@@ -1,10 +1,16 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <map>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "anatomy/specimen.h"
+#include "simulation/limb/find_touches.h"
 #include "simulation/limb/settle.h"
 #include "simulation/limb/step.h"
 #include "support/source_folder.h"
@@ -43,7 +49,7 @@ struct ElbowRun {
     spring.point.weights[0] = 1.0;
     const MuscleTissue& tissue = limb.muscles[kPressed].tissue;
     const Eigen::VectorXd& positions_m = limb.muscles[kPressed].state.now.position_m;
-    const auto middle = limb.muscles[kPressed].state.now.position_m.reshaped(3, tissue.body.size()).rowwise().mean();
+    const Vec3 middle = positions_m.reshaped(3, positions_m.size() / 3).rowwise().mean();
     double highest_m = -1e300;  // the free node that is farthest out along y near the middle
     for (int node = 0; node < static_cast<int>(tissue.body.size()); ++node) {
       const Vec3 way = node_vector(positions_m, node) - middle;
@@ -70,7 +76,53 @@ struct ElbowRun {
   }
 };
 
+/// TouchSlopes of all touches, both sides, by muscle, touching node, tie, neighbour and the place there.
+using TouchSlopes = std::map<std::tuple<int, int, bool, int, std::array<int, 4>>, std::pair<double, double>>;
+TouchSlopes slopes_of(const Limb& limb) {
+  TouchSlopes slopes;
+  for (std::size_t m = 0; m < limb.muscles.size(); ++m) {
+    for (const NeighbourTouch& touch : limb.muscles[m].state.touches) {
+      if (touch.touched) continue;
+      const auto& theirs = limb.muscles[static_cast<std::size_t>(touch.neighbour)].state.touches;
+      const NeighbourTouch& side = theirs[static_cast<std::size_t>(touch.counterpart)];
+      slopes[{static_cast<int>(m), touch.nodes[0], touch.tie, touch.neighbour, side.nodes}] = {touch.slope_N_m,
+                                                                                               side.slope_N_m};
+    }
+  }
+  return slopes;
+}
+
 }  // namespace
+
+/// Several nodes may touch one face with slopes of their own; each finds its own again when faces are looked for anew.
+TEST(KeptTangent, TouchesThatStayKeepTheirSlopesOnBothSides) {
+  const anatomy::Specimen specimen = anatomy::load_specimen(source_folder() + "/meshes/canine_elbow");
+  Limb limb(specimen);
+  WorkerPool workers(2);
+  const auto shift = [&](double way_m) {
+    LimbMuscle& muscle = limb.muscles[kPressed];
+    for (int node = 0; node < static_cast<int>(muscle.tissue.body.size()); ++node) {
+      if (muscle.tissue.body[static_cast<std::size_t>(node)] < 0)
+        muscle.state.now.position_m.segment<3>(3 * node) += Vec3(way_m, way_m, way_m);
+    }
+  };
+  shift(0.3e-3);
+  find_touches(limb, workers);
+  for (LimbMuscle& muscle : limb.muscles) compute_system(limb.skeleton, {}, muscle);
+  const TouchSlopes before = slopes_of(limb);
+  shift(0.1e-3);
+  follow_touches(limb, workers);
+  int stayed = 0, pressing = 0;
+  for (const auto& [touch, slopes] : slopes_of(limb)) {
+    const auto found = before.find(touch);
+    if (found == before.end()) continue;
+    ++stayed;
+    pressing += found->second.first > 0.0;
+    EXPECT_EQ(slopes, found->second);
+  }
+  EXPECT_GT(stayed, 100);
+  EXPECT_GT(pressing, 20);
+}
 
 TEST(KeptTangent, IsNeitherSeenNorFelt) {
   ElbowRun kept, fresh;
