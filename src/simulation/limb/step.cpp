@@ -23,9 +23,9 @@ constexpr int kMostIterations = 5;
 constexpr double kSolvedShare = 0.02;
 /// A muscle that one Newton step has brought below this share has hardly changed: the next step begins with the same
 /// tangent. Its forces are always new: what the tangent has wrong is left as residual, and the next step makes it good.
-/// While an elbow is pressed and contracts, nine of ten tangents are kept and no node comes out more than 0.04 mm
-/// beside where new ones bring it (0.25 mm with 5e-3, which keeps three more in a hundred).
-constexpr double kKeptShare = 0.001;
+/// While an elbow is pressed and contracts, nine of ten tangents are kept and no node comes out more than 0.08 mm
+/// beside where new ones bring it (0.28 mm with 3e-4, which keeps one more in a hundred).
+constexpr double kKeptShare = 1e-4;
 /// Share to which the coupling of touching muscles is solved: a quarter of what counts as solved.
 constexpr double kCoupledShare = 0.005;
 /// The same in a static step, over the share that it starts from: each step then gains two digits at most.
@@ -40,6 +40,13 @@ constexpr double kSmallestJ = -0.5;
 /// A Newton step ends where the energy rises by less than this part of how steeply it fell at the start.
 constexpr double kSteepestRise = 0.5;
 constexpr int kMostCuts = 5;
+/// Part of the way to a place where something folds over that is tried next.
+constexpr double kUnsoundShare = 0.3;
+/// Part of its last velocity with which everything is carried on to where a step's first tangent is made. The whole of
+/// it overshoots where a hand or a surface stops what moved: then 979 Newton steps instead of 759 in 3 s of pressing
+/// muscles that lie on each other, 798 with none of it. It also brings the steps nearer to those that are solved to the
+/// last digit: 0.03 mm off on average instead of 0.06, while an elbow is pressed and contracts.
+constexpr double kCarriedOn = 0.7;
 
 /// The Newton step from the instant where it was computed: start + part * change.
 struct Way {
@@ -134,15 +141,36 @@ Way make_way(Limb& limb, const SmallSystem& small, const Solutions& solutions, W
   return way;
 }
 
-/// Goes the whole way unless the energy rises steeply by then; then back towards the lowest place on it.
-/// `part`: how much of it at most, then how much was gone.
+/// A place on the way.
+struct Place {
+  double part = 0.0;
+  double slope = 0.0;  // of the energy; not a number where the limb is not sound
+};
+
+/// Where the slope between two places is zero, were it a straight line; not too near to either.
+double part_between(const Place& before, const Place& beyond) {
+  const double share = std::isfinite(beyond.slope) ? before.slope / (before.slope - beyond.slope) : kUnsoundShare;
+  return before.part + std::clamp(share, 0.1, 0.8) * (beyond.part - before.part);
+}
+
+/// Goes the whole way unless the energy rises steeply by then; then to where it is lowest, or nearly: surfaces that
+/// close on the way have no slope at its start, and a step that ends before they close would bring the next one no
+/// farther. `part`: how much of it at most, then how much was gone.
 bool search_way(Limb& limb, const TissueLoad& load, const Way& way, WorkerPool& workers, double& part) {
-  const double start_slope = energy_slope(limb, load.rule, way);
+  Place before{0.0, energy_slope(limb, load.rule, way)};
+  const double steep = kSteepestRise * -before.slope;
+  std::optional<Place> beyond;
   for (int cut = 0; cut < kMostCuts; ++cut) {
     const bool sound = go(limb, load, way, part, workers);
-    const double slope = sound ? energy_slope(limb, load.rule, way) : 0.0;
-    if (sound && (start_slope >= 0.0 || slope < kSteepestRise * -start_slope)) return true;
-    part *= sound ? std::clamp(start_slope / (start_slope - slope), 0.1, 0.7) : 0.3;
+    const Place here{part, sound ? energy_slope(limb, load.rule, way) : std::numeric_limits<double>::quiet_NaN()};
+    const bool rises = here.slope >= steep, falls = beyond && here.slope <= -steep;
+    if (sound && (steep <= 0.0 || (!rises && !falls))) return true;
+    if (here.slope < 0.0) {
+      before = here;
+    } else {
+      beyond = here;
+    }
+    part = part_between(before, *beyond);
   }
   return go(limb, load, way, part, workers);
 }
@@ -262,6 +290,15 @@ void finish(Limb& limb, const TimeRule& rule) {
   read_out(limb);
 }
 
+/// Puts the limb where its velocity would have it, so that what closes or opens during the step is seen by its first
+/// tangent.
+void carry_on(Limb& limb, double time_s) {
+  limb.now.angle_rad += time_s * limb.last.velocity_rad_s;
+  for (LimbMuscle& muscle : limb.muscles) {
+    if (!muscle.rigid) muscle.state.now.position_m += time_s * muscle.state.last.velocity_m_s;
+  }
+}
+
 }  // namespace
 
 StepReport advance(Limb& limb, const StepInput& input, WorkerPool& workers) {
@@ -270,6 +307,7 @@ StepReport advance(Limb& limb, const StepInput& input, WorkerPool& workers) {
   load.gravity_m_s2 = limb.gravity_m_s2;
   limb.spring_force_N.assign(limb.springs.size(), Vec3::Zero());
   limb.spring_compliance_m_N.assign(limb.springs.size(), Mat3::Zero());
+  if (input.second_order_in_time) carry_on(limb, kCarriedOn * input.dt_s);
   follow_angles(limb);
   evaluate_lines(limb, load.rule);
   follow_touches(limb, workers);
