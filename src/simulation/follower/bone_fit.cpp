@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/LU>
 #include <Eigen/SparseCholesky>
@@ -23,6 +24,12 @@ constexpr int kMostHalvings = 2;
 constexpr double kReach_m = 0.03;
 /// One that touches none enters by less than this from one sample to the next [m]; farther out it is not looked at.
 constexpr double kEntersBy_m = 0.01;
+/// A vertex is no deeper in a bone at the file pose than this [m].
+constexpr double kDeepest_m = 0.02;
+/// What is added to a distance that bounds a search [m].
+constexpr double kRounding_m = 1e-9;
+/// The gap of a vertex that nobody has looked at, or with no bone in reach [m].
+constexpr double kUnknown_m = std::numeric_limits<double>::infinity();
 /// Out of bounds by less than this is left alone [m]; an eighth of what is asked for.
 constexpr double kFine_m = 0.25e-3;
 /// The surface's hold over the tissue's: a push fades into the tissue over about this length, inverted [1/m].
@@ -49,8 +56,13 @@ struct Vertex {
   double area_m2 = 0.0;
   double hold_m = 0.0;  // by which it is held when it is
   BoneBounds bounds;
-  double free_m = 0.0;  // it may move this far before it can be out of bounds; as of `looked_at_m`
-  Vec3 looked_at_m = Vec3::Zero();
+  /// What was seen when the vertex was last looked at: where it was, in the world and in the frame of the body that the
+  /// joint moves; the gap there; and how far it may go from there before it can be out of bounds.
+  struct Look {
+    Vec3 at_W_m = Vec3::Zero(), at_B_m = Vec3::Zero();
+    double gap_m = kUnknown_m, free_m = 0.0;
+  };
+  Look look, rest_look;  // the last one, and that at the file pose
   Vec3 now_m = Vec3::Zero();
   Vec3 shift_m = Vec3::Zero();  // back into its bounds
   bool held = false;            // it was out of bounds in this sample
@@ -81,11 +93,22 @@ bool lies_on(const BoneFitInput& input, int body, const Vec3& rest_m) {
   });
 }
 
+double known_gap_m(const BoneGap& gap) {
+  return gap.outward.isZero() ? kUnknown_m : std::abs(gap.distance_m);
+}
+
+/// How far a vertex may go before it can be out of bounds.
+double free_way_m(const BoneBounds& bounds, const BoneGap& gap) {
+  return std::min(gap.distance_m - bounds.nearest_m, bounds.farthest_m - gap.distance_m);
+}
+
 /// Fits one follower in one pose after the other.
 class Fitter {
  public:
   Fitter(const BoneFitInput& input, const Skeleton& skeleton, const Follower& follower);
 
+  /// Only this joint leaves the file pose from now on.
+  void move_joint(int joint);
   /// From `shift_m` (rest frame, one column a node) to the fitted one. False when nothing was out of bounds: then it
   /// stays as it is.
   bool fit(std::span<const double> angles_rad, Eigen::Matrix3Xd& shift_m);
@@ -94,13 +117,17 @@ class Fitter {
 
  private:
   void start(std::span<const double> angles_rad, const Eigen::Matrix3Xd& shift_m);
-  void measure(bool anew);
+  void measure();
+  Vec3 in_moved_body(const Vec3& p_W) const;
+  double way_m(const Vertex& vertex) const;
+  BoneGap look_at(Vertex& vertex) const;
   double look();
   void solve();
 
   const BoneFitInput& in_;
   Skeleton skeleton_;
   const Follower& follower_;
+  int moved_body_ = -1;  // this one and all beyond it; the others stay where they are
   std::vector<Vertex> vertices_;
   Matrix base_;    // tissue and clamps
   Matrix matrix_;  // and the held vertices
@@ -122,8 +149,14 @@ Fitter::Fitter(const BoneFitInput& input, const Skeleton& skeleton, const Follow
     for (std::size_t k = 0; k < at(weights.count); ++k) {
       rest_m += weights.weights[k] * input.mesh.nodes_m[at(weights.nodes[k])];
     }
-    vertices_.push_back({&weights, area_m2[v], kHold_1_m * area_m2[v] / std::max(1.0, lever(weights)),
-                         bounds_at_rest(input.bones, skeleton_, rest_m)});
+    const BoneGap gap = gap_to_bones(input.bones, skeleton_, rest_m, kDeepest_m);
+    Vertex vertex;
+    vertex.weights = &weights;
+    vertex.area_m2 = area_m2[v];
+    vertex.hold_m = kHold_1_m * area_m2[v] / std::max(1.0, lever(weights));
+    vertex.bounds = bounds_at_rest(gap);
+    vertex.rest_look = {rest_m, rest_m, known_gap_m(gap), free_way_m(vertex.bounds, gap)};
+    vertices_.push_back(vertex);
   }
   const MeshFields fields = make_mesh_fields(input.mesh);
   const auto nodes = static_cast<Eigen::Index>(input.mesh.nodes_m.size());
@@ -154,7 +187,12 @@ Fitter::Fitter(const BoneFitInput& input, const Skeleton& skeleton, const Follow
   factor_.analyzePattern(matrix_);
 }
 
-void Fitter::measure(bool anew) {
+void Fitter::move_joint(int joint) {
+  moved_body_ = skeleton_.joint(joint).child;
+  for (Vertex& vertex : vertices_) vertex.look = vertex.rest_look;
+}
+
+void Fitter::measure() {
   for (Vertex& vertex : vertices_) {
     Vec3 p = Vec3::Zero();
     for (std::size_t k = 0; k < at(vertex.weights->count); ++k) {
@@ -162,11 +200,29 @@ void Fitter::measure(bool anew) {
       p += vertex.weights->weights[k] * (placed_m_.row(node) + moved_m_.row(node)).transpose();
     }
     vertex.now_m = p;
-    if (anew) {
-      vertex.free_m = 0.0;
-      vertex.held = false;
-    }
   }
+}
+
+Vec3 Fitter::in_moved_body(const Vec3& p_W) const {
+  const Pose& X_WB = skeleton_.body_pose(moved_body_);
+  return X_WB.rotation.transpose() * (p_W - X_WB.translation_m);
+}
+
+/// How far a vertex has gone since it was looked at, against those bones that stand still or those that the joint
+/// moves, whichever is more.
+double Fitter::way_m(const Vertex& vertex) const {
+  return std::max((vertex.now_m - vertex.look.at_W_m).norm(),
+                  (in_moved_body(vertex.now_m) - vertex.look.at_B_m).norm());
+}
+
+/// The gap of a vertex that may be out of bounds. It changes by no more than the vertex moves against the bones, which
+/// is how far one has to look.
+BoneGap Fitter::look_at(Vertex& vertex) const {
+  const double reach_m = std::isfinite(vertex.bounds.farthest_m) ? kReach_m : kEntersBy_m;
+  const double gap_m = vertex.look.gap_m + way_m(vertex) + kRounding_m;
+  const BoneGap gap = gap_to_bones(in_.bones, skeleton_, vertex.now_m, std::min(reach_m, gap_m));
+  vertex.look = {vertex.now_m, in_moved_body(vertex.now_m), known_gap_m(gap), free_way_m(vertex.bounds, gap)};
+  return gap;
 }
 
 /// Looks at all vertices that may be out of bounds. How far they are: sum of area and square; 0 when none is out by
@@ -176,12 +232,9 @@ double Fitter::look() {
   bool out = false;
   for (Vertex& vertex : vertices_) {
     vertex.shift_m.setZero();
-    if (vertex.free_m > 0.0 && (vertex.now_m - vertex.looked_at_m).norm() < vertex.free_m) continue;
-    const double reach_m = std::isfinite(vertex.bounds.farthest_m) ? kReach_m : kEntersBy_m;
-    const BoneGap gap = gap_to_bones(in_.bones, skeleton_, vertex.now_m, reach_m);
-    vertex.looked_at_m = vertex.now_m;
+    if (vertex.look.free_m > 0.0 && way_m(vertex) < vertex.look.free_m) continue;
+    const BoneGap gap = look_at(vertex);
     const double wanted_m = std::clamp(gap.distance_m, vertex.bounds.nearest_m, vertex.bounds.farthest_m);
-    vertex.free_m = std::min(gap.distance_m - vertex.bounds.nearest_m, vertex.bounds.farthest_m - gap.distance_m);
     vertex.shift_m = (wanted_m - gap.distance_m) * gap.outward;
     sum_m4 += vertex.area_m2 * vertex.shift_m.squaredNorm();
     if (vertex.shift_m.norm() > kFine_m) out = vertex.held = true;
@@ -222,7 +275,8 @@ void Fitter::start(std::span<const double> angles_rad, const Eigen::Matrix3Xd& s
     placed_m_.row(i) = (map * in_.mesh.nodes_m[static_cast<std::size_t>(i)]).transpose();
     moved_m_.row(i) = (map.linear * shift_m.col(i)).transpose();
   }
-  measure(true);
+  measure();
+  for (Vertex& vertex : vertices_) vertex.held = false;
 }
 
 double Fitter::worst_m(std::span<const double> angles_rad, const Eigen::Matrix3Xd& shift_m) {
@@ -243,7 +297,7 @@ bool Fitter::fit(std::span<const double> angles_rad, Eigen::Matrix3Xd& shift_m) 
   int idle = 0;  // rounds in a row that gained next to nothing
   for (int round = 0; round < kMostRounds && best_m4 > 0.0; ++round) {
     solve();
-    measure(false);
+    measure();
     const double now_m4 = look();
     const bool gains = now_m4 < kLeastGain * best_m4;
     if (now_m4 < best_m4) {
@@ -310,6 +364,7 @@ void halve_cells(Fitter& fitter, int joint, std::vector<double>& pose, JointSamp
 
 /// The table of one joint; without samples when the joint has no part in the follower.
 FollowerTable fit_joint(Fitter& fitter, const Skeleton& skeleton, int joint, Eigen::Index nodes) {
+  fitter.move_joint(joint);
   JointSamples samples{sample_angles(skeleton.joint(joint)), {}};
   samples.shift_m.assign(samples.angles_rad.size(), Eigen::Matrix3Xd::Zero(3, nodes));
   std::vector<double> pose(at(skeleton.joint_count()), 0.0);

@@ -27,11 +27,10 @@ BoneGap gap_to_bones(const BoneSurfaces& bones, const Skeleton& skeleton, const 
   return gap;
 }
 
-BoneBounds bounds_at_rest(const BoneSurfaces& bones, const Skeleton& at_file_pose, const Vec3& rest_m) {
-  constexpr double kDeepest_m = 0.02;
-  const double rest_gap_m = gap_to_bones(bones, at_file_pose, rest_m, kDeepest_m).distance_m;
-  const bool touches = rest_gap_m <= kTouchingGap_m;
-  return {std::min(0.0, rest_gap_m), touches ? std::max(0.0, rest_gap_m) : std::numeric_limits<double>::infinity()};
+BoneBounds bounds_at_rest(const BoneGap& gap) {
+  const bool touches = gap.distance_m <= kTouchingGap_m;
+  return {std::min(0.0, gap.distance_m),
+          touches ? std::max(0.0, gap.distance_m) : std::numeric_limits<double>::infinity()};
 }
 
 }  // namespace myotact::simulation

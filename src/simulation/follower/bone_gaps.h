@@ -39,7 +39,7 @@ struct BoneBounds {
 /// in a surface taken from voxels of 1 mm.
 inline constexpr double kTouchingGap_m = 1e-3;
 
-/// Bounds of a point at rest.
-BoneBounds bounds_at_rest(const BoneSurfaces& bones, const Skeleton& at_file_pose, const Vec3& rest_m);
+/// From the gap at the file pose.
+BoneBounds bounds_at_rest(const BoneGap& gap);
 
 }  // namespace myotact::simulation
