@@ -19,6 +19,7 @@ class Crew {
   Crew(const scene::Scene& scene, int workers, int all, const SweepWatch& watch)
       : scene_(scene), settings_(scene.settings), pool_(workers), watch_(watch), all_(all) {
     settings_.workers = 1;
+    settings_.shapes = false;
     simulations_.resize(static_cast<std::size_t>(workers));
   }
 

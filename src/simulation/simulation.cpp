@@ -47,7 +47,7 @@ Simulation::Impl::Impl(const anatomy::Specimen& given, const SimulationSettings&
     measure_line(*found, limb.skeleton, geometry);
     lines.push_back({&*found, arc_fractions(line_points_W(*found, limb.skeleton)), geometry.length_m});
   }
-  fit_followers();
+  if (settings.shapes) fit_followers();
   workers.run(surfaces.count(), [&](int surface) { surfaces.follow(limb, surface, true); });
   if (settings.tether) tether.emplace(*settings.tether, specimen);
   read_out(limb);

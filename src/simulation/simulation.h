@@ -29,6 +29,7 @@ struct SimulationSettings {
   bool contact = true;  // muscles touch bones and each other; false is for speed where touch is all that counts
   Fascia fascia = {};   // holds muscles to each other that lie side by side at the file pose; zero: none
   std::optional<TetherSettings> tether = {};  // then nothing else is felt
+  bool shapes = true;  // muscles that only follow bones are fitted to them; false is for what nobody looks at
 };
 
 /// Joint stiffness K = -d(net torque)/dq at held activations and held other joints, and what it is made of. All about
