@@ -181,6 +181,7 @@ void HapticLoop::report(const messages::DeviceState& state) noexcept {
   effects_.report(tool);
   if (!device_is_sound_) {  // what was touched before is not touched now
     tool.contact = {};
+    tool.beside = {};
     tool.touched_world_m = {};
   }
   tools_.publish(tool);

@@ -18,6 +18,7 @@ struct HandForce {
 inline ToolState let_go(ToolState state) noexcept {
   state.sequence = 0;
   state.contact = {};
+  state.beside = {};
   state.touched_world_m = {};
   state.force_world_N = {};
   state.buttons = 0;

@@ -32,6 +32,14 @@ SmallFrame small(FrameType type, std::uint8_t flags, const T&... values) noexcep
   return frame;
 }
 
+/// `place`: 0 that which carries most, then those beside.
+SmallFrame contact_frame(std::uint8_t place, const messages::ToolContact& contact,
+                         const std::array<double, 3>& touched_world_m) noexcept {
+  return small(FrameType::ToolContact, place, contact.surface, contact.triangle, contact.barycentric[0],
+               contact.barycentric[1], contact.normal_world, contact.target_world_m, contact.stiffness_N_m,
+               touched_world_m);
+}
+
 }  // namespace
 
 ToolStateFrames encode(const messages::ToolState& state) noexcept {
@@ -40,9 +48,11 @@ ToolStateFrames encode(const messages::ToolState& state) noexcept {
   const messages::ToolContact& contact = state.contact;
   if (contact.surface >= 0 || contact.stiffness_N_m > 0.0) {
     flags |= kWithContact;
-    out.frames[out.count++] = small(FrameType::ToolContact, 0, contact.surface, contact.triangle,
-                                    contact.barycentric[0], contact.barycentric[1], contact.normal_world,
-                                    contact.target_world_m, contact.stiffness_N_m, state.touched_world_m);
+    for (std::size_t i = state.beside.size(); i-- > 0;) {
+      if (state.beside[i].stiffness_N_m > 0.0)
+        out.frames[out.count++] = contact_frame(static_cast<std::uint8_t>(i + 1), state.beside[i], {});
+    }
+    out.frames[out.count++] = contact_frame(0, contact, state.touched_world_m);
   }
   if (state.grabbed_line >= 0 || state.grabbed_body >= 0) {
     flags |= kWithGrip;
@@ -59,7 +69,7 @@ ToolStateFrames encode(const messages::ToolState& state) noexcept {
 bool ToolStateJoiner::take(const Frame& frame) noexcept {
   bool sound = false;
   messages::ToolState whole = state_;
-  if (frame.header.type == FrameType::ToolContact) sound = take_contact(frame.payload);
+  if (frame.header.type == FrameType::ToolContact) sound = take_contact(frame);
   if (frame.header.type == FrameType::ToolGrip) sound = take_grip(frame.payload);
   if (frame.header.type == FrameType::ToolState) sound = take_state(frame, whole);
   if (sound) state_ = whole;
@@ -71,6 +81,7 @@ bool ToolStateJoiner::take_state(const Frame& frame, messages::ToolState& state)
   state = {};
   if ((frame.header.flags & kWithContact) != 0) {
     state.contact = parts_.contact;
+    state.beside = parts_.beside;
     state.touched_world_m = parts_.touched_world_m;
   }
   if ((frame.header.flags & kWithGrip) != 0) {
@@ -99,9 +110,11 @@ bool ToolStateJoiner::take_state(const Frame& frame, messages::ToolState& state)
          within(state.force_world_N, kMostForce_N);
 }
 
-bool ToolStateJoiner::take_contact(std::span<const std::uint8_t> payload) noexcept {
-  messages::ToolContact& contact = parts_.contact;
-  ByteReader in(payload);
+bool ToolStateJoiner::take_contact(const Frame& frame) noexcept {
+  const std::uint8_t place = frame.header.flags;
+  if (place > messages::kMaxContactsBeside) return false;
+  messages::ToolContact& contact = place == 0 ? parts_.contact : parts_.beside[place - 1u];
+  ByteReader in(frame.payload);
   in.get(contact.surface);
   in.get(contact.triangle);
   in.get(contact.barycentric[0]);
@@ -110,6 +123,7 @@ bool ToolStateJoiner::take_contact(std::span<const std::uint8_t> payload) noexce
   in.get(contact.target_world_m);
   in.get(contact.stiffness_N_m);
   in.get(parts_.touched_world_m);
+  if (place > 0) contact.barycentric[2] = 1.0 - contact.barycentric[0] - contact.barycentric[1];
   return in.done() && contact.surface >= -1 && contact.triangle >= -1 && within(contact.barycentric, 1.0 + kRounding) &&
          within(contact.normal_world, 1.0 + kRounding) && within(contact.target_world_m, kFarthest_m) &&
          within(parts_.touched_world_m, kFarthest_m) && contact.stiffness_N_m >= 0.0 &&

@@ -13,7 +13,7 @@ inline constexpr std::uint8_t kWithContact = 1, kWithGrip = 2;  // flags of a To
 
 /// A tool state as frames: what it touches and what it holds come first, where there is something, then the state.
 struct ToolStateFrames {
-  std::array<SmallFrame, 3> frames;
+  std::array<SmallFrame, 3 + messages::kMaxContactsBeside> frames;
   std::size_t count = 0;
 
   std::span<const SmallFrame> used() const& noexcept { return std::span(frames).first(count); }
@@ -30,7 +30,7 @@ class ToolStateJoiner {
 
  private:
   bool take_state(const Frame& frame, messages::ToolState& state) const noexcept;
-  bool take_contact(std::span<const std::uint8_t> payload) noexcept;
+  bool take_contact(const Frame& frame) noexcept;
   bool take_grip(std::span<const std::uint8_t> payload) noexcept;
 
   messages::ToolState state_;

@@ -1,5 +1,7 @@
 #include "scene/remote_hand.h"
 
+#include <algorithm>
+
 #include "core/vector.h"
 
 namespace myotact::scene {
@@ -23,7 +25,10 @@ bool is_below(std::int32_t index, std::size_t count) {
 }  // namespace
 
 messages::ToolState heeded(const messages::ToolState& received, const anatomy::Specimen& specimen) {
-  const bool fits = is_below(received.contact.surface, specimen.muscles.size() + specimen.bones.size()) &&
+  const std::size_t surfaces = specimen.muscles.size() + specimen.bones.size();
+  const bool fits = is_below(received.contact.surface, surfaces) &&
+                    std::all_of(received.beside.begin(), received.beside.end(),
+                                [&](const messages::ToolContact& c) { return is_below(c.surface, surfaces); }) &&
                     is_below(received.grabbed_line, specimen.muscles.size()) &&
                     is_below(received.grabbed_body, specimen.bodies.size());
   return fits && received.sequence > 0 ? received : messages::let_go(received);

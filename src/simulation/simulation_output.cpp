@@ -26,15 +26,21 @@ void write_tether_alone(const messages::LocalTether& tether, messages::LocalMode
 void Simulation::Impl::write_contact(const messages::ToolContact& contact, int index,
                                      messages::LocalModel& model) const {
   model.contact = {};
+  const auto first = std::find_if(limb.springs.begin(), limb.springs.end(), [&](const ToolSpring& spring) {
+    return spring.tool == index && spring.surface >= 0 && spring.surface == contact.surface &&
+           spring.target_W_m == to_vec3(contact.target_world_m);
+  });
+  if (contact.stiffness_N_m <= 0.0 || first == limb.springs.end()) return;
+  model.contact.surface = contact.surface;
+  Vec3 force_N = Vec3::Zero();
+  Mat3 compliance = Mat3::Zero();
   for (std::size_t s = 0; s < limb.springs.size(); ++s) {
-    const ToolSpring& spring = limb.springs[s];
-    if (contact.stiffness_N_m <= 0.0 || spring.surface < 0 || spring.surface != contact.surface) continue;
-    if (spring.tool != index || spring.target_W_m != to_vec3(contact.target_world_m)) continue;
-    model.contact.surface = contact.surface;
-    model.contact.force_world_N = to_array(limb.spring_force_N[s]);
-    const Mat3& compliance = limb.spring_compliance_m_N[s];
-    for (int k = 0; k < 9; ++k) model.contact.compliance_m_N[at(k)] = compliance(k / 3, k % 3);
+    if (limb.springs[s].open || !of_one_sphere(*first, limb.springs[s])) continue;
+    force_N += limb.spring_force_N[s];
+    compliance = limb.spring_compliance_m_N[s];  // of the sphere: the same for all its points
   }
+  model.contact.force_world_N = to_array(force_N);
+  for (int k = 0; k < 9; ++k) model.contact.compliance_m_N[at(k)] = compliance(k / 3, k % 3);
 }
 
 messages::LocalLine Simulation::Impl::line_at(const messages::ToolState& tool, int index) const {

@@ -76,6 +76,25 @@ double distance_to_any_m(const MovingSurface& surface, const Vec3& p_m) {
   return nearest_m;
 }
 
+/// Of what the proxy says that it rests on: every other surface within 1 mm of the sphere, by a look at all triangles.
+int check_beside(const MovingSurface& surface, const Proxy& proxy, double radius_m) {
+  int count = 0;
+  for (const ProxyNeighbour& beside : proxy.contact().beside) count += beside.surface >= 0;
+  int expected = 0;
+  for (int s = 0; proxy.contact().active && s < 3; ++s) {
+    double nearest_m = 1.0;
+    for (int i = 0; i < surface.triangle_count(); ++i) {
+      if (surface.triangle(i).surface != s) continue;
+      const geometry::TrianglePoint place = geometry::closest_point_on_triangle(
+          proxy.position_m(), surface.corner_m(i, 0, 1.0), surface.corner_m(i, 1, 1.0), surface.corner_m(i, 2, 1.0));
+      nearest_m = std::min(nearest_m, (place.position_m - proxy.position_m()).norm());
+    }
+    expected += s != proxy.contact().surface && nearest_m <= radius_m + 1e-3;
+  }
+  EXPECT_EQ(count, expected);
+  return count;
+}
+
 TEST(SeveralSurfaces, NoneIsEverEntered) {
   const Room room = make_room();
   ContactSettings settings;
@@ -85,6 +104,7 @@ TEST(SeveralSurfaces, NoneIsEverEntered) {
   auto model = std::make_unique<messages::LocalModel>();
   std::array<bool, 3> touched{};
   double nearest_m = 1.0;
+  int most_beside = 0;
   for (int tick = 0; tick < 6000; ++tick) {
     const std::uint64_t now_ns = static_cast<std::uint64_t>(tick + 1) * kTick_ns;
     const double t = 1e-3 * tick;
@@ -106,6 +126,8 @@ TEST(SeveralSurfaces, NoneIsEverEntered) {
     surface.begin_tick(*model, now_ns, is_new);
     proxy.tick(surface, *model, {hand_m, Vec3::Zero()}, 1e-3);
     if (proxy.contact().active) touched[static_cast<std::size_t>(proxy.contact().surface)] = true;
+    const int beside = check_beside(surface, proxy, settings.radius_m);
+    most_beside = std::max(most_beside, beside);
     nearest_m = std::min(nearest_m, distance_to_any_m(surface, proxy.position_m()));
     ASSERT_GT(proxy.position_m().z(), 0.0) << tick;
     if (tick % kTicksAStep == kTicksAStep - 1) {  // the surfaces stand where the step ends
@@ -114,6 +136,7 @@ TEST(SeveralSurfaces, NoneIsEverEntered) {
     }
   }
   EXPECT_TRUE(touched[0] && touched[1] && touched[2]);
+  EXPECT_EQ(most_beside, 1);  // three are nowhere so near to each other
   EXPECT_EQ(proxy.counters().rescues, 0u);
   // Where box and ball leave less room than the sphere needs it is squeezed, never to nothing.
   EXPECT_GT(nearest_m, 0.5e-3);

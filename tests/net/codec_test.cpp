@@ -72,6 +72,37 @@ TEST(Codec, ToolStatesComeThroughBitForBit) {
   EXPECT_EQ(joiner.state().grabbed_line, 2);
 }
 
+messages::ToolContact contact_beside(int place) {
+  const double share = 0.1 * place + 1.0 / 3.0;
+  return {10 + place, 5 * place, {share, 0.2, 1.0 - share - 0.2}, {0.0, 0.8, 0.6}, {0.3, 0.1, 0.2}, 812.5};
+}
+
+TEST(Codec, ContactsBesideTheFirstComeThroughBitForBit) {
+  ToolStateJoiner joiner;
+  for (std::size_t count = 1; count <= messages::kMaxContactsBeside; ++count) {
+    messages::ToolState state = touching_state();
+    for (std::size_t i = 0; i < count; ++i) state.beside[i] = contact_beside(static_cast<int>(i));
+    ASSERT_EQ(encode(state).count, 3u + count);
+    ASSERT_TRUE(join(encode(state), state.time_ns, joiner));
+    EXPECT_EQ(std::memcmp(&joiner.state(), &state, sizeof state), 0);
+  }
+  ASSERT_TRUE(join(encode(touching_state()), 0, joiner));
+  EXPECT_EQ(joiner.state().beside[0].stiffness_N_m, 0.0) << "those of an earlier state must not stay";
+}
+
+TEST(Codec, RefusesMoreContactsThanThereAreAndOnesOutOfRange) {
+  messages::ToolState state = touching_state();
+  state.beside[0] = contact_beside(0);
+  const ToolStateFrames frames = encode(state);
+  FrameHeader header;
+  header.type = FrameType::ToolContact;
+  header.flags = messages::kMaxContactsBeside + 1;
+  ToolStateJoiner joiner;
+  EXPECT_FALSE(joiner.take({header, frames.frames[0].payload()}));
+  state.beside[0].target_world_m[1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(join(encode(state), 0, joiner));
+}
+
 TEST(Codec, EveryFrameOfAToolStateFitsIntoTheSmallOnes) {
   const ToolStateFrames frames = encode(touching_state());
   for (const SmallFrame& frame : frames.used()) EXPECT_LE(kHeaderBytes + frame.size, 128u);

@@ -25,6 +25,11 @@ double along(const Vec3& normal, const std::array<double, 9>& rows) {
   return std::clamp(normal.dot(compliance * normal), 0.0, kLargestCompliance_m_N);
 }
 
+bool rests_on(const ProxyContact& touching, std::int32_t surface) {
+  return touching.surface == surface || std::any_of(touching.beside.begin(), touching.beside.end(),
+                                                    [&](const ProxyNeighbour& b) { return b.surface == surface; });
+}
+
 /// Used in place of 0, so that nothing is divided by 0: a millimetre gives 1 uN.
 constexpr double kLeastStiffness_N_m = 1e-3;
 
@@ -33,7 +38,7 @@ constexpr double kLeastStiffness_N_m = 1e-3;
 void ContactCompliance::tick(const messages::LocalModel& model, const ProxyContact& touching, std::uint64_t now_ns,
                              double dt_s) noexcept {
   const messages::LocalContact& known = model.contact;
-  const bool elsewhere = touching.active && touching.surface != known.surface;
+  const bool elsewhere = touching.active && !(known.surface >= 0 && rests_on(touching, known.surface));
   double compliance_m_N = compliance_m_N_;  // kept after the contact: the next touch of the same tissue finds it
   Vec3 used_N = Vec3::Zero();
   if (elsewhere && touching.surface != surface_) {

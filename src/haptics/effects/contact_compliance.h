@@ -25,8 +25,8 @@ class ContactCompliance {
  public:
   /// What the device supports from now on [N/m]; next to nothing where it is 0.
   void limit_stiffness(double stiffness_N_m) noexcept;
-  /// Plays the model's contact on to `now_ns`. `touching`: what the proxy touched at the end of the last tick. `dt_s`
-  /// > 0, of the tick.
+  /// Plays the model's contact on to `now_ns`. `touching`: what the proxy touched at the end of the last tick; surfaces
+  /// that it rests on together give way together. `dt_s` > 0, of the tick.
   void tick(const messages::LocalModel& model, const ProxyContact& touching, std::uint64_t now_ns,
             double dt_s) noexcept;
   /// Nothing is known of the tissue any more: as rigid as before the first contact.

@@ -62,6 +62,7 @@ std::uint32_t ContactEffect::soften(const HandTick& hand) noexcept {
 
 void ContactEffect::report(messages::ToolState& tool) const noexcept {
   tool.contact = {};
+  tool.beside = {};
   tool.touched_world_m = {};
   std::visit([&](const auto& method) { method.report(force_N_, share_, tool); }, method_);
 }

@@ -77,6 +77,17 @@ void ProxyTouch::report(const Vec3& force_N, double share, messages::ToolState& 
                   to_array(touched_m - force_N / stiffness_N_m),
                   stiffness_N_m};
   tool.touched_world_m = to_array(touched_m);
+  // The same spring pulls those beside, as soon as the sphere that it pulls comes to lie on them.
+  for (std::size_t i = 0; i < contact.beside.size(); ++i) {
+    const ProxyNeighbour& near = contact.beside[i];
+    if (near.surface < 0) break;
+    tool.beside[i] = {near.surface,
+                      near.triangle,
+                      {near.barycentric[0], near.barycentric[1], 1.0 - near.barycentric[0] - near.barycentric[1]},
+                      to_array(near.normal),
+                      to_array(near.point_m + tissue_shift_m + near.gap_m * near.normal - force_N / stiffness_N_m),
+                      stiffness_N_m};
+  }
 }
 
 }  // namespace myotact::haptics

@@ -143,6 +143,32 @@ Vec3 NearSurface::allowed(const Vec3& from_m, const Vec3& wanted_m) noexcept {
   return move_m;
 }
 
+int NearSurface::nearest_beside(const Vec3& p_m, std::int32_t surface, double reach_m,
+                                std::span<NearestPoint> found) const noexcept {
+  const auto surface_of = [&](const NearestPoint& point) { return surface_->triangle(point.local).surface; };
+  const auto is_nearer = [](const NearestPoint& a, const NearestPoint& b) { return a.distance_m < b.distance_m; };
+  std::size_t count = 0;
+  for (int i = 0; i < surface_->triangle_count(); ++i) {
+    const double far_m = sphere(i).radius_m + reach_m + moved_m_;
+    if (surface_->triangle(i).surface == surface || (sphere(i).centre_m - p_m).squaredNorm() > far_m * far_m) continue;
+    const geometry::TrianglePoint nearest = geometry::closest_point_on_triangle(
+        p_m, surface_->corner_m(i, 0, 1.0), surface_->corner_m(i, 1, 1.0), surface_->corner_m(i, 2, 1.0));
+    const NearestPoint point{i, (p_m - nearest.position_m).norm(), nearest.position_m, nearest.barycentric};
+    if (!(point.distance_m > 0.0 && point.distance_m <= reach_m)) continue;
+    const auto known = found.first(count);
+    auto place = std::find_if(known.begin(), known.end(),
+                              [&](const NearestPoint& other) { return surface_of(other) == surface_of(point); });
+    if (place == known.end() && count < found.size()) {
+      found[count++] = point;
+      continue;
+    }
+    if (place == known.end()) place = std::max_element(known.begin(), known.end(), is_nearer);
+    if (place != known.end() && is_nearer(point, *place)) *place = point;
+  }
+  std::sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(count), is_nearer);
+  return static_cast<int>(count);
+}
+
 double NearSurface::relative_motion_m(const Vec3& carried_m) const noexcept {
   double largest_m2 = 0.0;
   for (int i = 0; i < candidate_count_; ++i) {

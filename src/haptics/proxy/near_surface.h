@@ -49,6 +49,11 @@ class NearSurface {
   /// The part of a straight move from `from_m` along which all triangles are known. Uses up the way allowed.
   Vec3 allowed(const Vec3& from_m, const Vec3& move_m) noexcept;
 
+  /// The points of the other surfaces that are nearest to `p_m` at the end of the tick, one each within `reach_m`,
+  /// nearest first. Returns how many; as many as there is room for.
+  int nearest_beside(const Vec3& p_m, std::int32_t surface, double reach_m,
+                     std::span<NearestPoint> found) const noexcept;
+
   double clearance_m() const noexcept { return clearance_m_; }
   double travel_left_m() const noexcept { return travel_left_m_; }
   double stand_off_m() const noexcept { return stand_off_m_; }  // of all triangles, at most

@@ -38,6 +38,9 @@ constexpr double kSettled_m = 1e-6;
 /// A stuck sphere may be off its anchor by this share of the radius (normal travel over a curved surface) before the
 /// anchor is renewed: the anchor is what keeps it from creeping, so it is kept as long as it makes sense.
 constexpr double kAnchorSlack = 0.05;
+/// A surface within this of the sphere is one that it may come to rest on within a step [m]: tissue that gives way
+/// under half a newton at 500 N/m.
+constexpr double kBeside_m = 1e-3;
 /// Beyond all that a model holds.
 constexpr double kEverywhere_m = 1e3;
 /// Of the radius: the way that a tick is allowed at first, besides that of hand and surface. Longer ways come with
@@ -356,6 +359,25 @@ void Proxy::settle_contact(const Projection& held, const Tick& tick) noexcept {
   contact_.sliding = tick.slipped;
   settle_friction(tick);
   contact_.bearing = held.active_count;
+  settle_beside(surface);
+}
+
+void Proxy::settle_beside(const MovingSurface& surface) noexcept {
+  std::array<NearestPoint, messages::kMaxContactsBeside> found;
+  const int count = near_.nearest_beside(p_m_, contact_.surface, settings_.radius_m + kBeside_m, found);
+  contact_.beside = {};
+  for (int i = 0; i < count; ++i) {
+    const NearestPoint& point = found[at(i)];
+    const messages::LocalModel::Triangle& triangle = surface.triangle(point.local);
+    const double felt_m =
+        near_.stand_off_m(point.local) > 0.0 ? skin_.nearest(point, p_m_).distance_m : point.distance_m;
+    contact_.beside[at(i)] = {triangle.surface,
+                              triangle.triangle,
+                              point.barycentric,
+                              point.point_m,
+                              (p_m_ - point.point_m) / point.distance_m,
+                              std::max(0.0, felt_m - settings_.radius_m)};
+  }
 }
 
 void Proxy::set_anchor(const MovingSurface& surface, int local) noexcept {

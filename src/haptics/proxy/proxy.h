@@ -11,6 +11,7 @@
 #include "haptics/proxy/half_space_projection.h"
 #include "haptics/proxy/moving_surface.h"
 #include "haptics/proxy/near_surface.h"
+#include "messages/tool_state.h"
 
 namespace myotact::haptics {
 
@@ -18,6 +19,16 @@ namespace myotact::haptics {
 struct ProxyGoal {
   Vec3 position_m = Vec3::Zero();
   Vec3 velocity_m_s = Vec3::Zero();
+};
+
+/// Another surface than the contact's, so near that the sphere may rest on it, too.
+struct ProxyNeighbour {
+  std::int32_t surface = -1;  // -1: none
+  std::int32_t triangle = -1;
+  std::array<double, 3> barycentric{};
+  Vec3 point_m = Vec3::Zero();  // on the tissue
+  Vec3 normal = Vec3::UnitZ();  // unit, from there to the sphere's centre
+  double gap_m = 0.0;           // between the sphere and the skin over that point
 };
 
 /// The contact that carries most of the force.
@@ -31,6 +42,7 @@ struct ProxyContact {
   Vec3 velocity_m_s = Vec3::Zero();  // of the tissue at the point
   bool sliding = false;
   int bearing = 0;  // how many triangles hold the sphere against the device, 1 to 3
+  std::array<ProxyNeighbour, messages::kMaxContactsBeside> beside{};  // nearest first
 };
 
 /// Events since the start.
@@ -118,6 +130,7 @@ class Proxy {
   Vec3 anchored_m(const MovingSurface& surface, double fraction) const noexcept;
   void settle_contact(const Projection& held, const Tick& tick) noexcept;
   void settle_friction(const Tick& tick) noexcept;
+  void settle_beside(const MovingSurface& surface) noexcept;
   void set_anchor(const MovingSurface& surface, int local) noexcept;
 
   ContactSettings settings_;

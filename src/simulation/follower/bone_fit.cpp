@@ -97,11 +97,6 @@ double known_gap_m(const BoneGap& gap) {
   return gap.outward.isZero() ? kUnknown_m : std::abs(gap.distance_m);
 }
 
-/// How far a vertex may go before it can be out of bounds.
-double free_way_m(const BoneBounds& bounds, const BoneGap& gap) {
-  return std::min(gap.distance_m - bounds.nearest_m, bounds.farthest_m - gap.distance_m);
-}
-
 /// Fits one follower in one pose after the other.
 class Fitter {
  public:

@@ -33,4 +33,8 @@ BoneBounds bounds_at_rest(const BoneGap& gap) {
           touches ? std::max(0.0, gap.distance_m) : std::numeric_limits<double>::infinity()};
 }
 
+double free_way_m(const BoneBounds& bounds, const BoneGap& gap) {
+  return std::min(gap.distance_m - bounds.nearest_m, bounds.farthest_m - gap.distance_m);
+}
+
 }  // namespace myotact::simulation

@@ -41,5 +41,7 @@ inline constexpr double kTouchingGap_m = 1e-3;
 
 /// From the gap at the file pose.
 BoneBounds bounds_at_rest(const BoneGap& gap);
+/// How far a vertex may go before it can be out of bounds; < 0: by so much it is.
+double free_way_m(const BoneBounds& bounds, const BoneGap& gap);
 
 }  // namespace myotact::simulation

@@ -65,6 +65,31 @@ Limb::Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> model
   if (held) lay_bonds(soft, fascia, touch_surfaces);
 }
 
+double seat_m_N(const Limb& limb, const ToolSpring& spring) {
+  constexpr double kShareOfCoupling = 0.1;
+  const auto points = std::count_if(limb.springs.begin(), limb.springs.end(), [&](const ToolSpring& other) {
+    return !other.open && of_one_sphere(spring, other);
+  });
+  return points > 1 ? kShareOfCoupling / spring.stiffness_N_m : 0.0;
+}
+
+Vec3 spring_force(const Limb& limb, std::size_t index) {
+  const ToolSpring& spring = limb.springs[index];
+  if (spring.open) return Vec3::Zero();
+  const Vec3 way_m = spring.target_W_m - spring_point(limb, spring);
+  const double seat = seat_m_N(limb, spring);
+  if (seat == 0.0) return spring.stiffness_N_m * way_m;
+  Vec3 ways_m = Vec3::Zero();
+  int points = 0;
+  for (const ToolSpring& other : limb.springs) {
+    if (other.open || !of_one_sphere(spring, other)) continue;
+    ways_m += other.target_W_m - spring_point(limb, other);
+    ++points;
+  }
+  const Vec3 coupling_N = ways_m / (seat + points / spring.stiffness_N_m);
+  return (way_m - coupling_N / spring.stiffness_N_m) / seat;
+}
+
 Vec3 spring_point(const Limb& limb, const ToolSpring& spring) {
   if (spring.muscle < 0) return limb.skeleton.body_pose(spring.body) * spring.body_rest_m;
   const LimbMuscle& muscle = limb.muscles[static_cast<std::size_t>(spring.muscle)];

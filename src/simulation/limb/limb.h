@@ -27,6 +27,8 @@ struct ToolSpring {
   Vec3 body_rest_m = Vec3::Zero();  // L
   Vec3 target_W_m = Vec3::Zero();   // the spring's end in the world
   double stiffness_N_m = 0.0;       // > 0, no rest length
+  Vec3 normal_W = Vec3::Zero();     // of a contact: out of the tissue
+  bool open = false;                // of a contact: found to pull in this step, and so without force
 };
 
 /// What a muscle does at the end of a step or settle.
@@ -107,6 +109,20 @@ struct Limb {
     return {now.angle_rad.data(), static_cast<std::size_t>(now.angle_rad.size())};
   }
 };
+
+/// Two contacts of one tool. They hold one sphere, which its coupling spring holds:
+///
+///   hand --/coupling/-- sphere --/seat/-- each point
+///
+/// so that what the points bear together is what the coupling spring does, and each bears more the less it gives way.
+inline bool of_one_sphere(const ToolSpring& a, const ToolSpring& b) {
+  return a.tool == b.tool && a.surface >= 0 && b.surface >= 0;
+}
+/// Compliance of a seat [m/N], a tenth of the coupling's: so that rigid points share a force. None where a sphere has
+/// one point alone, and of what is no contact.
+double seat_m_N(const Limb& limb, const ToolSpring& spring);
+/// Force of a spring on what it pulls at, in the present iterate [N, world]; 0 for an open one.
+Vec3 spring_force(const Limb& limb, std::size_t spring);
 
 /// Where the material point of a spring is in the present iterate, in the world.
 Vec3 spring_point(const Limb& limb, const ToolSpring& spring);

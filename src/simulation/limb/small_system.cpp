@@ -20,7 +20,7 @@ Eigen::Index fill_borders(const Limb& limb, const SmallSystem& small, int index,
   }
   for (std::size_t s = 0; s < limb.springs.size(); ++s) {
     const ToolSpring& spring = limb.springs[s];
-    if (spring.muscle != index) continue;
+    if (spring.muscle != index || spring.open) continue;
     used = small.spring_row(s) + 3;
     for (std::size_t k = 0; k < at(spring.point.count); ++k) {
       const int f = muscle.tissue.free_index[at(spring.point.nodes[k])];
@@ -97,12 +97,26 @@ void add_muscle(const LimbMuscle& muscle, SmallSystem& small) {
   add_joint_part(muscle, small);
 }
 
-/// The springs' forces f are unknowns: -(U^T du + J dq + f / k) = -(target - point), symmetric with the rest.
+/// An open spring's force is zero, whatever the rest does.
+void take_out(Eigen::Index row, SmallSystem& small) {
+  small.matrix.middleRows<3>(row).setZero();
+  small.matrix.middleCols<3>(row).setZero();
+  small.matrix.block<3, 3>(row, row).diagonal().array() = -1.0;
+  small.right.segment<3>(row).setZero();
+}
+
+/// The springs' forces f are unknowns: -(U^T du + J dq + f / k) = -(target - point), symmetric with the rest. Those of
+/// one sphere share the coupling, so that all their forces stretch it, and have seats of their own.
 void add_springs(const Limb& limb, SmallSystem& small) {
   for (std::size_t s = 0; s < limb.springs.size(); ++s) {
     const ToolSpring& spring = limb.springs[s];
     const Eigen::Index row = small.spring_row(s);
-    small.matrix.block<3, 3>(row, row).diagonal().array() -= 1.0 / spring.stiffness_N_m;
+    if (spring.open) continue;
+    small.matrix.block<3, 3>(row, row).diagonal().array() -= 1.0 / spring.stiffness_N_m + seat_m_N(limb, spring);
+    for (std::size_t t = 0; t < limb.springs.size(); ++t) {
+      if (t == s || limb.springs[t].open || !of_one_sphere(spring, limb.springs[t])) continue;
+      small.matrix.block<3, 3>(row, small.spring_row(t)).diagonal().array() -= 1.0 / spring.stiffness_N_m;
+    }
     small.right.segment<3>(row) -= spring.target_W_m - spring_point(limb, spring);
     for (std::size_t a = 0; a < small.joints.size(); ++a) {
       const Vec3 slope = spring_slope(limb, spring, small.joints[a]);
@@ -111,17 +125,53 @@ void add_springs(const Limb& limb, SmallSystem& small) {
       small.matrix.block<1, 3>(column, row) -= slope.transpose();
     }
   }
+  for (std::size_t s = 0; s < limb.springs.size(); ++s) {
+    if (limb.springs[s].open) take_out(small.spring_row(s), small);
+  }
+}
+
+/// The springs of the points that the sphere of a contact rests on.
+std::vector<std::size_t> points_of_sphere(const Limb& limb, std::size_t contact) {
+  std::vector<std::size_t> points;
+  for (std::size_t s = 0; s < limb.springs.size(); ++s) {
+    if (!limb.springs[s].open && of_one_sphere(limb.springs[contact], limb.springs[s])) points.push_back(s);
+  }
+  return points;
+}
+
+/// Rows of all that may move while a sphere is pressed: joints and the springs of other tools.
+std::vector<Eigen::Index> rows_beside(const Limb& limb, const SmallSystem& small, int tool) {
+  std::vector<Eigen::Index> rows;
+  for (std::size_t a = 0; a < small.joints.size(); ++a) rows.push_back(static_cast<Eigen::Index>(a));
+  for (std::size_t s = 0; s < limb.springs.size(); ++s) {
+    if (limb.springs[s].tool == tool) continue;
+    for (Eigen::Index k = 0; k < 3; ++k) rows.push_back(small.spring_row(s) + k);
+  }
+  return rows;
+}
+
+/// Compliance of a sphere that several points hold, its coupling left out: each point's own, its seat, and what joints
+/// and other tools' springs add between them, in parallel. `own`: the sphere's springs, of the limb's.
+Mat3 compliance_of_sphere(const Limb& limb, const SmallSystem& small, const std::vector<std::size_t>& own) {
+  const std::vector<Eigen::Index> kept = rows_beside(limb, small, limb.springs[own.front()].tool);
+  std::vector<Eigen::Index> rows;
+  for (const std::size_t s : own) {
+    for (Eigen::Index k = 0; k < 3; ++k) rows.push_back(small.spring_row(s) + k);
+  }
+  const Eigen::MatrixXd inner = small.matrix(kept, kept), border = small.matrix(kept, rows);
+  // What the small system holds of the points themselves is minus their compliance and the coupling's and seats'.
+  Eigen::MatrixXd points = -small.matrix(rows, rows);
+  if (!kept.empty()) points += border.transpose() * inner.partialPivLu().solve(border);
+  const double coupling_m_N = 1.0 / limb.springs[own.front()].stiffness_N_m;
+  const Eigen::MatrixX3d all = Mat3::Identity().replicate(static_cast<Eigen::Index>(own.size()), 1);
+  points -= coupling_m_N * all * all.transpose();
+  return (all.transpose() * points.partialPivLu().solve(all)).inverse();
 }
 
 /// What the springs of the other tools take from a compliance: the joints and those springs' forces eliminated
 /// together. `own`: the spring, of the limb's.
 Mat3 compliance_beside(const Limb& limb, const SmallSystem& small, std::size_t own) {
-  std::vector<Eigen::Index> kept;
-  for (std::size_t a = 0; a < small.joints.size(); ++a) kept.push_back(static_cast<Eigen::Index>(a));
-  for (std::size_t s = 0; s < limb.springs.size(); ++s) {
-    if (limb.springs[s].tool == limb.springs[own].tool) continue;
-    for (Eigen::Index k = 0; k < 3; ++k) kept.push_back(small.spring_row(s) + k);
-  }
+  const std::vector<Eigen::Index> kept = rows_beside(limb, small, limb.springs[own].tool);
   const auto count = static_cast<Eigen::Index>(kept.size());
   Eigen::MatrixXd inner(count, count), border(count, 3);
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -152,6 +202,11 @@ void read_compliance(Limb& limb, const SmallSystem& small) {
     const auto first = static_cast<Eigen::Index>(3 * s);
     Mat3& compliance = limb.spring_compliance_m_N[s];
     compliance.setZero();
+    if (limb.springs[s].open) continue;
+    if (const std::vector<std::size_t> own = points_of_sphere(limb, s); own.size() > 1) {
+      compliance = compliance_of_sphere(limb, small, own);
+      continue;
+    }
     if (muscle >= 0 && !limb.muscles[at(muscle)].rigid)
       compliance = limb.muscles[at(muscle)].reduced.block<3, 3>(small.spring_row(s), small.spring_row(s));
     if (several) {
@@ -190,6 +245,27 @@ void eliminate(const Limb& limb, const SmallSystem& small, TissueLoad load, int 
   muscle.sound = muscle.free_solution.allFinite() && muscle.reduced.allFinite();
 }
 
+bool open_pulling(Limb& limb, const Eigen::VectorXd& solution, const SmallSystem& small) {
+  const auto pull_N = [&](std::size_t s) {
+    return solution.segment<3>(small.spring_row(s)).dot(limb.springs[s].normal_W);
+  };
+  bool any = false;
+  for (std::size_t s = 0; s < limb.springs.size(); ++s) {
+    ToolSpring& spring = limb.springs[s];
+    if (spring.open || seat_m_N(limb, spring) == 0.0 || !(pull_N(s) > 0.0)) continue;
+    const bool hardest = std::none_of(limb.springs.begin(), limb.springs.end(), [&](const ToolSpring& other) {
+      const auto t = static_cast<std::size_t>(&other - limb.springs.data());
+      return !other.open && of_one_sphere(spring, other) && pull_N(t) > pull_N(s);
+    });
+    if (!hardest) continue;
+    spring.open = any = true;
+    if (spring.muscle < 0 || limb.muscles[at(spring.muscle)].rigid) continue;
+    limb.muscles[at(spring.muscle)].borders.middleCols<3>(small.spring_row(s)).setZero();
+    limb.muscles[at(spring.muscle)].border_solution.middleCols<3>(small.spring_row(s)).setZero();
+  }
+  return any;
+}
+
 Eigen::VectorXd skeleton_residual(Limb& limb, const TimeRule& rule) {
   const Eigen::VectorXd& q = limb.now.angle_rad;
   const Eigen::VectorXd velocity =
@@ -204,6 +280,8 @@ Eigen::VectorXd skeleton_residual(Limb& limb, const TimeRule& rule) {
 }
 
 void add_up(Limb& limb, const TimeRule& rule, SmallSystem& small) {
+  small.matrix.setZero();
+  small.right.setZero();
   add_skeleton(limb, rule, small);
   for (const LimbMuscle& muscle : limb.muscles) {
     if (muscle.line) add_joint_part(muscle, small);

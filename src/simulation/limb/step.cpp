@@ -62,9 +62,10 @@ struct Solutions {
 /// How far a muscle is from balance, tool springs included, and the slope of its energy along the way.
 void weigh(const Limb& limb, int index, LimbMuscle& muscle) {
   Eigen::VectorXd unbalanced = muscle.system.residual_N;
-  for (const ToolSpring& spring : limb.springs) {
+  for (std::size_t s = 0; s < limb.springs.size(); ++s) {
+    const ToolSpring& spring = limb.springs[s];
     if (spring.muscle != index) continue;
-    const Vec3 force = spring.stiffness_N_m * (spring.target_W_m - spring_point(limb, spring));
+    const Vec3 force = spring_force(limb, s);
     for (std::size_t k = 0; k < at(spring.point.count); ++k) {
       const int f = muscle.tissue.free_index[at(spring.point.nodes[k])];
       if (f >= 0) unbalanced.segment<3>(3 * f) -= spring.point.weights[k] * force;
@@ -108,8 +109,9 @@ double energy_slope(Limb& limb, const TimeRule& rule, const Way& way) {
     if (!muscle.rigid) slope += muscle.energy_slope;
     if (!muscle.rigid || muscle.line) slope += muscle.system.joint_residual_Nm.dot(way.change_rad);
   }
-  for (const ToolSpring& spring : limb.springs) {
-    const Vec3 force = spring.stiffness_N_m * (spring.target_W_m - spring_point(limb, spring));
+  for (std::size_t s = 0; s < limb.springs.size(); ++s) {
+    const ToolSpring& spring = limb.springs[s];
+    const Vec3 force = spring_force(limb, s);
     for (int j = 0; j < limb.skeleton.joint_count(); ++j) {
       slope -= force.dot(spring_slope(limb, spring, j)) * way.change_rad[j];
     }
@@ -250,8 +252,13 @@ Iteration newton_step(Limb& limb, const Task& task, WorkerPool& workers, int& de
     definite_solves += muscle.made_definite;
   }
   add_up(limb, load.rule, small);
-  const Eigen::PartialPivLU<Eigen::MatrixXd> factor(small.matrix);
-  const Eigen::VectorXd uncoupled = small.size() > 0 ? Eigen::VectorXd(factor.solve(small.right)) : small.right;
+  Eigen::PartialPivLU<Eigen::MatrixXd> factor(small.matrix);
+  Eigen::VectorXd uncoupled = small.size() > 0 ? Eigen::VectorXd(factor.solve(small.right)) : small.right;
+  while (open_pulling(limb, uncoupled, small)) {
+    add_up(limb, load.rule, small);
+    factor.compute(small.matrix);
+    uncoupled = factor.solve(small.right);
+  }
   if (!uncoupled.allFinite()) return {false};
   Eigen::VectorXd solution = uncoupled;
   couple_step(limb, factor, task.coupled_share, solution, workers);
@@ -283,10 +290,7 @@ void finish(Limb& limb, const TimeRule& rule) {
           rule.rate_1_s * state.now.stretch[p] - rule.history(state.last.stretch[p], state.before.stretch[p]);
     }
   }
-  for (std::size_t s = 0; s < limb.springs.size(); ++s) {
-    const ToolSpring& spring = limb.springs[s];
-    limb.spring_force_N[s] = spring.stiffness_N_m * (spring.target_W_m - spring_point(limb, spring));
-  }
+  for (std::size_t s = 0; s < limb.springs.size(); ++s) limb.spring_force_N[s] = spring_force(limb, s);
   read_out(limb);
 }
 
@@ -305,6 +309,7 @@ StepReport advance(Limb& limb, const StepInput& input, WorkerPool& workers) {
   TissueLoad load;
   load.rule = input.second_order_in_time ? second_order(input.dt_s) : backward_euler(input.dt_s);
   load.gravity_m_s2 = limb.gravity_m_s2;
+  for (ToolSpring& spring : limb.springs) spring.open = false;
   limb.spring_force_N.assign(limb.springs.size(), Vec3::Zero());
   limb.spring_compliance_m_N.assign(limb.springs.size(), Mat3::Zero());
   if (input.second_order_in_time) carry_on(limb, kCarriedOn * input.dt_s);

@@ -45,6 +45,7 @@ std::optional<ToolSpring> contact_spring(const messages::ToolContact& contact, c
   spring.surface = contact.surface;
   spring.target_W_m = to_vec3(contact.target_world_m);
   spring.stiffness_N_m = contact.stiffness_N_m;
+  spring.normal_W = to_vec3(contact.normal_world);
   const std::array<int, 3>& triangle = surface->triangles[at(contact.triangle)];
   const int muscles = static_cast<int>(parts.specimen.muscles.size());
   if (contact.surface < muscles) {
@@ -114,11 +115,24 @@ std::vector<ToolSpring> tool_springs(std::span<const messages::ToolState> tools,
   std::vector<ToolSpring> springs;
   for (std::size_t t = 0; t < tools.size(); ++t) {
     const messages::ToolState& tool = tools[t];
-    for (std::optional<ToolSpring> spring :
-         {contact_spring(tool.contact, parts), line_spring(tool, parts, limb), body_spring(tool, parts.specimen)}) {
-      if (!spring) continue;
-      spring->tool = static_cast<int>(t);
+    const std::size_t first = springs.size();
+    const auto add = [&](const std::optional<ToolSpring>& spring) {
+      if (!spring) return;
       springs.push_back(bounded(*spring, limb));
+      springs.back().tool = static_cast<int>(t);
+    };
+    add(contact_spring(tool.contact, parts));
+    add(line_spring(tool, parts, limb));
+    add(body_spring(tool, parts.specimen));
+    if (first == springs.size() || springs[first].surface < 0) continue;  // nothing beside no contact
+    for (const messages::ToolContact& beside : tool.beside) {
+      std::optional<ToolSpring> spring = contact_spring(beside, parts);
+      const bool known = spring && std::any_of(springs.begin() + static_cast<std::ptrdiff_t>(first), springs.end(),
+                                               [&](const ToolSpring& s) { return s.surface == spring->surface; });
+      if (!spring || known) continue;
+      spring->tool = static_cast<int>(t);
+      spring->stiffness_N_m = springs[first].stiffness_N_m;  // the one coupling
+      springs.push_back(*spring);
     }
   }
   return springs;

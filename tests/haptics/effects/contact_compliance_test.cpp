@@ -107,6 +107,20 @@ TEST(ContactCompliance, AnotherSurfaceIsRigidUntilItsOwnModelComes) {
   EXPECT_NEAR(play.compliance.shift_m().z(), -2e-3, 1e-12);
 }
 
+TEST(ContactCompliance, SurfacesThatTheToolRestsOnTogetherGiveWayTogether) {
+  Play play;
+  play.step(1.0, 2e-3);
+  play.tick(10);
+  play.touching.surface = 1;
+  play.touching.beside[0].surface = 0;
+  play.step(1.0, 2e-3);
+  play.tick(10);
+  EXPECT_NEAR(play.compliance.shift_m().z(), -2e-3, 1e-12);
+  play.touching.beside[0].surface = -1;  // and no longer
+  play.tick(10);
+  EXPECT_EQ(play.compliance.shift_m().norm(), 0.0);
+}
+
 // A tool that bounces meets the tissue as soft as it left it, without the force of the last touch.
 TEST(ContactCompliance, OutlivesTheContact) {
   Play play;

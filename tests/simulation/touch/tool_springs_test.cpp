@@ -84,6 +84,24 @@ TEST_F(ToolSprings, SoundStatesGiveASpringForEachThingInHand) {
   for (const ToolSpring& spring : found) EXPECT_EQ(spring.tool, 1);  // the first tool has nothing in hand
 }
 
+TEST_F(ToolSprings, ContactsBesideTheFirstShareItsStiffnessAndNameOtherSurfaces) {
+  ToolState tool = busy();
+  tool.beside[0] = tool.contact;  // the same surface once more
+  tool.beside[1] = tool.contact;
+  tool.beside[1].surface = 0;
+  tool.beside[1].stiffness_N_m = 123.0;
+  tool.beside[2] = tool.beside[1];
+  tool.beside[2].target_world_m[0] = kNaN;
+  const std::vector<ToolSpring> found = springs({tool});
+  ASSERT_EQ(found.size(), 4u);
+  EXPECT_EQ(found[3].surface, 0);
+  EXPECT_EQ(found[3].stiffness_N_m, found[0].stiffness_N_m);
+  EXPECT_TRUE(of_one_sphere(found[0], found[3]));
+  EXPECT_FALSE(of_one_sphere(found[0], found[1]) || of_one_sphere(found[0], found[2]));
+  tool.contact.surface = -1;
+  EXPECT_EQ(count(tool), 2u) << "nothing lies beside no contact";
+}
+
 TEST_F(ToolSprings, ContactsPullWhereTheTouchedPointIsNow) {
   std::mt19937 random(62);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
