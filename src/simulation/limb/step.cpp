@@ -297,7 +297,9 @@ void finish(Limb& limb, const TimeRule& rule) {
 /// Puts the limb where its velocity would have it, so that what closes or opens during the step is seen by its first
 /// tangent.
 void carry_on(Limb& limb, double time_s) {
-  limb.now.angle_rad += time_s * limb.last.velocity_rad_s;
+  for (int j = 0; j < limb.skeleton.joint_count(); ++j) {
+    if (limb.skeleton.moves(j)) limb.now.angle_rad[j] += time_s * limb.last.velocity_rad_s[j];
+  }
   for (LimbMuscle& muscle : limb.muscles) {
     if (!muscle.rigid) muscle.state.now.position_m += time_s * muscle.state.last.velocity_m_s;
   }
@@ -312,10 +314,14 @@ StepReport advance(Limb& limb, const StepInput& input, WorkerPool& workers) {
   for (ToolSpring& spring : limb.springs) spring.open = false;
   limb.spring_force_N.assign(limb.springs.size(), Vec3::Zero());
   limb.spring_compliance_m_N.assign(limb.springs.size(), Mat3::Zero());
-  if (input.second_order_in_time) carry_on(limb, kCarriedOn * input.dt_s);
   follow_angles(limb);
+  follow_touches(limb, workers);  // from where the limb is: from where it may go, nodes at a rim would swing for ever
+  if (input.second_order_in_time) {
+    carry_on(limb, kCarriedOn * input.dt_s);
+    follow_angles(limb);
+    see_neighbours(limb);
+  }
   evaluate_lines(limb, load.rule);
-  follow_touches(limb, workers);
   for (LimbMuscle& muscle : limb.muscles) {
     muscle.balanced = muscle.strained = false;
     if (!input.second_order_in_time) muscle.kept_rule.reset();
