@@ -72,7 +72,7 @@ void write_stiffness_chart(const Rows& rows, const std::string& title, const std
   const auto explain = [&](const char* text, view::Stroke stroke, std::vector<double> band) {
     chart.series.push_back({text, {}, {}, stroke, band, band, view::kInk});
   };
-  explain("Schur complement; shaded: anatomy", view::Stroke::Line, {0.0});
+  explain("Schur complement, band: anatomy", view::Stroke::Line, {0.0});
   explain("perturbed angle", view::Stroke::Rings, {});
   explain("muscle lines alone", view::Stroke::Dashed, {});
   write_file(path, view::line_chart_svg(chart));

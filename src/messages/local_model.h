@@ -26,11 +26,12 @@ struct LocalLine {
 ///
 ///   compliance (force - force_world_N)
 ///
-/// within one step more. Row-major.
+/// within one step more. Where the tool rests on several surfaces both are of all together. Row-major.
 struct LocalContact {
-  std::int32_t surface = -1;               // touched in that step, -1: none
-  std::array<double, 3> force_world_N{};   // of the tool's coupling spring on the tissue at the end of the step
-  std::array<double, 9> compliance_m_N{};  // of the material point, its joints and inertia included, spring left out
+  std::int32_t surface = -1;              // touched in that step, -1: none
+  std::array<double, 3> force_world_N{};  // of the tool's coupling spring on the tissue at the end of the step
+  std::array<double, 9>
+      compliance_m_N{};  // of what the tool rests on, its joints and inertia included, spring left out
 };
 
 inline constexpr int kMaxReportedContacts = 4;

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "simulation/curves/fibre_curves.h"
+#include "support/skin_places.h"
 #include "support/synthetic_specimen.h"
 
 namespace myotact::simulation {
@@ -36,14 +37,6 @@ ToolState press(int surface, int triangle, const Vec3& target_m, double stiffnes
   tool.contact.target_world_m = to_array(target_m);
   tool.contact.stiffness_N_m = stiffness_N_m;
   return tool;
-}
-
-Vec3 centre_of(const Simulation& simulation, const anatomy::Specimen& specimen, int muscle, int triangle) {
-  Vec3 sum = Vec3::Zero();
-  for (int v : specimen.muscles[static_cast<std::size_t>(muscle)].skin.triangles[static_cast<std::size_t>(triangle)]) {
-    sum += simulation.skin_world_m(muscle)[static_cast<std::size_t>(v)];
-  }
-  return sum / 3.0;
 }
 
 /// A triangle in the middle of the muscle's upper side.
@@ -151,11 +144,11 @@ TEST(Simulation, ASpringOnTheSkinPullsAndItsComplianceTellsHowFar) {
   const double q = 0.0;
   ASSERT_TRUE(simulation.settle({&q, 1}, {}));
   const int triangle = top_triangle(specimen, 0);
-  const Vec3 start = centre_of(simulation, specimen, 0, triangle);
+  const Vec3 start = testing::skin_centre_m(simulation, specimen, 0, triangle);
   const double stiffness_N_m = 100.0;
   const ToolState tool = press(0, triangle, start - Vec3(0.0, 0.0, 1e-4), stiffness_N_m);
   simulation.step({&tool, 1});
-  const Vec3 moved = centre_of(simulation, specimen, 0, triangle) - start;
+  const Vec3 moved = testing::skin_centre_m(simulation, specimen, 0, triangle) - start;
   const Vec3 force = stiffness_N_m * (to_vec3(tool.contact.target_world_m) - start - moved);
   messages::LocalModel model;
   simulation.write_local_model(tool, model);

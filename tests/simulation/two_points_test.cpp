@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/simulation.h"
+#include "support/skin_places.h"
 #include "support/synthetic_specimen.h"
 
 namespace myotact::simulation {
@@ -14,16 +15,16 @@ namespace {
 using messages::ToolState;
 
 constexpr double kCoupling_N_m = 800.0;
+const Vec3 kAboveTheMiddle_m(-0.03, 0.0, 1.0);  // of both bars
 
 /// Two bars, the second twice as broad.
 anatomy::Specimen soft_and_firm() {
-  anatomy::Specimen specimen = testing::antagonist_hinge();
-  testing::BarShape bar;
-  bar.cells = {4, 1, 1};
-  specimen.muscles[0] = testing::bar_muscle("flexor", bar);
-  bar.origin_m.z() = -0.03;
-  bar.width_m *= 2.0;
-  specimen.muscles[1] = testing::bar_muscle("extensor", bar);
+  anatomy::Specimen specimen = testing::coarse_antagonist_hinge();
+  testing::BarShape broad;
+  broad.cells = {4, 1, 1};
+  broad.origin_m.z() *= -1.0;
+  broad.width_m *= 2.0;
+  specimen.muscles[1] = testing::bar_muscle("extensor", broad);
   return specimen;
 }
 
@@ -35,7 +36,8 @@ class SphereOnTwo {
     const double straight = 0.0;
     EXPECT_TRUE(simulation_.settle({&straight, 1}, {}));
     for (const int m : {0, 1}) {
-      triangle_[static_cast<std::size_t>(m)] = middle_triangle(m);
+      triangle_[static_cast<std::size_t>(m)] =
+          testing::skin_triangle_near(simulation_, specimen_, m, kAboveTheMiddle_m);
       rest_m_[static_cast<std::size_t>(m)] = place_m(m);
     }
   }
@@ -57,23 +59,8 @@ class SphereOnTwo {
   Vec3 moved_m(int muscle) const { return place_m(muscle) - rest_m_[static_cast<std::size_t>(muscle)]; }
 
  private:
-  Vec3 place_m(int muscle) const { return centre_m(muscle, triangle_[static_cast<std::size_t>(muscle)]); }
-  Vec3 centre_m(int muscle, int triangle) const {
-    Vec3 sum_m = Vec3::Zero();
-    for (const int v :
-         specimen_.muscles[static_cast<std::size_t>(muscle)].skin.triangles[static_cast<std::size_t>(triangle)])
-      sum_m += simulation_.skin_world_m(muscle)[static_cast<std::size_t>(v)];
-    return sum_m / 3.0;
-  }
-  /// On top, half-way along.
-  int middle_triangle(int muscle) const {
-    const Vec3 place_m(-0.03, 0.0, 1.0);
-    const auto count = static_cast<int>(specimen_.muscles[static_cast<std::size_t>(muscle)].skin.triangles.size());
-    int best = 0;
-    for (int t = 1; t < count; ++t) {
-      if ((centre_m(muscle, t) - place_m).norm() < (centre_m(muscle, best) - place_m).norm()) best = t;
-    }
-    return best;
+  Vec3 place_m(int muscle) const {
+    return testing::skin_centre_m(simulation_, specimen_, muscle, triangle_[static_cast<std::size_t>(muscle)]);
   }
   messages::ToolContact contact(int muscle, double depth_m) const {
     messages::ToolContact contact;

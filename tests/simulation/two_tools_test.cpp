@@ -5,45 +5,18 @@
 #include <gtest/gtest.h>
 
 #include "simulation/simulation.h"
+#include "support/skin_places.h"
 #include "support/synthetic_specimen.h"
 
 namespace myotact::simulation {
 namespace {
 
 using messages::ToolState;
+using testing::skin_centre_m, testing::skin_triangle_near;
 using Compliance = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
 
 constexpr double kRodInertia_kg_m2 = 0.2 * 0.2 * 0.2 / 3.0;  // 0.2 kg, 0.2 m, about its end
 constexpr double kHinge_Nm_rad = 6.0;
-
-anatomy::Specimen coarse_pair() {
-  anatomy::Specimen specimen = testing::antagonist_hinge();
-  testing::BarShape bar;
-  bar.cells = {4, 1, 1};
-  specimen.muscles[0] = testing::bar_muscle("flexor", bar);
-  bar.origin_m.z() = -0.03;
-  specimen.muscles[1] = testing::bar_muscle("extensor", bar);
-  return specimen;
-}
-
-Vec3 centre_of(const Simulation& simulation, const anatomy::Specimen& specimen, int muscle, int triangle) {
-  Vec3 sum = Vec3::Zero();
-  for (int v : specimen.muscles[static_cast<std::size_t>(muscle)].skin.triangles[static_cast<std::size_t>(triangle)]) {
-    sum += simulation.skin_world_m(muscle)[static_cast<std::size_t>(v)];
-  }
-  return sum / 3.0;
-}
-
-/// The triangle of a muscle's skin whose middle is nearest to a place.
-int triangle_near(const Simulation& simulation, const anatomy::Specimen& specimen, int muscle, const Vec3& place_m) {
-  const int count = static_cast<int>(specimen.muscles[static_cast<std::size_t>(muscle)].skin.triangles.size());
-  int best = 0;
-  for (int t = 1; t < count; ++t) {
-    const double here_m = (centre_of(simulation, specimen, muscle, t) - place_m).norm();
-    if (here_m < (centre_of(simulation, specimen, muscle, best) - place_m).norm()) best = t;
-  }
-  return best;
-}
 
 ToolState press(int surface, int triangle, const Vec3& target_m, double stiffness_N_m) {
   ToolState tool;
@@ -73,19 +46,19 @@ struct Pressed {
 
 /// One step from rest: tool 0 presses the flexor `depth_m` deep, `others` do what they do.
 Pressed press_flexor(double depth_m, const std::vector<ToolState>& others) {
-  const anatomy::Specimen specimen = coarse_pair();
+  const anatomy::Specimen specimen = testing::coarse_antagonist_hinge();
   Simulation simulation(specimen, {});
   const double straight = 0.0;
   EXPECT_TRUE(simulation.settle({&straight, 1}, {}));
-  const int triangle = triangle_near(simulation, specimen, 0, Vec3(-0.03, 0.0, 0.04));
-  const Vec3 start_m = centre_of(simulation, specimen, 0, triangle);
+  const int triangle = skin_triangle_near(simulation, specimen, 0, Vec3(-0.03, 0.0, 0.04));
+  const Vec3 start_m = skin_centre_m(simulation, specimen, 0, triangle);
   std::vector<ToolState> tools = {press(0, triangle, start_m - depth_m * Vec3::UnitZ(), 200.0)};
   tools.insert(tools.end(), others.begin(), others.end());
   simulation.step(tools);
   messages::LocalModel model;
   simulation.write_local_model(tools[0], model, 0);
   EXPECT_EQ(model.contact.surface, 0);
-  return {centre_of(simulation, specimen, 0, triangle), to_vec3(model.contact.force_world_N),
+  return {skin_centre_m(simulation, specimen, 0, triangle), to_vec3(model.contact.force_world_N),
           Compliance(model.contact.compliance_m_N.data())};
 }
 
@@ -97,11 +70,11 @@ double compliance_error(const Mat3& compliance_m_N, const std::vector<ToolState>
 }
 
 TEST(TwoTools, OnOneMuscleEachComplianceHasTheOthersPressInIt) {
-  const anatomy::Specimen specimen = coarse_pair();
+  const anatomy::Specimen specimen = testing::coarse_antagonist_hinge();
   const Simulation rest(specimen, {});
-  const int beside = triangle_near(rest, specimen, 0, Vec3(-0.045, 0.0, 0.04));
-  ASSERT_NE(beside, triangle_near(rest, specimen, 0, Vec3(-0.03, 0.0, 0.04)));
-  const ToolState other = press(0, beside, centre_of(rest, specimen, 0, beside), 2000.0);
+  const int beside = skin_triangle_near(rest, specimen, 0, Vec3(-0.045, 0.0, 0.04));
+  ASSERT_NE(beside, skin_triangle_near(rest, specimen, 0, Vec3(-0.03, 0.0, 0.04)));
+  const ToolState other = press(0, beside, skin_centre_m(rest, specimen, 0, beside), 2000.0);
   const Mat3 alone_m_N = press_flexor(1e-4, {}).compliance_m_N;
   const Mat3 beside_m_N = press_flexor(1e-4, {other}).compliance_m_N;
   EXPECT_LT(compliance_error(alone_m_N, {}), 0.01);
@@ -117,20 +90,20 @@ TEST(TwoTools, AHeldBoneStiffensTheMuscleThatHangsOnIt) {
 }
 
 TEST(TwoTools, EachIsToldItsOwnForceInAnyOrder) {
-  const anatomy::Specimen specimen = coarse_pair();
+  const anatomy::Specimen specimen = testing::coarse_antagonist_hinge();
   Simulation simulation(specimen, {});
-  const int top = triangle_near(simulation, specimen, 0, Vec3(-0.03, 0.0, 0.04));
-  const int bottom = triangle_near(simulation, specimen, 1, Vec3(-0.03, 0.0, -0.04));
+  const int top = skin_triangle_near(simulation, specimen, 0, Vec3(-0.03, 0.0, 0.04));
+  const int bottom = skin_triangle_near(simulation, specimen, 1, Vec3(-0.03, 0.0, -0.04));
   const std::array<ToolState, 2> tools = {
-      press(0, top, centre_of(simulation, specimen, 0, top) - 1e-3 * Vec3::UnitZ(), 200.0),
-      press(1, bottom, centre_of(simulation, specimen, 1, bottom) + 2e-3 * Vec3::UnitZ(), 300.0)};
+      press(0, top, skin_centre_m(simulation, specimen, 0, top) - 1e-3 * Vec3::UnitZ(), 200.0),
+      press(1, bottom, skin_centre_m(simulation, specimen, 1, bottom) + 2e-3 * Vec3::UnitZ(), 300.0)};
   simulation.step(tools);
   for (int t = 0; t < 2; ++t) {
     messages::LocalModel model;
     const ToolState& tool = tools[static_cast<std::size_t>(t)];
     simulation.write_local_model(tool, model, t);
     EXPECT_EQ(model.contact.surface, tool.contact.surface);
-    const Vec3 place_m = centre_of(simulation, specimen, t, tool.contact.triangle);
+    const Vec3 place_m = skin_centre_m(simulation, specimen, t, tool.contact.triangle);
     const Vec3 force_N = tool.contact.stiffness_N_m * (to_vec3(tool.contact.target_world_m) - place_m);
     EXPECT_LT((to_vec3(model.contact.force_world_N) - force_N).norm(), 1e-9 * force_N.norm());
     simulation.write_local_model(tool, model, 1 - t);  // the other's springs are not this one's
@@ -174,7 +147,7 @@ TEST(TwoTools, OnOneBoneTheirTorquesAddUp) {
 // Halfway between two lines, 1 mm nearer to one: a tool that was offered the other one keeps it, whatever a second tool
 // was offered.
 TEST(TwoTools, EachKeepsTheLineThatItWasOffered) {
-  const anatomy::Specimen specimen = coarse_pair();
+  const anatomy::Specimen specimen = testing::coarse_antagonist_hinge();
   Simulation simulation(specimen, {});
   ToolState above, below;
   above.tool_position_world_m = {-0.03, 0.0, 0.01};
@@ -193,7 +166,7 @@ TEST(TwoTools, EachKeepsTheLineThatItWasOffered) {
 TEST(TwoTools, LinesThatPullAtNothingAreNotOffered) {
   SimulationSettings settings;
   settings.tissue = {TissueModel::Rigid, TissueModel::Fem};
-  Simulation simulation(coarse_pair(), settings);
+  Simulation simulation(testing::coarse_antagonist_hinge(), settings);
   ToolState on_line;
   messages::LocalModel model;
   for (const double z_m : {0.02, -0.02}) {

@@ -102,7 +102,7 @@ struct Limb {
   std::vector<TouchSurface> touch_surfaces;  // one a muscle; none without contact and fascia
   std::vector<ToolSpring> springs;           // of the present step
   std::vector<Vec3> spring_force_N;          // on the tissue or bone, at the end of the step
-  std::vector<Mat3> spring_compliance_m_N;   // of what each pulls at, all springs of its tool left out
+  std::vector<Mat3> spring_compliance_m_N;   // of what each pulls at, or its sphere; its tool's springs left out
 
   /// now.angle_rad as a view.
   std::span<const double> angles() const {

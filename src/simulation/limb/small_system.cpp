@@ -1,6 +1,7 @@
 #include "simulation/limb/small_system.h"
 
 #include <algorithm>
+#include <optional>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -246,24 +247,22 @@ void eliminate(const Limb& limb, const SmallSystem& small, TissueLoad load, int 
 }
 
 bool open_pulling(Limb& limb, const Eigen::VectorXd& solution, const SmallSystem& small) {
-  const auto pull_N = [&](std::size_t s) {
-    return solution.segment<3>(small.spring_row(s)).dot(limb.springs[s].normal_W);
-  };
-  bool any = false;
+  std::optional<std::size_t> hardest;
+  double hardest_N = 0.0;
   for (std::size_t s = 0; s < limb.springs.size(); ++s) {
-    ToolSpring& spring = limb.springs[s];
-    if (spring.open || seat_m_N(limb, spring) == 0.0 || !(pull_N(s) > 0.0)) continue;
-    const bool hardest = std::none_of(limb.springs.begin(), limb.springs.end(), [&](const ToolSpring& other) {
-      const auto t = static_cast<std::size_t>(&other - limb.springs.data());
-      return !other.open && of_one_sphere(spring, other) && pull_N(t) > pull_N(s);
-    });
-    if (!hardest) continue;
-    spring.open = any = true;
-    if (spring.muscle < 0 || limb.muscles[at(spring.muscle)].rigid) continue;
-    limb.muscles[at(spring.muscle)].borders.middleCols<3>(small.spring_row(s)).setZero();
-    limb.muscles[at(spring.muscle)].border_solution.middleCols<3>(small.spring_row(s)).setZero();
+    const ToolSpring& spring = limb.springs[s];
+    const double pull_N = solution.segment<3>(small.spring_row(s)).dot(spring.normal_W);
+    if (spring.open || seat_m_N(limb, spring) == 0.0 || !(pull_N > hardest_N)) continue;
+    hardest = s;
+    hardest_N = pull_N;
   }
-  return any;
+  if (!hardest) return false;
+  limb.springs[*hardest].open = true;
+  const int muscle = limb.springs[*hardest].muscle;
+  if (muscle < 0 || limb.muscles[at(muscle)].rigid) return true;
+  limb.muscles[at(muscle)].borders.middleCols<3>(small.spring_row(*hardest)).setZero();
+  limb.muscles[at(muscle)].border_solution.middleCols<3>(small.spring_row(*hardest)).setZero();
+  return true;
 }
 
 Eigen::VectorXd skeleton_residual(Limb& limb, const TimeRule& rule) {

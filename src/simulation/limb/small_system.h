@@ -35,8 +35,8 @@ void eliminate(const Limb& limb, const SmallSystem& small, TissueLoad load, int 
 /// step by `rule`; fills limb.loads.
 Eigen::VectorXd skeleton_residual(Limb& limb, const TimeRule& rule);
 
-/// Opens, of each sphere that several points hold, the spring that pulls hardest at what it should press, by the forces
-/// of this solution. True when there was one: then the system has to be added up anew.
+/// Opens, where several points hold a sphere, the spring that pulls hardest at what it should press, by the forces of
+/// this solution. True when there was one: then the system has to be added up anew.
 bool open_pulling(Limb& limb, const Eigen::VectorXd& solution, const SmallSystem& small);
 
 /// Bones, eliminated muscles, lines and springs, in place of what was there; also sets the springs' compliances.

@@ -108,6 +108,26 @@ std::optional<ToolSpring> body_spring(const messages::ToolState& tool, const ana
   return spring;
 }
 
+/// The springs of one tool's contacts: of a sphere that they hold together, by one coupling, which is soft enough that
+/// none of them pulls harder than a hand. Each surface counts once; nothing lies beside no contact.
+std::vector<ToolSpring> contact_springs(const messages::ToolState& tool, const TouchableParts& parts,
+                                        const Limb& limb) {
+  const std::optional<ToolSpring> first = contact_spring(tool.contact, parts);
+  if (!first) return {};
+  std::vector<ToolSpring> springs = {bounded(*first, limb)};
+  for (const messages::ToolContact& beside : tool.beside) {
+    std::optional<ToolSpring> spring = contact_spring(beside, parts);
+    const auto is_same = [&](const ToolSpring& other) { return other.surface == spring->surface; };
+    if (!spring || std::any_of(springs.begin(), springs.end(), is_same)) continue;
+    spring->stiffness_N_m = first->stiffness_N_m;
+    springs.push_back(bounded(*spring, limb));
+  }
+  double coupling_N_m = first->stiffness_N_m;
+  for (const ToolSpring& spring : springs) coupling_N_m = std::min(coupling_N_m, spring.stiffness_N_m);
+  for (ToolSpring& spring : springs) spring.stiffness_N_m = coupling_N_m;
+  return springs;
+}
+
 }  // namespace
 
 std::vector<ToolSpring> tool_springs(std::span<const messages::ToolState> tools, const TouchableParts& parts,
@@ -115,24 +135,14 @@ std::vector<ToolSpring> tool_springs(std::span<const messages::ToolState> tools,
   std::vector<ToolSpring> springs;
   for (std::size_t t = 0; t < tools.size(); ++t) {
     const messages::ToolState& tool = tools[t];
-    const std::size_t first = springs.size();
-    const auto add = [&](const std::optional<ToolSpring>& spring) {
-      if (!spring) return;
-      springs.push_back(bounded(*spring, limb));
-      springs.back().tool = static_cast<int>(t);
-    };
-    add(contact_spring(tool.contact, parts));
-    add(line_spring(tool, parts, limb));
-    add(body_spring(tool, parts.specimen));
-    if (first == springs.size() || springs[first].surface < 0) continue;  // nothing beside no contact
-    for (const messages::ToolContact& beside : tool.beside) {
-      std::optional<ToolSpring> spring = contact_spring(beside, parts);
-      const bool known = spring && std::any_of(springs.begin() + static_cast<std::ptrdiff_t>(first), springs.end(),
-                                               [&](const ToolSpring& s) { return s.surface == spring->surface; });
-      if (!spring || known) continue;
-      spring->tool = static_cast<int>(t);
-      spring->stiffness_N_m = springs[first].stiffness_N_m;  // the one coupling
-      springs.push_back(*spring);
+    std::vector<ToolSpring> of_tool = contact_springs(tool, parts, limb);
+    for (const std::optional<ToolSpring>& spring :
+         {line_spring(tool, parts, limb), body_spring(tool, parts.specimen)}) {
+      if (spring) of_tool.push_back(bounded(*spring, limb));
+    }
+    for (ToolSpring& spring : of_tool) {
+      spring.tool = static_cast<int>(t);
+      springs.push_back(spring);
     }
   }
   return springs;

@@ -94,12 +94,23 @@ TEST_F(ToolSprings, ContactsBesideTheFirstShareItsStiffnessAndNameOtherSurfaces)
   tool.beside[2].target_world_m[0] = kNaN;
   const std::vector<ToolSpring> found = springs({tool});
   ASSERT_EQ(found.size(), 4u);
-  EXPECT_EQ(found[3].surface, 0);
-  EXPECT_EQ(found[3].stiffness_N_m, found[0].stiffness_N_m);
-  EXPECT_TRUE(of_one_sphere(found[0], found[3]));
-  EXPECT_FALSE(of_one_sphere(found[0], found[1]) || of_one_sphere(found[0], found[2]));
+  EXPECT_EQ(found[1].surface, 0);
+  EXPECT_EQ(found[1].stiffness_N_m, found[0].stiffness_N_m);
+  EXPECT_TRUE(of_one_sphere(found[0], found[1]));
+  EXPECT_FALSE(of_one_sphere(found[0], found[2]) || of_one_sphere(found[0], found[3]));
   tool.contact.surface = -1;
   EXPECT_EQ(count(tool), 2u) << "nothing lies beside no contact";
+}
+
+TEST_F(ToolSprings, AFarContactBesideMakesTheWholeCouplingSofter) {
+  ToolState tool = busy();
+  tool.beside[0] = tool.contact;
+  tool.beside[0].surface = 0;
+  tool.beside[0].target_world_m = {5.0, 0.0, 0.0};
+  const std::vector<ToolSpring> found = springs({tool});
+  ASSERT_EQ(found.size(), 4u);
+  EXPECT_LE(found[1].stiffness_N_m * (found[1].target_W_m - spring_point(limb_, found[1])).norm(), 1.001 * kMostPull_N);
+  EXPECT_EQ(found[0].stiffness_N_m, found[1].stiffness_N_m);
 }
 
 TEST_F(ToolSprings, ContactsPullWhereTheTouchedPointIsNow) {
