@@ -100,6 +100,7 @@ int scene_fidelity(const Options& options) {
 
 int fidelity(const Options& options) {
   if (options.suite || !options.goals.empty()) return suite(options);
+  if (options.map) return touch_map(options);
   // Asked for with a path, faults or a device of one's own, a scene of the layer is measured as any other.
   const bool as_any = options.recording || !options.plant.empty() || !options.devices.empty();
   const std::optional<int> of_layer = as_any ? std::nullopt : layer_fidelity(options);

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "app/fidelity_style.h"
 #include "core/text.h"
 #include "measure/fidelity/scene_fidelity_report.h"
 #include "view/charts/chart_svg.h"
@@ -19,24 +20,6 @@ namespace {
 using measure::Grade;
 using measure::GradedFigure;
 using measure::SceneFidelity;
-
-constexpr const char* kHead = R"(<!DOCTYPE html>
-<html lang="en"><head><meta charset="utf-8"><title>Myotact: fidelity</title><style>
-body { font: 14px sans-serif; color: #222222; margin: 2em; max-width: 70em; }
-table { border-collapse: collapse; margin: 0.5em 0; }
-th, td { border-bottom: 1px solid #dddddd; padding: 3px 10px; text-align: left; vertical-align: top; }
-th.number, td.number { text-align: right; font-variant-numeric: tabular-nums; }
-p.why, td.source { color: #555555; font-size: 12px; }
-.good { color: #00593f; font-weight: bold; }
-.fair { color: #7a5200; font-weight: bold; }
-.poor { color: #a02c00; font-weight: bold; }
-svg { max-width: 100%; height: auto; }
-</style></head><body>
-)";
-
-std::string graded(Grade grade) {
-  return fmt::format(R"(<span class="{0}">{0}</span>)", measure::grade_text(grade));
-}
 
 /// Points of a long series for a chart: of every stretch its lowest and its highest, in their order in time.
 view::ChartSeries thinned(std::string name, const std::vector<double>& values, view::Stroke stroke) {
@@ -238,7 +221,7 @@ std::string explained(const std::string& svg, const char* why) {
 
 std::string fidelity_page(const SceneFidelity& fidelity) {
   const std::vector<GradedFigure> figures = measure::grade(fidelity);
-  std::string html = kHead;
+  std::string html = kFidelityHead;
   html += fmt::format("<h1>How true is what is felt: {}</h1>\n<p>{}; device: {}.</p>\n", escape_markup(fidelity.scene),
                       escape_markup(fidelity.title), escape_markup(fidelity.device));
   html += summary(fidelity, figures) + figure_table(figures) + comparison_table(fidelity);

@@ -119,7 +119,15 @@ CLI::App* add_fidelity(CLI::App& program, Options& options) {
   fidelity->add_option("--plant", options.plant,
                        "self-check: put faults into the recorded force and see what is found of them: "
                        "delay_ms=5,scale=0.9,rotate_deg=5,noise_mN=20");
-  fidelity->add_flag("--suite", options.suite, "every goal; minutes");
+  auto* map =
+      fidelity->add_flag("--map", options.map,
+                         "touch all over the limb, at random places (--seed) of every muscle: table, pictures, page");
+  fidelity->add_option("--places", options.places, "of every muscle that --map touches")
+      ->check(CLI::Range(1, 1000))
+      ->needs(map)
+      ->capture_default_str();
+  map->excludes("--recording")->excludes("--plant")->excludes("--truth")->excludes("--seconds");
+  fidelity->add_flag("--suite", options.suite, "every goal; minutes")->excludes(map);
   fidelity->add_option("--goal", options.goals, "only these goals, by number: 6,8")->delimiter(',');
   fidelity->add_flag("--brief", options.brief, "goals: shorter runs, as the tests make them");
   return fidelity;

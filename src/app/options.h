@@ -46,6 +46,8 @@ struct Options {
   bool suite = false;                              // fidelity: every goal
   std::vector<int> goals;                          // fidelity: these goals
   bool brief = false;                              // fidelity: seconds instead of minutes
+  bool map = false;                                // fidelity: touch all over the limb
+  int places = 6;                                  // of it: of every muscle
   std::optional<std::filesystem::path> recording;  // to be played (view), or followed (fidelity)
   std::string truth = "steps";                     // fidelity
   std::string plant;                               // fidelity: faults to be found again; empty: none
@@ -106,6 +108,8 @@ int validate(const Options& options);
 int fidelity(const Options& options);
 /// fidelity plane, fidelity plate: the force methods over the layer's engines. None: another scene.
 std::optional<int> layer_fidelity(const Options& options);
+/// fidelity --map
+int touch_map(const Options& options);
 int probe(const Options& options);
 int devices(const Options& options);
 int lesson(const Options& options);

@@ -137,7 +137,7 @@ bool Simulation::settle(std::span<const double> joint_angles_rad, std::span<cons
   in.place_followers();
   in.workers.run(in.surfaces.count(), [&](int surface) { in.surfaces.follow(in.limb, surface, true); });
   if (in.tether) in.tether->restart();
-  in.whole_steps = 0;
+  in.whole_steps = in.settled_steps = 0;
   return settled;
 }
 
@@ -165,12 +165,14 @@ void Simulation::step(std::span<const messages::ToolState> tools) {
   }
   in.place_followers();
   // One muscle's stiffness beside the surfaces: it reads the positions that they read.
-  const bool refreshes = !in.limb.muscles.empty() && in.steps % kStepsPerRefresh == 0;
+  const bool refreshes = !in.limb.muscles.empty() && in.settled_steps % kStepsPerRefresh == 0;
+  const int turn = in.settled_steps / kStepsPerRefresh;
   in.workers.run(in.surfaces.count() + 1, [&](int task) {
     if (task > 0) in.surfaces.follow(in.limb, task - 1, false);
-    if (task == 0 && refreshes) refresh_muscle_stiffness(in.limb, in.limb.muscles[at(in.next_refresh)]);
+    if (task == 0 && refreshes)
+      refresh_muscle_stiffness(in.limb, in.limb.muscles[at(turn) % in.limb.muscles.size()]);
   });
-  if (refreshes) in.next_refresh = (in.next_refresh + 1) % static_cast<int>(in.limb.muscles.size());
+  ++in.settled_steps;
   if (in.tether) in.tether->step(tools, dt_s);
   ++in.steps;
   std::vector<int> offered;

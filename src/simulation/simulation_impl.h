@@ -41,7 +41,7 @@ struct Simulation::Impl {
   std::vector<LineAgreement> line_agreements;  // one a muscle; that of a rigid one is perfect
   std::uint64_t steps = 0;                     // since construction
   int whole_steps = 0;             // of equal length since the last restart; the second-order rule needs one
-  int next_refresh = 0;            // muscle whose stiffness is refreshed by the next step
+  int settled_steps = 0;           // since the last settle: they say whose stiffness is refreshed
   int failed_steps = 0;            // since construction
   double residual_share = 0.0;     // of the last step
   std::vector<int> offered_lines;  // of each tool: the muscle whose line was nearest after the last step

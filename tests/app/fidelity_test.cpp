@@ -55,6 +55,24 @@ TEST(Fidelity, ARecordingIsFeltAgainAndOneCutShortIsUsedToItsLastWholeChunk) {
   EXPECT_NE(refused.output.find("another version"), std::string::npos) << refused.output;
 }
 
+TEST(Fidelity, AMapOfALimbLeavesItsTableItsPageAndAPictureFromEachSide) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run_program(
+      "fidelity elbow --map --places 1 --set tissue.default=rigid --log-level error --out " + folder.path().string());
+  EXPECT_LE(outcome.status, 1) << outcome.output;
+  EXPECT_NE(outcome.output.find("of 7 places"), std::string::npos) << outcome.output;
+  const auto json = nlohmann::json::parse(read_file(folder.path() / "touch_map.json"));
+  EXPECT_EQ(json["places"].size(), 7u);
+  EXPECT_EQ(outcome.status, json["poor"].get<int>() > 0 ? 1 : 0);
+  const std::string csv = read_file(folder.path() / "touch_map.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 8);
+  const std::string page = read_file(folder.path() / "touch_map.html");
+  EXPECT_NE(page.find("data:image/png;base64,iVBOR"), std::string::npos) << "a PNG file begins so";
+  EXPECT_EQ(page.find("<script"), std::string::npos);
+  for (const char* side : {"lateral", "medial", "cranial", "caudal"})
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / ("touch_map_" + std::string(side) + ".png")));
+}
+
 TEST(Fidelity, WhatIsWrongOnTheCommandLineIsNamed) {
   EXPECT_EQ(run_program("fidelity elbw").status, kNoInput);
   EXPECT_EQ(run_program("fidelity --device stilus").status, kNoInput);
@@ -62,6 +80,11 @@ TEST(Fidelity, WhatIsWrongOnTheCommandLineIsNamed) {
   EXPECT_EQ(run_program("fidelity --plant wind=3").status, kUsage);
   EXPECT_EQ(run_program("fidelity --truth guess").status, kUsage);
   EXPECT_EQ(run_program("fidelity --device simulated,stylus").status, kUsage);
+  EXPECT_EQ(run_program("fidelity --map --device simulated,stylus").status, kUsage);
+  EXPECT_EQ(run_program("fidelity --map --seconds 2").status, kUsage);
+  EXPECT_EQ(run_program("fidelity --places 2").status, kUsage);
+  EXPECT_EQ(run_program("fidelity --map --places 0").status, kUsage);
+  EXPECT_EQ(run_program("fidelity plane --map").status, kBadData);
 }
 
 }  // namespace

@@ -183,5 +183,13 @@ TEST(PlantedFaults, WhatIsWrongIsNamed) {
   }
 }
 
+// Two whole periods of 40 Hz lie in the 50 ms of the mean, which is then zero.
+TEST(Swing, OfASineIsItsRootMeanSquareAndOfWhatIsSlowNothing) {
+  EXPECT_NEAR(swing_N(sine(0.1, 40.0, 1024)), 0.1 / std::numbers::sqrt2, 1e-3);
+  EXPECT_LT(swing_N(sine(0.1, 2.0, 1024)), 2e-3);
+  EXPECT_EQ(swing_N(std::vector<Vec3>(500, Vec3(1.0, 2.0, 3.0))), 0.0);
+  EXPECT_EQ(swing_N(sine(0.1, 40.0, 49)), 0.0);
+}
+
 }  // namespace
 }  // namespace myotact::measure

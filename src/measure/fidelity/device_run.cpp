@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "device/simulated_device.h"
-#include "scene/conductor.h"
 #include "scene/force_replay.h"
 #include "scene/lockstep_haptics.h"
 
@@ -61,20 +60,21 @@ std::vector<Vec3> smoothed_path_m(const std::vector<haptics::HapticTick>& ticks)
 
 /// A simulated device a tool, all of the same profile.
 struct ScriptedDevices {
-  ScriptedDevices(const scene::Conductor& conductor, std::size_t count, const device::DeviceProfile& profile) {
+  ScriptedDevices(const HandPath& hand_path, std::size_t count, const device::DeviceProfile& profile)
+      : path(hand_path) {
     for (std::size_t t = 0; t < count; ++t) {
-      owned.push_back(
-          std::make_unique<device::SimulatedDevice>("simulated", conductor.hand(t, 0.0).position_world_m, profile));
+      owned.push_back(std::make_unique<device::SimulatedDevice>("simulated", path(t, 0.0).position_world_m, profile));
       pointers.push_back(owned.back().get());
     }
   }
-  void aim(const scene::Conductor& conductor, double time_s) {
+  void aim(double time_s) {
     for (std::size_t t = 0; t < owned.size(); ++t) {
-      const scene::HandTarget hand = conductor.hand(t, time_s);
+      const scene::HandTarget hand = path(t, time_s);
       owned[t]->set_hand_target({to_array(hand.position_world_m), {}, hand.buttons});
     }
   }
 
+  const HandPath& path;
   std::vector<std::unique_ptr<device::SimulatedDevice>> owned;
   std::vector<device::Device*> pointers;
 };
@@ -111,13 +111,11 @@ Vec3 simulated_force_N(const messages::LocalModel& model, const messages::ToolSt
   return force_scale * on_hand_N;
 }
 
-DeviceRun run_scripted(const scene::Scene& scene, const device::DeviceProfile& profile, double seconds,
-                       const RunWatch& watch) {
-  simulation::Simulation simulation(scene.specimen, scene.settings);
-  scene::Conductor conductor(scene, simulation);
-  ScriptedDevices devices(conductor, scene.tools.size(), profile);
+DeviceRun run_along(const scene::Scene& scene, simulation::Simulation& simulation, scene::Conductor& conductor,
+                    const device::DeviceProfile& profile, const HandPath& path, double seconds, const RunWatch& watch) {
+  ScriptedDevices devices(path, scene.tools.size(), profile);
   scene::LockstepHaptics haptics(devices.pointers, scene);
-  devices.aim(conductor, 0.0);
+  devices.aim(0.0);
   publish_models(simulation, haptics);
   for (int i = 0; i < kGateOpens_ticks; ++i) {
     haptics.tick();
@@ -127,13 +125,12 @@ DeviceRun run_scripted(const scene::Scene& scene, const device::DeviceProfile& p
   StepBook book(scene);
   DeviceRun run;
   run.notice = haptics.notice();
-  const auto steps =
-      static_cast<std::size_t>(std::llround(std::min(seconds, conductor.script_end_s()) / scene.settings.dt_s));
+  const auto steps = static_cast<std::size_t>(std::llround(seconds / scene.settings.dt_s));
   scene::StepRecord input;
   for (std::size_t step = 0; step < steps && goes_on(watch, step, steps); ++step) {
     conductor.prepare_step(simulation.time_s(), input);
     for (int i = 0; i < haptics.ticks_a_step(); ++i) {
-      devices.aim(conductor, haptics.time_s() - start_s);
+      devices.aim(haptics.time_s() - start_s);
       haptics.tick();
       run.ticks.push_back(haptics.last_tick(0));
       run.hand_m.push_back(devices.owned.front()->position_world_m());
@@ -147,6 +144,14 @@ DeviceRun run_scripted(const scene::Scene& scene, const device::DeviceProfile& p
     publish_models(simulation, haptics);
   }
   return run;
+}
+
+DeviceRun run_scripted(const scene::Scene& scene, const device::DeviceProfile& profile, double seconds,
+                       const RunWatch& watch) {
+  simulation::Simulation simulation(scene.specimen, scene.settings);
+  scene::Conductor conductor(scene, simulation);
+  const HandPath path = [&](std::size_t tool, double time_s) { return conductor.hand(tool, time_s); };
+  return run_along(scene, simulation, conductor, profile, path, std::min(seconds, conductor.script_end_s()), watch);
 }
 
 DeviceRun run_recorded(const scene::Scene& scene, const scene::Recording& recording,

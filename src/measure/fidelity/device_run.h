@@ -7,6 +7,7 @@
 
 #include "core/vector.h"
 #include "haptics/haptic_loop.h"
+#include "scene/conductor.h"
 #include "scene/recording.h"
 #include "scene/scene_file.h"
 
@@ -36,8 +37,15 @@ struct DeviceRun {
 /// and the snap of lines.
 scene::Scene without_effects(scene::Scene scene);
 
-/// The scene's script in lockstep, for at most `seconds`, by a simulated hand on a device of this profile. The force
-/// gate has opened before the script begins.
+/// Where the hand of a tool is, by the time since the path began.
+using HandPath = std::function<scene::HandTarget(std::size_t tool, double time_s)>;
+
+/// A path in lockstep, for `seconds`, from the present state of the simulation on, by a simulated hand on a device of
+/// this profile. The force gate has opened before the path begins. `conductor`: of this simulation.
+DeviceRun run_along(const scene::Scene& scene, simulation::Simulation& simulation, scene::Conductor& conductor,
+                    const device::DeviceProfile& profile, const HandPath& path, double seconds, const RunWatch& watch);
+
+/// The scene's script in lockstep, for at most `seconds`, as run_along().
 DeviceRun run_scripted(const scene::Scene& scene, const device::DeviceProfile& profile, double seconds,
                        const RunWatch& watch);
 

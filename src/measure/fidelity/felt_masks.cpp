@@ -30,4 +30,16 @@ ComparedTicks compared_ticks(const scene::Scene& scene, const DeviceRun& run, co
   return result;
 }
 
+ForceSeries felt_series(const DeviceRun& run, const std::vector<Vec3>& true_N, const std::vector<bool>& compared) {
+  ForceSeries series;
+  series.true_N = true_N;
+  series.compared = compared;
+  const std::size_t ticks = true_N.size();  // fewer than of the run when stopped
+  for (std::size_t i = 0; i < ticks; ++i) {
+    series.commanded_N.push_back(to_vec3(run.ticks[i].tool.force_world_N));
+    series.hand_m.push_back(to_vec3(run.ticks[i].device.stylus_position_world_m));
+  }
+  return series;
+}
+
 }  // namespace myotact::measure

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "measure/fidelity/device_run.h"
+#include "measure/fidelity/force_comparison.h"
 
 namespace myotact::measure {
 
@@ -27,5 +28,8 @@ struct ComparedTicks {
 /// One a tick of `true_N`, which may be fewer than the run has.
 ComparedTicks compared_ticks(const scene::Scene& scene, const DeviceRun& run, const device::DeviceProfile& profile,
                              const std::vector<Vec3>& true_N);
+
+/// The force that the run commanded beside the true one, for compare_forces().
+ForceSeries felt_series(const DeviceRun& run, const std::vector<Vec3>& true_N, const std::vector<bool>& compared);
 
 }  // namespace myotact::measure

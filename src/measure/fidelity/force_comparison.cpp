@@ -226,6 +226,20 @@ void measure_what_is_left(const ForceSeries& series, const std::vector<bool>& us
 
 }  // namespace
 
+double swing_N(std::span<const Vec3> force_N) {
+  constexpr std::size_t kWindow_ticks = 50;
+  if (force_N.size() < kWindow_ticks) return 0.0;
+  Vec3 sum_N = Vec3::Zero();  // of the window
+  for (std::size_t i = 0; i < kWindow_ticks; ++i) sum_N += force_N[i];
+  double sum_N2 = 0.0;
+  const std::size_t count = force_N.size() - kWindow_ticks + 1;
+  for (std::size_t first = 0; first < count; ++first) {
+    if (first > 0) sum_N += force_N[first + kWindow_ticks - 1] - force_N[first - 1];
+    sum_N2 += (force_N[first + kWindow_ticks / 2] - sum_N / static_cast<double>(kWindow_ticks)).squaredNorm();
+  }
+  return std::sqrt(sum_N2 / static_cast<double>(count));
+}
+
 Vec3 force_at(const std::vector<Vec3>& force, double tick) {
   const auto last = static_cast<long>(force.size()) - 1;
   const double before = std::floor(tick);

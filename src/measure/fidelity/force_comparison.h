@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "core/vector.h"
@@ -47,6 +48,10 @@ struct ForceComparison {
 /// A rotation about an axis that no force of the series shows (that along which all of them lie) counts as zero. Lags
 /// are looked for up to 100 ms either way.
 ForceComparison compare_forces(const ForceSeries& series);
+
+/// What a force of 1 kHz swings by over 20 Hz: root mean square beside its mean over 50 ms. 0 for fewer ticks than
+/// that.
+double swing_N(std::span<const Vec3> force_N);
 
 /// `force` at a time between ticks, cubic through its four neighbours; held at both ends.
 Vec3 force_at(const std::vector<Vec3>& force, double tick);

@@ -5,6 +5,7 @@
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
+#include <openssl/evp.h>
 #include <stb/stb_image_write.h>
 
 #include "core/error.h"
@@ -174,6 +175,16 @@ std::string png_bytes(const Image& image) {
   std::string bytes;
   stbi_write_png_to_func(append_bytes, &bytes, image.width, image.height, 3, image.rgb.data(), 3 * image.width);
   return bytes;
+}
+
+std::string png_base64(const Image& image) {
+  const std::string bytes = png_bytes(image);
+  std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');
+  const int length =
+      EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
+                      reinterpret_cast<const unsigned char*>(bytes.data()), static_cast<int>(bytes.size()));
+  text.resize(static_cast<std::size_t>(length));
+  return text;
 }
 
 void write_png(const std::filesystem::path& path, const Image& image) {

@@ -39,6 +39,8 @@ class OffscreenRenderer {
 };
 
 std::string png_bytes(const Image& image);
+/// The same as text, for a page that holds its pictures: src="data:image/png;base64,...".
+std::string png_base64(const Image& image);
 
 /// PNG by temporary file and rename. Throws Error InputOutput.
 void write_png(const std::filesystem::path& path, const Image& image);

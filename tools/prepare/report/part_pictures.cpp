@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <openssl/evp.h>
-
 #include "view/look/limb_bounds.h"
 #include "view/look/start_view.h"
 #include "view/pictures/offscreen.h"
@@ -19,15 +17,6 @@ constexpr Size kLimbSize{520, 700};
 constexpr Size kPartSize{300, 300};
 /// Radius of a mark, as a part of the diagonal of what is seen.
 constexpr float kMarkShare = 0.014f;
-
-std::string base64(const std::string& bytes) {
-  std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');
-  const int length =
-      EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
-                      reinterpret_cast<const unsigned char*>(bytes.data()), static_cast<int>(bytes.size()));
-  text.resize(static_cast<std::size_t>(length));
-  return text;
-}
 
 glm::vec3 to_glm(const Vec3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
@@ -73,7 +62,7 @@ PicturePair draw(const anatomy::Specimen& specimen, const Size& size, const std:
     look.camera = view::standard_view(side, specimen.side != "right", box, aspect).value_or(look.camera);
     view::SceneExtras extras;
     extras.marks = balls;
-    return base64(view::png_bytes(renderer.render(frame, look, extras)));
+    return view::png_base64(renderer.render(frame, look, extras));
   };
   return {from("lateral"), from("medial")};
 }
