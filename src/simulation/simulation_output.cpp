@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/at.h"
 #include "simulation/simulation_impl.h"
@@ -34,8 +35,10 @@ void Simulation::Impl::write_contact(const messages::ToolContact& contact, int i
   model.contact.surface = contact.surface;
   Vec3 force_N = Vec3::Zero();
   Mat3 compliance = Mat3::Zero();
+  bool rests = false;  // on a surface that was found before
   for (std::size_t s = 0; s < limb.springs.size(); ++s) {
     if (limb.springs[s].open || !of_one_sphere(*first, limb.springs[s])) continue;
+    if (!std::exchange(rests, true)) model.contact.surface = limb.springs[s].surface;
     force_N += limb.spring_force_N[s];
     compliance = limb.spring_compliance_m_N[s];  // of the sphere: the same for all its points
   }

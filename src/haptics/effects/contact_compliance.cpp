@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <Eigen/Eigenvalues>
+
 namespace myotact::haptics {
 
 namespace {
@@ -9,8 +11,12 @@ namespace {
 /// Stiffest coupling, where the tissue gives way enough for the device: tissue of 1000 N/m then reads 3 % soft. Twice
 /// that makes the encoder's 20 um felt on stiff tissue (measured: 30 instead of 20 mN), half of it doubles the error.
 constexpr double kLargestCoupling_N_m = 3e4;
-/// No tissue gives way more in a step: 5 N would move it by half a metre. A model with more is invalid.
-constexpr double kLargestCompliance_m_N = 0.1;
+/// Softer tissue is taken as soft as this for the length of a step [m/N]. Tissue about to fold has next to no stiffness
+/// in the linear solve (1.7 m/N were seen where 3 mm/N came before and after), and would not move by a tenth of that.
+constexpr double kLargestCompliance_m_N = 3e-3;
+/// The room beside a sphere changes with the surfaces; slower, the coupling would be too stiff on a bone that a step
+/// reached, faster it would follow every hop of the sphere.
+constexpr double kRoom_s = 0.01;
 
 /// Part of the way to the model's numbers that a tick goes: all of them are reached when the model is played.
 double share_of_tick(const messages::LocalModel& model, std::uint64_t now_ns, double dt_s) {
@@ -20,14 +26,35 @@ double share_of_tick(const messages::LocalModel& model, std::uint64_t now_ns, do
   return left_s > dt_s ? dt_s / left_s : 1.0;
 }
 
-double along(const Vec3& normal, const std::array<double, 9>& rows) {
-  const Mat3 compliance = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rows.data());
-  return std::clamp(normal.dot(compliance * normal), 0.0, kLargestCompliance_m_N);
+/// The same directions, none softer than `most_m_N` nor stiffer than rigid.
+Mat3 no_softer_than(double most_m_N, const Mat3& compliance_m_N) {
+  Eigen::SelfAdjointEigenSolver<Mat3> solver;
+  solver.computeDirect(compliance_m_N);
+  const Vec3 values_m_N = solver.eigenvalues().cwiseMax(0.0).cwiseMin(most_m_N);
+  return solver.eigenvectors() * values_m_N.asDiagonal() * solver.eigenvectors().transpose();
+}
+
+/// Of a model, whatever it says.
+Mat3 sound_compliance(const std::array<double, 9>& rows) {
+  constexpr double kBeyondReason_m_N = 1e3;  // the square of more might overflow
+  const Mat3 given = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rows.data())
+                         .cwiseMax(-kBeyondReason_m_N)
+                         .cwiseMin(kBeyondReason_m_N);
+  return no_softer_than(kLargestCompliance_m_N, 0.5 * (given + given.transpose()));
 }
 
 bool rests_on(const ProxyContact& touching, std::int32_t surface) {
   return touching.surface == surface || std::any_of(touching.beside.begin(), touching.beside.end(),
                                                     [&](const ProxyNeighbour& b) { return b.surface == surface; });
+}
+
+/// Gap to the nearest surface beside, over what counts as beside.
+double room_beside(const ProxyContact& touching) {
+  double room = 1.0;
+  for (const ProxyNeighbour& near : touching.beside) {
+    if (near.surface >= 0) room = std::min(room, near.gap_m / kBeside_m);
+  }
+  return room;
 }
 
 /// Used in place of 0, so that nothing is divided by 0: a millimetre gives 1 uN.
@@ -39,21 +66,27 @@ void ContactCompliance::tick(const messages::LocalModel& model, const ProxyConta
                              double dt_s) noexcept {
   const messages::LocalContact& known = model.contact;
   const bool elsewhere = touching.active && !(known.surface >= 0 && rests_on(touching, known.surface));
-  double compliance_m_N = compliance_m_N_;  // kept after the contact: the next touch of the same tissue finds it
+  Mat3 compliance_m_N = compliance_m_N_;  // kept after the contact: the next touch of the same tissue finds it
+  double normal_m_N = normal_m_N_;
   Vec3 used_N = Vec3::Zero();
   if (elsewhere && touching.surface != surface_) {
-    compliance_m_N = 0.0;
-    if (compliance_m_N_ == 0.0) surface_ = touching.surface;
+    compliance_m_N.setZero();
+    normal_m_N = 0.0;
+    if (compliance_m_N_.isZero(0.0)) surface_ = touching.surface;
   } else if (!elsewhere && known.surface >= 0) {
     used_N = to_vec3(known.force_world_N);
     if (touching.active) {
       surface_ = known.surface;
-      compliance_m_N = along(touching.normal, known.compliance_m_N);
+      compliance_m_N = sound_compliance(known.compliance_m_N);
+      normal_m_N = touching.normal.dot(compliance_m_N * touching.normal);
     }
   }
   const double share = share_of_tick(model, now_ns, dt_s);
+  room_ += std::min(1.0, dt_s / kRoom_s) * (room_beside(touching) - room_);
   compliance_m_N_ += share * (compliance_m_N - compliance_m_N_);
+  normal_m_N_ += share * (normal_m_N - normal_m_N_);
   used_N_ += share * (used_N - used_N_);
+  given_m_N_ = no_softer_than(1.0 / felt_stiffness_N_m() - 1.0 / stiffest_N_m(), compliance_m_N_);
 }
 
 void ContactCompliance::limit_stiffness(double stiffness_N_m) noexcept {
@@ -62,16 +95,24 @@ void ContactCompliance::limit_stiffness(double stiffness_N_m) noexcept {
 
 void ContactCompliance::forget() noexcept {
   surface_ = -1;
-  compliance_m_N_ = 0.0;
+  compliance_m_N_ = given_m_N_ = Mat3::Zero();
+  normal_m_N_ = 0.0;
+  room_ = 1.0;
   used_N_ = Vec3::Zero();
 }
 
+double ContactCompliance::stiffest_N_m() const noexcept {
+  return std::max(kLargestCoupling_N_m, stiffness_N_m_);
+}
+
 double ContactCompliance::coupling_stiffness_N_m() const noexcept {
-  return 1.0 / std::max(1.0 / stiffness_N_m_ - compliance_m_N_, 1.0 / std::max(kLargestCoupling_N_m, stiffness_N_m_));
+  const double device_m_N = 1.0 / stiffness_N_m_;
+  const double hidden_m_N = std::max(device_m_N - normal_m_N_, 1.0 / stiffest_N_m());
+  return 1.0 / (room_ * hidden_m_N + (1.0 - room_) * device_m_N);
 }
 
 double ContactCompliance::felt_stiffness_N_m() const noexcept {
-  return 1.0 / (1.0 / coupling_stiffness_N_m() + compliance_m_N_);
+  return 1.0 / (1.0 / coupling_stiffness_N_m() + normal_m_N_);
 }
 
 }  // namespace myotact::haptics

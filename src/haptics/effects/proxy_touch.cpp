@@ -68,7 +68,11 @@ void ProxyTouch::report(const Vec3& force_N, double share, messages::ToolState& 
   tool.proxy_position_world_m = to_array(proxy_.position_m() + tissue_shift_m);
   const ProxyContact& contact = proxy_.contact();
   if (!contact.active || !(share > 0.0)) return;
-  const Vec3 touched_m = contact.point_m + tissue_shift_m;
+  // What the simulation said is of one surface; another one, bone perhaps, is not known to give way.
+  const auto place_m = [&](std::int32_t surface, const Vec3& played_m) {
+    return Vec3(surface == compliance_.surface() ? played_m + tissue_shift_m : played_m);
+  };
+  const Vec3 touched_m = place_m(contact.surface, contact.point_m);
   const double stiffness_N_m = compliance_.coupling_stiffness_N_m();
   tool.contact = {contact.surface,
                   contact.triangle,
@@ -81,12 +85,13 @@ void ProxyTouch::report(const Vec3& force_N, double share, messages::ToolState& 
   for (std::size_t i = 0; i < contact.beside.size(); ++i) {
     const ProxyNeighbour& near = contact.beside[i];
     if (near.surface < 0) break;
-    tool.beside[i] = {near.surface,
-                      near.triangle,
-                      {near.barycentric[0], near.barycentric[1], 1.0 - near.barycentric[0] - near.barycentric[1]},
-                      to_array(near.normal),
-                      to_array(near.point_m + tissue_shift_m + near.gap_m * near.normal - force_N / stiffness_N_m),
-                      stiffness_N_m};
+    tool.beside[i] = {
+        near.surface,
+        near.triangle,
+        {near.barycentric[0], near.barycentric[1], 1.0 - near.barycentric[0] - near.barycentric[1]},
+        to_array(near.normal),
+        to_array(place_m(near.surface, near.point_m) + near.gap_m * near.normal - force_N / stiffness_N_m),
+        stiffness_N_m};
   }
 }
 

@@ -38,9 +38,6 @@ constexpr double kSettled_m = 1e-6;
 /// A stuck sphere may be off its anchor by this share of the radius (normal travel over a curved surface) before the
 /// anchor is renewed: the anchor is what keeps it from creeping, so it is kept as long as it makes sense.
 constexpr double kAnchorSlack = 0.05;
-/// A surface within this of the sphere is one that it may come to rest on within a step [m]: tissue that gives way
-/// under half a newton at 500 N/m.
-constexpr double kBeside_m = 1e-3;
 /// Beyond all that a model holds.
 constexpr double kEverywhere_m = 1e3;
 /// Of the radius: the way that a tick is allowed at first, besides that of hand and surface. Longer ways come with

@@ -21,6 +21,10 @@ struct ProxyGoal {
   Vec3 velocity_m_s = Vec3::Zero();
 };
 
+/// A surface within this of the sphere is one that it may come to rest on within a step [m]: tissue that gives way
+/// under half a newton at 500 N/m.
+inline constexpr double kBeside_m = 1e-3;
+
 /// Another surface than the contact's, so near that the sphere may rest on it, too.
 struct ProxyNeighbour {
   std::int32_t surface = -1;  // -1: none

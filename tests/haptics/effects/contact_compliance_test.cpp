@@ -1,6 +1,7 @@
 #include "haptics/effects/contact_compliance.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -28,7 +29,7 @@ struct Play {
     model.published_at_ns = now_ns;
     model.contact.surface = surface;
     model.contact.force_world_N = {0.0, 0.0, -force_N};
-    for (const std::size_t k : {0u, 4u}) model.contact.compliance_m_N[k] = 7.0;  // along the surface: not used
+    for (const std::size_t k : {0u, 4u}) model.contact.compliance_m_N[k] = 0.0;
     model.contact.compliance_m_N[8] = compliance_m_N;
   }
   void tick(int ticks = 1) {
@@ -46,7 +47,7 @@ TEST(ContactCompliance, WithoutAModelOfTheContactTheSpringIsTheDevices) {
 
 // 1/A = 1/K + c; A never above the device's bound, K as stiff as that allows.
 TEST(ContactCompliance, CouplingAndTissueInARowAreNoStifferThanTheDeviceMayRender) {
-  for (const double tissue_N_m : {200.0, 500.0, 1500.0, 9000.0}) {
+  for (const double tissue_N_m : {350.0, 500.0, 1500.0, 9000.0}) {
     Play play;
     play.step(1.0, 1.0 / tissue_N_m);
     play.tick(10);
@@ -102,7 +103,7 @@ TEST(ContactCompliance, AnotherSurfaceIsRigidUntilItsOwnModelComes) {
   play.tick(10);
   EXPECT_EQ(play.compliance.shift_m().norm(), 0.0);
   EXPECT_NEAR(play.compliance.felt_stiffness_N_m(), kDevice_N_m, 1e-9);
-  play.step(0.5, 4e-3, 1);
+  play.step(2.0, 1e-3, 1);
   play.tick(10);
   EXPECT_NEAR(play.compliance.shift_m().z(), -2e-3, 1e-12);
 }
@@ -119,6 +120,68 @@ TEST(ContactCompliance, SurfacesThatTheToolRestsOnTogetherGiveWayTogether) {
   play.touching.beside[0].surface = -1;  // and no longer
   play.tick(10);
   EXPECT_EQ(play.compliance.shift_m().norm(), 0.0);
+}
+
+// A strand gives way to the side and hardly along itself, whatever it does across the surface.
+TEST(ContactCompliance, AlongTheSurfaceTheTissueHasItsOwn) {
+  Play play;
+  play.step(1.0, 1.2e-3);
+  play.model.contact.compliance_m_N[0] = 0.1e-3;
+  play.model.contact.compliance_m_N[4] = 0.9e-3;
+  play.tick(10);
+  const Vec3 moved_m = play.compliance.tissue_shift_m(Vec3(0.2, 0.3, 1.0));
+  EXPECT_LT((moved_m - Vec3(-0.2 * 0.1e-3, -0.3 * 0.9e-3, 0.0)).norm(), 1e-12);
+}
+
+// With the tissue's linear law and the spring that the simulation is told of, its step gives the force that the hand
+// feels: for any compliance along the surface that the coupling leaves room for.
+TEST(ContactCompliance, TheSimulationAnswersAChangeOfForceWithThatChange) {
+  Play play;
+  play.step(0.8, 1.1e-3);
+  play.model.contact.compliance_m_N = {0.2e-3, 0.1e-3, 0.05e-3, 0.1e-3, 0.6e-3, -0.1e-3, 0.05e-3, -0.1e-3, 1.1e-3};
+  play.tick(10);
+  const Mat3 compliance_m_N =
+      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(play.model.contact.compliance_m_N.data());
+  const Vec3 used_N(0.0, 0.0, -0.8), wanted_N(0.2, -0.1, -0.9);  // on the tissue
+  const double coupling_N_m = play.compliance.coupling_stiffness_N_m();
+  const Vec3 target_m = play.compliance.tissue_shift_m(-wanted_N) + wanted_N / coupling_N_m;
+  // coupling (target - C (F - used)) = F
+  const Mat3 both_m_N = Mat3::Identity() / coupling_N_m + compliance_m_N;
+  const Vec3 answer_N = both_m_N.inverse() * (target_m + compliance_m_N * used_N);
+  EXPECT_LT((answer_N - wanted_N).norm(), 0.01 * wanted_N.norm());
+}
+
+TEST(ContactCompliance, TissueAboutToFoldIsTakenAsSoftAndItsOtherDirectionsAsTheyAre) {
+  Play play;
+  play.step(1.0, 1e-3);
+  play.model.contact.compliance_m_N[0] = 1.7;
+  play.model.contact.compliance_m_N[4] = 1e-3;
+  play.tick(10);
+  EXPECT_NEAR(1.0 / play.compliance.felt_stiffness_N_m(), 1.0 / kDevice_N_m, 1e-9);
+  const Vec3 moved_m = play.compliance.tissue_shift_m(Vec3(0.1, 0.1, 1.0));
+  EXPECT_LT(std::abs(moved_m.x()), 0.1 / kDevice_N_m);
+  EXPECT_NEAR(moved_m.y(), -0.1 * 1e-3, 1e-12);
+}
+
+// On the last millimetre before another surface the coupling becomes the device's own, whatever the tissue hides.
+TEST(ContactCompliance, LittleRoomBesideTheSphereSoftensTheCoupling) {
+  double before_N_m = 1e9;
+  for (const double gap_m : {1e-3, 0.75e-3, 0.5e-3, 0.25e-3, 0.0}) {
+    Play play;
+    play.touching.beside[0].surface = 5;
+    play.touching.beside[0].gap_m = gap_m;
+    play.step(1.0, 2e-3);
+    for (int step = 0; step < 20; ++step) {
+      play.model.published_at_ns = play.now_ns;
+      play.tick(10);
+    }
+    const double coupling_N_m = play.compliance.coupling_stiffness_N_m();
+    EXPECT_LT(coupling_N_m, before_N_m);
+    EXPECT_GE(coupling_N_m, kDevice_N_m * (1.0 - 1e-6));
+    before_N_m = coupling_N_m;
+    const double hidden_m_N = 1.0 / 3e4;  // the stiffest coupling, which tissue of 500 N/m leaves to a device of 800
+    EXPECT_NEAR(1.0 / coupling_N_m, hidden_m_N + (1.0 - gap_m / 1e-3) * (1.0 / kDevice_N_m - hidden_m_N), 1e-9);
+  }
 }
 
 // A tool that bounces meets the tissue as soft as it left it, without the force of the last touch.
