@@ -1,6 +1,7 @@
 #include "haptics/effects/contact_compliance.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <Eigen/Eigenvalues>
 
@@ -26,12 +27,21 @@ double share_of_tick(const messages::LocalModel& model, std::uint64_t now_ns, do
   return left_s > dt_s ? dt_s / left_s : 1.0;
 }
 
-/// The same directions, none softer than `most_m_N` nor stiffer than rigid.
-Mat3 no_softer_than(double most_m_N, const Mat3& compliance_m_N) {
+struct Directions {
+  Vec3 values;
+  Mat3 vectors;
+};
+
+/// Of a symmetric matrix. Closed form: nothing iterates.
+Directions directions_of(const Mat3& symmetric) {
   Eigen::SelfAdjointEigenSolver<Mat3> solver;
-  solver.computeDirect(compliance_m_N);
-  const Vec3 values_m_N = solver.eigenvalues().cwiseMax(0.0).cwiseMin(most_m_N);
-  return solver.eigenvectors() * values_m_N.asDiagonal() * solver.eigenvectors().transpose();
+  solver.computeDirect(symmetric);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+Mat3 between(double least, double most, Directions& directions) {
+  directions.values = directions.values.cwiseMax(least).cwiseMin(most);
+  return directions.vectors * directions.values.asDiagonal() * directions.vectors.transpose();
 }
 
 /// Of a model, whatever it says.
@@ -40,7 +50,28 @@ Mat3 sound_compliance(const std::array<double, 9>& rows) {
   const Mat3 given = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rows.data())
                          .cwiseMax(-kBeyondReason_m_N)
                          .cwiseMin(kBeyondReason_m_N);
-  return no_softer_than(kLargestCompliance_m_N, 0.5 * (given + given.transpose()));
+  Directions directions = directions_of(0.5 * (given + given.transpose()));
+  return between(0.0, kLargestCompliance_m_N, directions);
+}
+
+/// A compliance that is `along_normal` across the surface and nowhere more than `most`: along the surface each
+/// direction is bounded, and what joins the two is kept as far as there is room,
+///
+///   most - C >= 0   <=>   (most - c) (most - T) >= x x^T,   c across, T along, x what joins
+Mat3 with_room(const Mat3& compliance_m_N, const Vec3& normal, double along_normal_m_N, double most_m_N) {
+  const Mat3 across = Mat3::Identity() - normal * normal.transpose();
+  const Vec3 joining_m_N = across * compliance_m_N * normal;
+  Directions directions = directions_of(across * compliance_m_N * across);
+  const Mat3 along_m_N = between(0.0, most_m_N, directions);
+  double needed_m_N = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    const double part_m_N = directions.vectors.col(i).dot(joining_m_N);
+    needed_m_N += part_m_N * part_m_N / std::max(most_m_N - directions.values[i], 1e-12);
+  }
+  const double room_m_N = std::max(0.0, most_m_N - along_normal_m_N);
+  const double kept = needed_m_N > room_m_N ? std::sqrt(room_m_N / needed_m_N) : 1.0;
+  const Mat3 joined_m_N = joining_m_N * normal.transpose();
+  return along_normal_m_N * normal * normal.transpose() + along_m_N + kept * (joined_m_N + joined_m_N.transpose());
 }
 
 bool rests_on(const ProxyContact& touching, std::int32_t surface) {
@@ -86,7 +117,9 @@ void ContactCompliance::tick(const messages::LocalModel& model, const ProxyConta
   compliance_m_N_ += share * (compliance_m_N - compliance_m_N_);
   normal_m_N_ += share * (normal_m_N - normal_m_N_);
   used_N_ += share * (used_N - used_N_);
-  given_m_N_ = no_softer_than(1.0 / felt_stiffness_N_m() - 1.0 / stiffest_N_m(), compliance_m_N_);
+  if (touching.active) normal_ = touching.normal;
+  const double most_m_N = 1.0 / felt_stiffness_N_m() - 1.0 / stiffest_N_m();
+  given_m_N_ = with_room(compliance_m_N_, normal_, normal_m_N_, most_m_N);
 }
 
 void ContactCompliance::limit_stiffness(double stiffness_N_m) noexcept {

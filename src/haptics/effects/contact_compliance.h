@@ -60,6 +60,7 @@ class ContactCompliance {
   Mat3 compliance_m_N_ = Mat3::Zero();  // C
   double normal_m_N_ = 0.0;             // c
   Mat3 given_m_N_ = Mat3::Zero();       // C where A leaves room for it
+  Vec3 normal_ = Vec3::UnitZ();         // of the last touch, unit
   double room_ = 1.0;                   // beside the sphere, 0 .. 1
   Vec3 used_N_ = Vec3::Zero();          // force on the tissue that belongs to the played surface
 };
