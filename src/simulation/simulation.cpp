@@ -169,8 +169,7 @@ void Simulation::step(std::span<const messages::ToolState> tools) {
   const int turn = in.settled_steps / kStepsPerRefresh;
   in.workers.run(in.surfaces.count() + 1, [&](int task) {
     if (task > 0) in.surfaces.follow(in.limb, task - 1, false);
-    if (task == 0 && refreshes)
-      refresh_muscle_stiffness(in.limb, in.limb.muscles[at(turn) % in.limb.muscles.size()]);
+    if (task == 0 && refreshes) refresh_muscle_stiffness(in.limb, in.limb.muscles[at(turn) % in.limb.muscles.size()]);
   });
   ++in.settled_steps;
   if (in.tether) in.tether->step(tools, dt_s);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 

@@ -63,13 +63,14 @@ struct ScriptedDevices {
   ScriptedDevices(const HandPath& hand_path, std::size_t count, const device::DeviceProfile& profile)
       : path(hand_path) {
     for (std::size_t t = 0; t < count; ++t) {
-      owned.push_back(std::make_unique<device::SimulatedDevice>("simulated", path(t, 0.0).position_world_m, profile));
+      owned.push_back(
+          std::make_unique<device::SimulatedDevice>("simulated", path.hand(t, 0.0).position_world_m, profile));
       pointers.push_back(owned.back().get());
     }
   }
   void aim(double time_s) {
     for (std::size_t t = 0; t < owned.size(); ++t) {
-      const scene::HandTarget hand = path(t, time_s);
+      const scene::HandTarget hand = path.hand(t, time_s);
       owned[t]->set_hand_target({to_array(hand.position_world_m), {}, hand.buttons});
     }
   }
@@ -81,6 +82,15 @@ struct ScriptedDevices {
 
 void publish_models(const simulation::Simulation& simulation, scene::LockstepHaptics& haptics) {
   for (std::size_t t = 0; t < haptics.tool_count(); ++t) haptics.publish_model(t, simulation);
+}
+
+/// Ticks of a resting hand until the force gate has opened, on models of a simulation that stands still.
+void open_gate(const simulation::Simulation& simulation, scene::LockstepHaptics& haptics) {
+  publish_models(simulation, haptics);
+  for (int i = 0; i < kGateOpens_ticks; ++i) {
+    haptics.tick();
+    if ((i + 1) % haptics.ticks_a_step() == 0) publish_models(simulation, haptics);
+  }
 }
 
 bool goes_on(const RunWatch& watch, std::size_t done, std::size_t all) {
@@ -111,21 +121,18 @@ Vec3 simulated_force_N(const messages::LocalModel& model, const messages::ToolSt
   return force_scale * on_hand_N;
 }
 
-DeviceRun run_along(const scene::Scene& scene, simulation::Simulation& simulation, scene::Conductor& conductor,
-                    const device::DeviceProfile& profile, const HandPath& path, double seconds, const RunWatch& watch) {
+DeviceRun run_along(const StandingScene& standing, const device::DeviceProfile& profile, const HandPath& path,
+                    const RunWatch& watch) {
+  const auto& [scene, simulation, conductor] = standing;
   ScriptedDevices devices(path, scene.tools.size(), profile);
   scene::LockstepHaptics haptics(devices.pointers, scene);
   devices.aim(0.0);
-  publish_models(simulation, haptics);
-  for (int i = 0; i < kGateOpens_ticks; ++i) {
-    haptics.tick();
-    if ((i + 1) % haptics.ticks_a_step() == 0) publish_models(simulation, haptics);
-  }
+  open_gate(simulation, haptics);
   const double start_s = haptics.time_s();
   StepBook book(scene);
   DeviceRun run;
   run.notice = haptics.notice();
-  const auto steps = static_cast<std::size_t>(std::llround(seconds / scene.settings.dt_s));
+  const auto steps = static_cast<std::size_t>(std::llround(path.end_s / scene.settings.dt_s));
   scene::StepRecord input;
   for (std::size_t step = 0; step < steps && goes_on(watch, step, steps); ++step) {
     conductor.prepare_step(simulation.time_s(), input);
@@ -150,8 +157,9 @@ DeviceRun run_scripted(const scene::Scene& scene, const device::DeviceProfile& p
                        const RunWatch& watch) {
   simulation::Simulation simulation(scene.specimen, scene.settings);
   scene::Conductor conductor(scene, simulation);
-  const HandPath path = [&](std::size_t tool, double time_s) { return conductor.hand(tool, time_s); };
-  return run_along(scene, simulation, conductor, profile, path, std::min(seconds, conductor.script_end_s()), watch);
+  const HandPath path{[&](std::size_t tool, double time_s) { return conductor.hand(tool, time_s); },
+                      std::min(seconds, conductor.script_end_s())};
+  return run_along({scene, simulation, conductor}, profile, path, watch);
 }
 
 DeviceRun run_recorded(const scene::Scene& scene, const scene::Recording& recording,

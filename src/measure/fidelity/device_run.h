@@ -37,13 +37,22 @@ struct DeviceRun {
 /// and the snap of lines.
 scene::Scene without_effects(scene::Scene scene);
 
-/// Where the hand of a tool is, by the time since the path began.
-using HandPath = std::function<scene::HandTarget(std::size_t tool, double time_s)>;
+/// Where the hands are, from when the path begins.
+struct HandPath {
+  std::function<scene::HandTarget(std::size_t tool, double time_s)> hand;
+  double end_s = 0.0;
+};
 
-/// A path in lockstep, for `seconds`, from the present state of the simulation on, by a simulated hand on a device of
-/// this profile. The force gate has opened before the path begins. `conductor`: of this simulation.
-DeviceRun run_along(const scene::Scene& scene, simulation::Simulation& simulation, scene::Conductor& conductor,
-                    const device::DeviceProfile& profile, const HandPath& path, double seconds, const RunWatch& watch);
+/// A scene that has been put where a path is to begin.
+struct StandingScene {
+  const scene::Scene& scene;
+  simulation::Simulation& simulation;
+  scene::Conductor& conductor;  // of this simulation
+};
+
+/// A path in lockstep by simulated hands on devices of this profile. The force gate has opened before it begins.
+DeviceRun run_along(const StandingScene& standing, const device::DeviceProfile& profile, const HandPath& path,
+                    const RunWatch& watch);
 
 /// The scene's script in lockstep, for at most `seconds`, as run_along().
 DeviceRun run_scripted(const scene::Scene& scene, const device::DeviceProfile& profile, double seconds,

@@ -55,10 +55,10 @@ class TouchedLimb {
 
   TouchedPlace touch(const TouchPlace& place, const device::DeviceProfile& profile) {
     restart();
-    const HandPath path = [&](std::size_t tool, double time_s) {
+    const auto hand = [&](std::size_t tool, double time_s) {
       return scene::HandTarget{tool == 0 ? hand_m(place, time_s) : scene::start_of_hand(scene_, tool), 0};
     };
-    const DeviceRun run = run_along(scene_, simulation_, conductor_, profile, path, kEnd_s, {});
+    const DeviceRun run = run_along({scene_, simulation_, conductor_}, profile, {hand, kEnd_s}, {});
     const std::vector<Vec3> true_N = true_force_by_steps(run);
     const ForceSeries force = felt_series(run, true_N, compared_ticks(scene_, run, profile, true_N).compared);
     const ForceComparison found = compare_forces(force);
