@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
+#include "app/fidelity_input.h"
 #include "app/fidelity_page.h"
 #include "app/interruption.h"
 #include "app/options.h"
-#include "app/progress.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/json_reader.h"
@@ -45,22 +45,21 @@ struct Subject {
 };
 
 Subject subject_of(const Options& options) {
-  if (options.devices.size() > 1)
-    throw Error(ExitStatus::Usage, "--device: one tool is measured; name one device profile");
   Subject subject;
-  if (!options.devices.empty()) subject.device = device::load_profile(options.devices.front());
+  const std::optional<device::NamedProfile> named = named_profile(options);
+  if (named) subject.device = *named;
   if (options.recording) {
     subject.recording = scene::read_recording(*options.recording);
     const nlohmann::json header = parse_json(subject.recording->header_json, options.recording->string() + " (header)");
     subject.scene = scene::scene_of_recording(header, *options.recording, scene_overrides_of(options));
     scene::require_fit(*subject.recording, subject.scene, *options.recording);
-    if (options.devices.empty())
+    if (!named)
       subject.device = {"recorded", "the recorded device",
                         scene::devices_of_recording(header, *options.recording).front()};
   } else {
     subject.scene = scene::load_scene(options.scene, scene_overrides_of(options));
     scene::set_seed(subject.scene, options.seed);
-    if (options.devices.empty()) subject.device = device::load_profile("simulated");
+    if (!named) subject.device = device::load_profile("simulated");
   }
   subject.scene.settings.workers = options.workers;
   return subject;
@@ -79,12 +78,9 @@ int scene_fidelity(const Options& options) {
   if (options.seconds) request.seconds = *options.seconds;
   if (subject.recording) request.recording = &*subject.recording;
   make_writable_folder(options.out);
-  watch_for_interruption();
   Progress progress;
-  measure::RunWatch watch;
-  watch.progress = [&](int done, int all) { progress.show(done, all); };
-  watch.stopped = [] { return interruption() != 0; };
-  const measure::SceneFidelity found = measure::measure_scene_fidelity(subject.scene, request, watch);
+  const measure::SceneFidelity found =
+      measure::measure_scene_fidelity(subject.scene, request, watch_until_interrupted(progress));
   const std::string json = measure::scene_fidelity_json(found);
   write_file(options.out / "fidelity.json", json);
   write_file(options.out / "fidelity.csv", measure::scene_fidelity_csv(found));

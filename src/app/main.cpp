@@ -128,7 +128,7 @@ CLI::App* add_fidelity(CLI::App& program, Options& options) {
       ->capture_default_str();
   map->excludes("--recording")->excludes("--plant")->excludes("--truth")->excludes("--seconds");
   fidelity->add_flag("--suite", options.suite, "every goal; minutes")->excludes(map);
-  fidelity->add_option("--goal", options.goals, "only these goals, by number: 6,8")->delimiter(',');
+  fidelity->add_option("--goal", options.goals, "only these goals, by number: 6,8")->delimiter(',')->excludes(map);
   fidelity->add_flag("--brief", options.brief, "goals: shorter runs, as the tests make them");
   return fidelity;
 }

@@ -1,17 +1,16 @@
 #include "measure/fidelity/touch_map.h"
 
 #include <iostream>
+#include <optional>
 #include <vector>
 
 #include <spdlog/spdlog.h>
 
+#include "app/fidelity_input.h"
 #include "app/interruption.h"
-#include "app/options.h"
-#include "app/progress.h"
 #include "app/touch_map_page.h"
 #include "core/error.h"
 #include "core/file.h"
-#include "device/profile_file.h"
 #include "measure/fidelity/touch_map_report.h"
 
 namespace myotact::app {
@@ -19,10 +18,8 @@ namespace myotact::app {
 namespace {
 
 measure::TouchMapRequest request_of(const Options& options) {
-  if (options.devices.size() > 1)
-    throw Error(ExitStatus::Usage, "--device: one tool is measured; name one device profile");
-  const device::NamedProfile device =
-      device::load_profile(options.devices.empty() ? "simulated" : options.devices.front());
+  const std::optional<device::NamedProfile> named = named_profile(options);
+  const device::NamedProfile device = named ? *named : device::load_profile("simulated");
   return {device.name, device.profile, options.places, options.seed};
 }
 
@@ -30,7 +27,6 @@ scene::Scene limb_of(const Options& options) {
   scene::Scene scene = scene::load_scene(options.scene, scene_overrides_of(options));
   if (scene.settings.tether || scene.specimen.muscles.empty())
     throw bad_data(scene.name, "/specimen", "has no muscle that a hand can touch; name a limb, such as elbow");
-  if (scene.tools.empty()) throw bad_data(scene.name, "/tools", "is empty; name the tool that touches");
   scene.settings.workers = options.workers;
   return scene;
 }
@@ -52,12 +48,8 @@ int touch_map(const Options& options) {
   const measure::TouchMapRequest request = request_of(options);
   const scene::Scene scene = limb_of(options);
   make_writable_folder(options.out);
-  watch_for_interruption();
   Progress progress;
-  measure::RunWatch watch;
-  watch.progress = [&](int done, int all) { progress.show(done, all); };
-  watch.stopped = [] { return interruption() != 0; };
-  const measure::TouchMap map = measure::map_touch(scene, request, watch);
+  const measure::TouchMap map = measure::map_touch(scene, request, watch_until_interrupted(progress));
   const std::vector<TouchPicture> pictures = pictures_if_any(scene.specimen, map);
   const std::string json = measure::touch_map_json(map);
   write_file(options.out / "touch_map.json", json);

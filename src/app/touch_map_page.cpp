@@ -139,10 +139,12 @@ std::string touch_map_page(const measure::TouchMap& map, const std::vector<Touch
   html += fmt::format(
       "<p>At {} random places of every muscle, where a hand can come to them, it presses 4 mm deep, holds for a "
       "second, "
-      "strokes 5 mm along the muscle and 5 mm across, and lifts off. Good: the commanded force differs from the "
-      "simulated one by 5 % at most (root mean square) and swings by 20 mN at most over 20 Hz while held; fair: 15 % "
-      "and 50 mN.</p>\n",
+      "strokes 5 mm along the muscle and 5 mm across, and lifts off.</p>\n<ul>",
       map.asked);
+  for (const measure::GradedFigure& figure : measure::grade(measure::TouchedPlace{}))
+    html += fmt::format("<li>{} [{}]: good to {:g}, fair to {:g} ({})</li>", escape_markup(figure.name),
+                        escape_markup(figure.unit), figure.good, figure.fair, escape_markup(figure.source));
+  html += "</ul>\n";
   return html + pictures_part(pictures) + muscle_table(map) + place_table(map) + "</body></html>\n";
 }
 

@@ -4,21 +4,12 @@
 
 #include <fmt/format.h>
 
+#include "core/csv.h"
 #include "core/text.h"
 
 namespace myotact::learn {
 
 namespace {
-
-/// As RFC 4180 wants it. A student's words must not become a formula of the spreadsheet that opens them.
-std::string field(const std::string& text) {
-  const bool formula = !text.empty() && std::string("=+-@").find(text.front()) != std::string::npos;
-  const std::string safe = formula ? "'" + text : text;
-  if (safe.find_first_of(",\"\r\n") == std::string::npos) return safe;
-  std::string quoted = "\"";
-  for (const char c : safe) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
 
 std::string rounded(double value) {
   return to_text(std::round(value * 100.0) / 100.0);
@@ -32,9 +23,9 @@ std::string results_csv(const LessonRun& run) {
     const Step& step = run.lesson().steps[i];
     const TaskState& state = run.states()[i];
     if (std::holds_alternative<ReadTask>(step.task)) continue;
-    csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", field(run.lesson().key), i + 1, kind_of(step.task),
-                       field(state.answer), state.right ? 1 : 0, state.attempts, state.hints, rounded(state.seconds),
-                       rounded(points_of(step, state)));
+    csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", csv_field(run.lesson().key), i + 1, kind_of(step.task),
+                       csv_field(state.answer), state.right ? 1 : 0, state.attempts, state.hints,
+                       rounded(state.seconds), rounded(points_of(step, state)));
   }
   return csv;
 }

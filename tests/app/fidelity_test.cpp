@@ -82,6 +82,7 @@ TEST(Fidelity, WhatIsWrongOnTheCommandLineIsNamed) {
   EXPECT_EQ(run_program("fidelity --device simulated,stylus").status, kUsage);
   EXPECT_EQ(run_program("fidelity --map --device simulated,stylus").status, kUsage);
   EXPECT_EQ(run_program("fidelity --map --seconds 2").status, kUsage);
+  EXPECT_EQ(run_program("fidelity --map --goal 8").status, kUsage);
   EXPECT_EQ(run_program("fidelity --places 2").status, kUsage);
   EXPECT_EQ(run_program("fidelity --map --places 0").status, kUsage);
   EXPECT_EQ(run_program("fidelity plane --map").status, kBadData);

@@ -21,14 +21,6 @@ testing::BarShape coarse_bar() {
   return shape;
 }
 
-anatomy::Specimen coarse_pair() {
-  anatomy::Specimen specimen = testing::antagonist_hinge();
-  testing::BarShape extensor = coarse_bar();
-  extensor.origin_m.z() = -0.03;
-  specimen.muscles = {testing::bar_muscle("flexor", coarse_bar()), testing::bar_muscle("extensor", extensor)};
-  return specimen;
-}
-
 ToolState press(int surface, int triangle, const Vec3& target_m, double stiffness_N_m) {
   ToolState tool;
   tool.contact.surface = surface;
@@ -57,7 +49,7 @@ int top_triangle(const anatomy::Specimen& specimen, int muscle) {
 }
 
 std::uint64_t hash_after_steps(int workers) {
-  const anatomy::Specimen specimen = coarse_pair();
+  const anatomy::Specimen specimen = testing::coarse_antagonist_hinge();
   SimulationSettings settings;
   settings.workers = workers;
   Simulation simulation(specimen, settings);
@@ -90,7 +82,7 @@ TEST_P(SimulationOf, IsometricForceOfAStraightBarIsTheLineModels) {
 }
 
 TEST_P(SimulationOf, StiffnessIsTheSlopeOfTheTorque) {
-  const anatomy::Specimen specimen = coarse_pair();
+  const anatomy::Specimen specimen = testing::coarse_antagonist_hinge();
   Simulation simulation(specimen, {.tissue = {GetParam(), GetParam()}});
   const double h = 0.5 * 3.14159265358979 / 180.0;
   const std::array<double, 2> activations{0.5, 0.3};
@@ -111,7 +103,7 @@ TEST(Simulation, OneTwoAndFourWorkersGiveTheSameBits) {
 }
 
 TEST(Simulation, EqualAntagonistsMoveNothingAndALockedJointStays) {
-  const anatomy::Specimen specimen = coarse_pair();
+  const anatomy::Specimen specimen = testing::coarse_antagonist_hinge();
   Simulation simulation(specimen, {});
   simulation.set_excitation(0, 0.5);
   simulation.set_excitation(1, 0.5);
@@ -125,7 +117,7 @@ TEST(Simulation, EqualAntagonistsMoveNothingAndALockedJointStays) {
 }
 
 TEST(Simulation, StepsComeToRestWhereSettleDoes) {
-  const anatomy::Specimen specimen = coarse_pair();
+  const anatomy::Specimen specimen = testing::coarse_antagonist_hinge();
   Simulation simulation(specimen, {});
   const std::array<double, 2> activations{0.4, 0.2};
   simulation.set_excitation(0, activations[0]);
@@ -138,7 +130,7 @@ TEST(Simulation, StepsComeToRestWhereSettleDoes) {
 }
 
 TEST(Simulation, ASpringOnTheSkinPullsAndItsComplianceTellsHowFar) {
-  const anatomy::Specimen specimen = coarse_pair();
+  const anatomy::Specimen specimen = testing::coarse_antagonist_hinge();
   Simulation simulation(specimen, {});
   simulation.set_joint_locked(0, true);
   const double q = 0.0;
@@ -309,7 +301,7 @@ TEST(Simulation, AGripOnABonePullsAndReportsItsForce) {
 }
 
 TEST(Simulation, SurvivesJumpsAndNonsense) {
-  const anatomy::Specimen specimen = coarse_pair();
+  const anatomy::Specimen specimen = testing::coarse_antagonist_hinge();
   Simulation simulation(specimen, {});
   simulation.set_excitation(0, 1.0);
   simulation.set_excitation(1, std::nan(""));
@@ -334,7 +326,7 @@ TEST(Simulation, SurvivesJumpsAndNonsense) {
 }
 
 TEST(Simulation, ARigidMuscleFollowsTheBonesAndExertsNothing) {
-  const anatomy::Specimen specimen = coarse_pair();
+  const anatomy::Specimen specimen = testing::coarse_antagonist_hinge();
   SimulationSettings settings;
   settings.tissue = {TissueModel::Rigid, TissueModel::Rigid};
   Simulation simulation(specimen, settings);
@@ -347,7 +339,7 @@ TEST(Simulation, ARigidMuscleFollowsTheBonesAndExertsNothing) {
 }
 
 TEST(Simulation, RefusesSettingsThatCannotWork) {
-  const anatomy::Specimen specimen = coarse_pair();
+  const anatomy::Specimen specimen = testing::coarse_antagonist_hinge();
   SimulationSettings settings;
   settings.dt_s = 0.0;
   EXPECT_THROW(Simulation(specimen, settings), Error);
@@ -357,7 +349,7 @@ TEST(Simulation, RefusesSettingsThatCannotWork) {
 }
 
 TEST(Simulation, WritesAFrameOfTheWholeScene) {
-  const anatomy::Specimen specimen = coarse_pair();
+  const anatomy::Specimen specimen = testing::coarse_antagonist_hinge();
   Simulation simulation(specimen, {});
   simulation.step({});
   messages::SceneFrame frame;
@@ -371,29 +363,8 @@ TEST(Simulation, WritesAFrameOfTheWholeScene) {
   EXPECT_EQ(frame.joints.size(), 1u);
 }
 
-TEST(Simulation, AfterARestartASettleIsThatOfAFreshOneToTheBit) {
-  const anatomy::Specimen specimen = coarse_pair();
-  for (const TissueModel model : {TissueModel::Fem, TissueModel::MassSpring, TissueModel::Line}) {
-    SimulationSettings settings;
-    settings.tissue = {model, model};
-    Simulation fresh(specimen, settings), used(specimen, settings);
-    const double far = 0.9, near = 0.1;
-    const std::vector<double> strong = {1.0, 0.2}, weak = {0.1, 0.3};
-    ASSERT_TRUE(used.settle({&far, 1}, strong));
-    for (int step = 0; step < 5; ++step) used.step({});
-    const std::uint64_t before = used.state_hash();
-    used.restart();
-    EXPECT_NE(used.state_hash(), before);
-    ASSERT_TRUE(fresh.settle({&near, 1}, weak));
-    ASSERT_TRUE(used.settle({&near, 1}, weak));
-    EXPECT_EQ(used.state_hash(), fresh.state_hash());
-    EXPECT_EQ(used.joint(0).stiffness_Nm_rad, fresh.joint(0).stiffness_Nm_rad);
-    EXPECT_EQ(used.joint(0).net_torque_Nm, fresh.joint(0).net_torque_Nm);
-  }
-}
-
 TEST(Simulation, AJointsReadoutIsTheSumOverItsMuscles) {
-  const anatomy::Specimen specimen = coarse_pair();
+  const anatomy::Specimen specimen = testing::coarse_antagonist_hinge();
   Simulation simulation(specimen, {});
   const double q = 0.2;
   const std::vector<double> activations = {0.6, 0.3};

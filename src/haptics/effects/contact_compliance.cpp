@@ -19,6 +19,9 @@ constexpr double kLargestCompliance_m_N = 3e-3;
 /// reached, faster it would follow every hop of the sphere.
 constexpr double kRoom_s = 0.01;
 
+/// Used in place of 0, so that nothing is divided by 0: a millionth of what any tissue has.
+constexpr double kLeastRoom_m_N = 1e-12;
+
 /// Part of the way to the model's numbers that a tick goes: all of them are reached when the model is played.
 double share_of_tick(const messages::LocalModel& model, std::uint64_t now_ns, double dt_s) {
   const double age_s =
@@ -27,20 +30,20 @@ double share_of_tick(const messages::LocalModel& model, std::uint64_t now_ns, do
   return left_s > dt_s ? dt_s / left_s : 1.0;
 }
 
+/// A symmetric matrix: along each of three directions.
 struct Directions {
   Vec3 values;
   Mat3 vectors;
 };
 
-/// Of a symmetric matrix. Closed form: nothing iterates.
-Directions directions_of(const Mat3& symmetric) {
+/// Closed form: nothing iterates. The values are brought to between `least` and `most`.
+Directions bounded_directions(const Mat3& symmetric, double least, double most) {
   Eigen::SelfAdjointEigenSolver<Mat3> solver;
   solver.computeDirect(symmetric);
-  return {solver.eigenvalues(), solver.eigenvectors()};
+  return {solver.eigenvalues().cwiseMax(least).cwiseMin(most), solver.eigenvectors()};
 }
 
-Mat3 between(double least, double most, Directions& directions) {
-  directions.values = directions.values.cwiseMax(least).cwiseMin(most);
+Mat3 matrix_of(const Directions& directions) {
   return directions.vectors * directions.values.asDiagonal() * directions.vectors.transpose();
 }
 
@@ -50,28 +53,26 @@ Mat3 sound_compliance(const std::array<double, 9>& rows) {
   const Mat3 given = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rows.data())
                          .cwiseMax(-kBeyondReason_m_N)
                          .cwiseMin(kBeyondReason_m_N);
-  Directions directions = directions_of(0.5 * (given + given.transpose()));
-  return between(0.0, kLargestCompliance_m_N, directions);
+  return matrix_of(bounded_directions(0.5 * (given + given.transpose()), 0.0, kLargestCompliance_m_N));
 }
 
-/// A compliance that is `along_normal` across the surface and nowhere more than `most`: along the surface each
+/// A compliance that is `across_m_N` along the normal and nowhere more than `most_m_N`: along the surface each
 /// direction is bounded, and what joins the two is kept as far as there is room,
 ///
-///   most - C >= 0   <=>   (most - c) (most - T) >= x x^T,   c across, T along, x what joins
-Mat3 with_room(const Mat3& compliance_m_N, const Vec3& normal, double along_normal_m_N, double most_m_N) {
-  const Mat3 across = Mat3::Identity() - normal * normal.transpose();
-  const Vec3 joining_m_N = across * compliance_m_N * normal;
-  Directions directions = directions_of(across * compliance_m_N * across);
-  const Mat3 along_m_N = between(0.0, most_m_N, directions);
+///   most - C >= 0   <=>   (most - c) (most - T) >= x x^T,   c across, T along the surface, x what joins
+Mat3 with_room(const Mat3& compliance_m_N, const Vec3& normal, double across_m_N, double most_m_N) {
+  const Mat3 tangential = Mat3::Identity() - normal * normal.transpose();
+  const Vec3 joining_m_N = tangential * compliance_m_N * normal;
+  const Directions along_m_N = bounded_directions(tangential * compliance_m_N * tangential, 0.0, most_m_N);
   double needed_m_N = 0.0;
   for (int i = 0; i < 3; ++i) {
-    const double part_m_N = directions.vectors.col(i).dot(joining_m_N);
-    needed_m_N += part_m_N * part_m_N / std::max(most_m_N - directions.values[i], 1e-12);
+    const double part_m_N = along_m_N.vectors.col(i).dot(joining_m_N);
+    needed_m_N += part_m_N * part_m_N / std::max(most_m_N - along_m_N.values[i], kLeastRoom_m_N);
   }
-  const double room_m_N = std::max(0.0, most_m_N - along_normal_m_N);
+  const double room_m_N = std::max(0.0, most_m_N - across_m_N);
   const double kept = needed_m_N > room_m_N ? std::sqrt(room_m_N / needed_m_N) : 1.0;
   const Mat3 joined_m_N = joining_m_N * normal.transpose();
-  return along_normal_m_N * normal * normal.transpose() + along_m_N + kept * (joined_m_N + joined_m_N.transpose());
+  return across_m_N * normal * normal.transpose() + matrix_of(along_m_N) + kept * (joined_m_N + joined_m_N.transpose());
 }
 
 bool rests_on(const ProxyContact& touching, std::int32_t surface) {
@@ -108,7 +109,11 @@ void ContactCompliance::tick(const messages::LocalModel& model, const ProxyConta
     used_N = to_vec3(known.force_world_N);
     if (touching.active) {
       surface_ = known.surface;
-      compliance_m_N = sound_compliance(known.compliance_m_N);
+      if (known.compliance_m_N != model_rows_) {  // else it was said before: once a model, not once a tick
+        model_rows_ = known.compliance_m_N;
+        model_m_N_ = sound_compliance(model_rows_);
+      }
+      compliance_m_N = model_m_N_;
       normal_m_N = touching.normal.dot(compliance_m_N * touching.normal);
     }
   }

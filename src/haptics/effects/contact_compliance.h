@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "core/vector.h"
@@ -10,7 +11,7 @@ namespace myotact::haptics {
 
 /// How the touched tissue gives way between two steps of the simulation, and the coupling spring that goes with it.
 ///
-///   device d o--/\/\/--- proxy p, on the surface x + C (F - F_used)     F = K (d - p), both on the tissue
+///   device d o--/\/\-- proxy p, on the surface x + C (F - F_used)     F = K (d - p), both on the tissue
 ///              K
 ///
 /// x is the surface as played from step to step, F_used and C (the compliance of the touched place, 3 x 3, and c along
@@ -53,7 +54,7 @@ class ContactCompliance {
   Vec3 tissue_shift_m(const Vec3& on_hand_N) const noexcept { return given_m_N_ * (-on_hand_N - used_N_); }
 
  private:
-  double stiffest_N_m() const noexcept;
+  double stiffest_N_m() const noexcept;  // that K may be
 
   double stiffness_N_m_ = 1e-3;
   std::int32_t surface_ = -1;           // that the compliance belongs to
@@ -61,6 +62,8 @@ class ContactCompliance {
   double normal_m_N_ = 0.0;             // c
   Mat3 given_m_N_ = Mat3::Zero();       // C where A leaves room for it
   Vec3 normal_ = Vec3::UnitZ();         // of the last touch, unit
+  std::array<double, 9> model_rows_{};  // the last that a model said, and
+  Mat3 model_m_N_ = Mat3::Zero();       // what of it is sound
   double room_ = 1.0;                   // beside the sphere, 0 .. 1
   Vec3 used_N_ = Vec3::Zero();          // force on the tissue that belongs to the played surface
 };

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/at.h"
+#include "core/csv.h"
 #include "core/text.h"
 
 namespace myotact::measure {
@@ -102,7 +103,7 @@ std::string touch_map_csv(const TouchMap& map) {
       "muscle,x_m,y_m,z_m,normal_x,normal_y,normal_z,felt_peak_N,error_rms_share,gain,held_swing_N,largest_step_N,"
       "verdict\n";
   for (const TouchedPlace& touched : map.places) {
-    csv += '"' + map.muscles[at(touched.place.muscle)] + '"';
+    csv += csv_field(map.muscles[at(touched.place.muscle)]);
     for (const Vec3* vector : {&touched.place.position_m, &touched.place.normal})
       for (int k = 0; k < 3; ++k) csv += "," + to_text((*vector)[k]);
     for (const double value :

@@ -1,0 +1,47 @@
+// A limb that was used and put back is a fresh one, to the bit: at rest and in the steps that follow.
+
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "simulation/simulation.h"
+#include "support/synthetic_specimen.h"
+
+namespace myotact::simulation {
+namespace {
+
+class Restart : public ::testing::TestWithParam<TissueModel> {
+ protected:
+  Restart() : specimen_(testing::coarse_antagonist_hinge()) { settings_.tissue = {GetParam(), GetParam()}; }
+
+  anatomy::Specimen specimen_;
+  SimulationSettings settings_;
+};
+
+TEST_P(Restart, LeavesNothingOfWhatWentBefore) {
+  Simulation fresh(specimen_, settings_), used(specimen_, settings_);
+  const double far = 0.9, near = 0.1;
+  const std::vector<double> strong = {1.0, 0.2}, weak = {0.1, 0.3};
+  ASSERT_TRUE(used.settle({&far, 1}, strong));
+  for (int step = 0; step < 5; ++step) used.step({});  // no whole number of rounds of what is done every third step
+  const std::uint64_t before = used.state_hash();
+  used.restart();
+  EXPECT_NE(used.state_hash(), before);
+  ASSERT_TRUE(fresh.settle({&near, 1}, weak));
+  ASSERT_TRUE(used.settle({&near, 1}, weak));
+  for (int step = 0; step < 8; ++step) {
+    EXPECT_EQ(used.state_hash(), fresh.state_hash()) << "step " << step;
+    EXPECT_EQ(used.joint(0).stiffness_Nm_rad, fresh.joint(0).stiffness_Nm_rad) << "step " << step;
+    EXPECT_EQ(used.joint(0).net_torque_Nm, fresh.joint(0).net_torque_Nm) << "step " << step;
+    for (Simulation* simulation : {&fresh, &used}) {
+      simulation->set_excitation(0, 0.6);
+      simulation->step({});
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, Restart,
+                         ::testing::Values(TissueModel::Fem, TissueModel::MassSpring, TissueModel::Line));
+
+}  // namespace
+}  // namespace myotact::simulation
