@@ -13,10 +13,18 @@ if [ ! -x "$prepare" ]; then
   echo "$prepare: is not there; build it: cmake -S $root -B $build && cmake --build $build --target myotact-prepare" >&2
   exit 66
 fi
+myotact=$build/src/app/myotact
+if [ ! -x "$myotact" ]; then
+  echo "$myotact: is not there; build it: cmake --build $build --target myotact" >&2
+  exit 66
+fi
 whole() {
   "$prepare" "$root/assets/canine/$1.seg.nrrd" --recipe "$root/assets/canine/$1.json" -o "$output/canine_whole_$1"
   rm "$output/canine_whole_$1/report.html" "$output/canine_whole_$1/recipe.json" # a report is no source, the recipe is in assets
 }
 whole forelimb
 whole hindlimb
+for specimen in canine_whole_forelimb canine_whole_hindlimb; do
+  MYOTACT_DATA_DIR=$root "$myotact" calibrate "$output/$specimen" > /dev/null # the last digits are a processor's
+done
 "$build/tools/plain_specimens/myotact-plain-specimens" "$output"

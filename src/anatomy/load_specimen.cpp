@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "anatomy/calibration_file.h"
 #include "anatomy/read_body.h"
 #include "anatomy/read_line.h"
 #include "anatomy/read_reference.h"
@@ -260,7 +261,9 @@ Specimen parse_specimen(const std::string& text, const std::filesystem::path& fo
 }
 
 Specimen load_specimen(const std::filesystem::path& folder) {
-  return parse_specimen(read_file(specimen_file(folder)), folder);
+  Specimen specimen = parse_specimen(read_file(specimen_file(folder)), folder);
+  read_calibration(folder, specimen);
+  return specimen;
 }
 
 SpecimenSurvey survey_specimen(const std::filesystem::path& folder) {
@@ -271,6 +274,7 @@ SpecimenSurvey survey_specimen(const std::filesystem::path& folder) {
     const nlohmann::json json = parse_json(read_file(file), file);
     JsonObject root(JsonValue(json, file));
     read_specimen(root, loader);
+    read_calibration(folder, loader.specimen);
   });
   for (const std::string& defect : find_defects(loader.specimen)) survey.defects.push_back(file + ": " + defect);
   survey.specimen = std::move(loader.specimen);

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -48,6 +50,17 @@ struct Joint {
 
 enum class TissueRegion : int { Belly = 0, Tendon = 1, Aponeurosis = 2 };
 
+/// How the simulation fitted a muscle's fibres to its line (simulation/limb/calibration.h); n is the normalised fibre
+/// length.
+struct FibreFit {
+  std::uint64_t of = 0;  // fingerprint of the muscle that it was found for; it fits no other
+  double offset = 0.0;   // of n
+  double scale = 1.0;    // of the peak stress
+  double gain = 1.0;     // dn / d(stretch)
+  double beyond = 1.0;   // how much of what n exceeds 1 by counts for active force, 0 .. 1
+  double force = 1.0;    // isometric force, half active at the file pose, over the line's; 0: none was found
+};
+
 struct Muscle {
   std::string key, name_la, name_en, material;
   double peak_force_N = 0.0;     // F0
@@ -65,6 +78,7 @@ struct Muscle {
   std::vector<TissueRegion> regions;  // one a tet
   std::vector<int> attachments;       // one a node: body, or -1
   geometry::TriangleMesh skin;        // fine surface, embedded in the tets on load
+  std::optional<FibreFit> fibre_fit;  // where one is known
 };
 
 enum class LinePointKind { Origin, Via, Insertion };
@@ -128,7 +142,7 @@ struct Specimen {
   std::vector<Overlap> overlaps;
 };
 
-/// Reads a specimen folder (specimen.json, bones/*.ply, skins/*.ply, muscles/*.vtk) and checks it.
+/// Reads a specimen folder (specimen.json, bones/*.ply, skins/*.ply, muscles/*.vtk, calibration.json) and checks it.
 /// Throws Error NoInput or BadData naming file, place, value, allowed range and remedy.
 Specimen load_specimen(const std::filesystem::path& folder);
 /// The same with `text` in the place of specimen.json; the meshes it names are read from the folder.

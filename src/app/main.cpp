@@ -211,6 +211,12 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
   solve->add_option("--vtk", options.vtk, "write the deformed mesh to this file, for ParaView");
   add_common(*solve, options);
   bind(solve, myotact::app::solve);
+  CLI::App* calibrate = program.add_subcommand(
+      "calibrate",
+      "fit the fibres of a specimen's muscles to their lines, and keep it beside them: it then opens faster");
+  calibrate->add_option("specimen", options.file, "specimen folder; calibration.json is written there")->required();
+  add_common(*calibrate, options);
+  bind(calibrate, myotact::app::calibrate);
   CLI::App* validate =
       program.add_subcommand("validate", "every analytic and published case, expected against obtained");
   validate->add_option("--filter", options.filter, "only the case of this name, or all that have it in their names");

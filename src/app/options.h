@@ -105,6 +105,7 @@ int stiffness(const Options& options);
 int replay(const Options& options);
 int solve(const Options& options);
 int validate(const Options& options);
+int calibrate(const Options& options);
 int fidelity(const Options& options);
 /// fidelity plane, fidelity plate: the force methods over the layer's engines. None: another scene.
 std::optional<int> layer_fidelity(const Options& options);

@@ -185,6 +185,8 @@ nlohmann::json summary_json(const scene::Scene& scene, const RunSummary& summary
                {"largest_residual_share", summary.extremes.residual_share},
                {"largest_volume_error", summary.extremes.volume_error},
                {"smallest_J", summary.extremes.smallest_J},
+               {"mean_muscles_asleep", static_cast<double>(summary.extremes.asleep) /
+                                           static_cast<double>(std::max<std::uint64_t>(summary.extremes.steps, 1))},
                {"notice", summary.notice}});
   return json;
 }

@@ -322,12 +322,12 @@ messages::ControlState Conductor::control() const {
   return state;
 }
 
-/// The first muscle whose tissue does not pull as its line does.
+/// The first muscle in use whose tissue does not pull as its line does.
 std::string Conductor::weak_tissue() const {
   constexpr double kWorthSaying = 0.3;
   for (int m = 0; m < simulation_->muscle_count(); ++m) {
     const double pull = simulation_->pull_over_line(m);
-    if (std::abs(pull - 1.0) <= kWorthSaying) continue;
+    if (simulation_->excitation(m) == 0.0 || std::abs(pull - 1.0) <= kWorthSaying) continue;
     return fmt::format(
         "{} of finite elements pulls {:.0f} % of what its line would: its mesh cannot stand for it; choose \"line\" or "
         "\"rigid\" for it under /tissue/muscles",

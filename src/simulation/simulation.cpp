@@ -38,7 +38,7 @@ Simulation::Impl::Impl(const anatomy::Specimen& given, const SimulationSettings&
   line_agreements.assign(specimen.muscles.size(), LineAgreement{1.0, 1.0});
   workers.run(static_cast<int>(specimen.muscles.size()), [&](int m) {
     if (limb.muscles[at(m)].rigid) return;
-    line_agreements[at(m)] = calibrate_muscle(specimen, m, limb.skeleton, limb.muscles[at(m)]);
+    line_agreements[at(m)] = fit_fibres(m);
   });
   for (int m = 0; m < static_cast<int>(specimen.muscles.size()); ++m) {
     const auto found = std::find_if(specimen.lines.begin(), specimen.lines.end(),
@@ -51,6 +51,16 @@ Simulation::Impl::Impl(const anatomy::Specimen& given, const SimulationSettings&
   workers.run(surfaces.count(), [&](int surface) { surfaces.follow(limb, surface, true); });
   if (settings.tether) tether.emplace(*settings.tether, specimen);
   read_out(limb);
+}
+
+LineAgreement Simulation::Impl::fit_fibres(int index) {
+  LimbMuscle& muscle = limb.muscles[at(index)];
+  const std::optional<anatomy::FibreFit>& fit = specimen.muscles[at(index)].fibre_fit;
+  const bool known =
+      muscle.tissue.model == TissueModel::Fem && fit && fit->of == calibration_fingerprint(specimen, index);
+  if (!known) return calibrate_muscle(specimen, index, limb.skeleton, muscle);
+  apply_fit(*fit, muscle.tissue.fibre_map);
+  return {fit->force != 0.0 ? fit->force : std::nan(""), 1.0};
 }
 
 void Simulation::Impl::fit_followers() {
@@ -68,6 +78,22 @@ void Simulation::Impl::fit_followers() {
 
 void Simulation::Impl::place_followers() {
   workers.run(static_cast<int>(limb.muscles.size()), [&](int m) { place_follower(limb, m); });
+}
+
+bool Simulation::Impl::find_next_stale() {
+  const int count = static_cast<int>(limb.muscles.size());
+  for (int k = 1; k <= count; ++k) {
+    const int next = (refreshed + k) % count;
+    if (limb.muscles[at(next)].sleep && !is_stale(limb, next)) continue;
+    refreshed = next;
+    return true;
+  }
+  return false;
+}
+
+void Simulation::Impl::rest(int muscle, AfterSettle after_settle) {
+  if (settings.sleep && may_sleep(limb, muscle, excitations[at(muscle)], settings.dt_s))
+    fall_asleep(limb, muscle, after_settle);
 }
 
 /// Two backward-Euler steps of half the length, or more parts where those fail too.
@@ -111,6 +137,8 @@ void Simulation::set_joint_locked(int joint, bool locked) {
 }
 
 void Simulation::set_gravity(const Vec3& gravity_m_s2) {
+  if (impl_->limb.gravity_m_s2 == gravity_m_s2) return;
+  wake_all(impl_->limb);
   impl_->limb.gravity_m_s2 = gravity_m_s2;
 }
 
@@ -134,10 +162,12 @@ bool Simulation::settle(std::span<const double> joint_angles_rad, std::span<cons
   }
   const bool settled = settle_limb(in.limb, joint_angles_rad, in.excitations, in.workers);
   refresh_stiffness(in.limb, in.workers);
+  for (int m = 0; m < muscle_count(); ++m) in.rest(m, settled ? AfterSettle::Yes : AfterSettle::No);
   in.place_followers();
   in.workers.run(in.surfaces.count(), [&](int surface) { in.surfaces.follow(in.limb, surface, true); });
   if (in.tether) in.tether->restart();
   in.whole_steps = in.settled_steps = 0;
+  in.refreshed = -1;
   return settled;
 }
 
@@ -151,6 +181,7 @@ void Simulation::step(std::span<const messages::ToolState> tools) {
         step_activation(activation, in.excitations[m], {muscle.activation_tau_s, muscle.deactivation_tau_s}, dt_s);
   }
   in.limb.springs = tool_springs(tools, {in.specimen, in.surfaces.skins()}, in.limb);
+  wake_disturbed(in.limb, dt_s);
   push_history(in.limb);
   const StepReport report = advance(in.limb, {dt_s, in.whole_steps > 0}, in.workers);
   in.residual_share = report.residual_share;
@@ -164,14 +195,15 @@ void Simulation::step(std::span<const messages::ToolState> tools) {
     if (!sound) stop_moving(in.limb);  // in the last usable pose
   }
   in.place_followers();
+  const bool refreshes = in.settled_steps++ % kStepsPerRefresh == 0 && in.find_next_stale();
+  place_sleepers(in.limb, refreshes ? in.refreshed : -1, in.workers);
+  const bool awake = refreshes && !in.limb.muscles[at(in.refreshed)].sleep;
   // One muscle's stiffness beside the surfaces: it reads the positions that they read.
-  const bool refreshes = !in.limb.muscles.empty() && in.settled_steps % kStepsPerRefresh == 0;
-  const int turn = in.settled_steps / kStepsPerRefresh;
   in.workers.run(in.surfaces.count() + 1, [&](int task) {
     if (task > 0) in.surfaces.follow(in.limb, task - 1, false);
-    if (task == 0 && refreshes) refresh_muscle_stiffness(in.limb, in.limb.muscles[at(turn) % in.limb.muscles.size()]);
+    if (task == 0 && awake) refresh_muscle_stiffness(in.limb, in.limb.muscles[at(in.refreshed)]);
   });
-  ++in.settled_steps;
+  if (awake) in.rest(in.refreshed, AfterSettle::No);
   if (in.tether) in.tether->step(tools, dt_s);
   ++in.steps;
   std::vector<int> offered;
@@ -192,6 +224,21 @@ double Simulation::excitation(int muscle) const {
 }
 double Simulation::pull_over_line(int muscle) const {
   return impl_->line_agreements[at(muscle)].force;
+}
+std::optional<anatomy::FibreFit> Simulation::fibre_fit(int muscle) const {
+  const MuscleTissue& tissue = impl_->limb.muscles[at(muscle)].tissue;
+  if (tissue.model != TissueModel::Fem) return std::nullopt;
+  const double force = pull_over_line(muscle);
+  const FibreMap& map = tissue.fibre_map;
+  return anatomy::FibreFit{calibration_fingerprint(impl_->specimen, muscle),
+                           map.offset,
+                           map.scale,
+                           map.gain,
+                           map.beyond,
+                           std::isfinite(force) ? force : 0.0};
+}
+bool Simulation::asleep(int muscle) const {
+  return impl_->limb.muscles[at(muscle)].sleep.has_value();
 }
 int Simulation::failed_steps() const {
   return impl_->failed_steps;

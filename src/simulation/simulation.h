@@ -29,6 +29,7 @@ struct SimulationSettings {
   bool contact = true;  // muscles touch bones and each other; false is for speed where touch is all that counts
   Fascia fascia = {};   // holds muscles to each other that lie side by side at the file pose; zero: none
   std::optional<TetherSettings> tether = {};  // then nothing else is felt
+  bool sleep = true;   // muscles that nothing moves are not solved for (limb/sleep.h); false is to compare with
   bool shapes = true;  // muscles that only follow bones are fitted to them; false is for what nobody looks at
 };
 
@@ -105,6 +106,11 @@ class Simulation {
   /// Isometric force of the muscle's tissue, half active at the file pose, over that of its line: 1 within 5 % for a
   /// mesh that can stand for the line, NaN for one that finds no rest; 1 for a muscle without tissue.
   double pull_over_line(int muscle) const;
+  /// How its fibres were fitted to its line, for the specimen to carry along; none for a muscle without tissue, and for
+  /// one of springs.
+  std::optional<anatomy::FibreFit> fibre_fit(int muscle) const;
+  /// Not solved for in the last step, since nothing moved it (limb/sleep.h).
+  bool asleep(int muscle) const;
   /// Tension that the muscle hands to its tendon; of a Rigid muscle what its line would.
   double muscle_force_N(int muscle) const;
   /// Torque of one muscle about a joint, positive flexes [N m]; of the last step or settle.

@@ -2,6 +2,7 @@
 
 #include "simulation/limb/calibration.h"
 #include "simulation/limb/limb.h"
+#include "simulation/limb/sleep.h"
 #include "simulation/line/line_model.h"
 #include "simulation/simulation.h"
 #include "simulation/touch/surfaces.h"
@@ -40,19 +41,24 @@ struct Simulation::Impl {
   std::vector<LineRest> lines;                 // one a muscle
   std::vector<LineAgreement> line_agreements;  // one a muscle; that of a rigid one is perfect
   std::uint64_t steps = 0;                     // since construction
-  int whole_steps = 0;             // of equal length since the last restart; the second-order rule needs one
-  int settled_steps = 0;           // since the last settle: they say whose stiffness is refreshed
-  int failed_steps = 0;            // since construction
-  double residual_share = 0.0;     // of the last step
+  int whole_steps = 0;          // of equal length since the last restart; the second-order rule needs one
+  int settled_steps = 0;        // since the last settle: they say whose stiffness is refreshed
+  int refreshed = -1;           // muscle whose stiffness was refreshed last in a step; -1: none since the last settle
+  int failed_steps = 0;         // since construction
+  double residual_share = 0.0;  // of the last step
   std::vector<int> offered_lines;  // of each tool: the muscle whose line was nearest after the last step
 
   double time_s() const { return static_cast<double>(steps) * settings.dt_s; }
   /// Repeats a failed step of dt_s in two halves, each of which is halved again where it fails; `halvings` counts how
   /// often it has been. False when the shortest part fails: the state is then the last usable one.
   bool advance_in_parts(double dt_s, int halvings);
-  void fit_followers();            // to the bones, over the joints' ranges
-  void place_followers();          // where the bones are now
-  Pose body_pose(int body) const;  // X_WL
+  /// The next muscle after `refreshed` whose stiffness may have changed; puts it there. False: there is none.
+  bool find_next_stale();
+  void rest(int muscle, AfterSettle after_settle);  // falls asleep where it may; right after a refresh of its stiffness
+  LineAgreement fit_fibres(int muscle);             // as the specimen has it, or by calibration
+  void fit_followers();                             // to the bones, over the joints' ranges
+  void place_followers();                           // where the bones are now
+  Pose body_pose(int body) const;                   // X_WL
   /// The muscle's line in the present pose, and what pulls along it at the present activation.
   LineGeometry line_geometry_of(int muscle) const;
   LineForce line_force_of(int muscle, const LineGeometry& geometry) const;

@@ -1,5 +1,6 @@
 // A limb that was used and put back is a fresh one, to the bit: at rest and in the steps that follow.
 
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -10,9 +11,12 @@
 namespace myotact::simulation {
 namespace {
 
-class Restart : public ::testing::TestWithParam<TissueModel> {
+class Restart : public ::testing::TestWithParam<std::pair<TissueModel, bool>> {
  protected:
-  Restart() : specimen_(testing::coarse_antagonist_hinge()) { settings_.tissue = {GetParam(), GetParam()}; }
+  Restart() : specimen_(testing::coarse_antagonist_hinge()) {
+    settings_.tissue = {GetParam().first, GetParam().first};
+    settings_.contact = GetParam().second;
+  }
 
   anatomy::Specimen specimen_;
   SimulationSettings settings_;
@@ -41,7 +45,9 @@ TEST_P(Restart, LeavesNothingOfWhatWentBefore) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, Restart,
-                         ::testing::Values(TissueModel::Fem, TissueModel::MassSpring, TissueModel::Line));
+                         ::testing::Values(std::pair(TissueModel::Fem, true), std::pair(TissueModel::Fem, false),
+                                           std::pair(TissueModel::MassSpring, true),
+                                           std::pair(TissueModel::Line, true)));
 
 }  // namespace
 }  // namespace myotact::simulation

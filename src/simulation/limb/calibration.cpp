@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "simulation/limb/settle.h"
 #include "simulation/line/line_model.h"
@@ -106,6 +107,52 @@ double bounded(double factor) {
 }
 
 }  // namespace
+
+std::uint64_t calibration_fingerprint(const anatomy::Specimen& specimen, int index) {
+  std::uint64_t hash = 14695981039346656037ull;
+  const auto add = [&](std::initializer_list<double> values) { add_to_hash({values.begin(), values.size()}, hash); };
+  const auto add_points = [&](const std::vector<Vec3>& points) {
+    for (const Vec3& p : points) add({p.x(), p.y(), p.z()});
+  };
+  const anatomy::Muscle& muscle = specimen.muscles[static_cast<std::size_t>(index)];
+  add({muscle.peak_force_N, muscle.optimal_fibre_m, muscle.pennation_rad, muscle.rest_stretch, muscle.tendon_slack_m});
+  add_points(muscle.tets.nodes_m);
+  const auto add_numbers = [&](const auto& lists) {
+    for (const auto& list : lists) {
+      for (const int number : list) add({static_cast<double>(number)});
+    }
+  };
+  add_numbers(muscle.tets.corners);
+  add_numbers(muscle.tets.midsides);
+  add_points(muscle.fibres);
+  add_to_hash(muscle.sections_m2, hash);
+  for (const anatomy::TissueRegion region : muscle.regions) add({static_cast<double>(region)});
+  for (const int body : muscle.attachments) add({static_cast<double>(body)});
+  for (const anatomy::MuscleLine& line : specimen.lines) {
+    if (line.muscle != index) continue;
+    for (const anatomy::LinePoint& point : line.points) {
+      add({static_cast<double>(point.body), static_cast<double>(point.kind)});
+      add_points({point.position_m});
+    }
+    for (const anatomy::LineWrap& wrap : line.wraps) {
+      add({static_cast<double>(wrap.body), static_cast<double>(wrap.after), static_cast<double>(wrap.shape)});
+      add_points({wrap.centre_m, wrap.axes.row(0), wrap.axes.row(1), wrap.axes.row(2), wrap.radii_m, wrap.side});
+    }
+  }
+  for (const anatomy::Joint& joint : specimen.joints) {
+    add({static_cast<double>(joint.type), static_cast<double>(joint.parent), static_cast<double>(joint.child)});
+    add_points({joint.centre_m});
+    add_points(joint.axes);
+  }
+  return hash;
+}
+
+void apply_fit(const anatomy::FibreFit& fit, FibreMap& map) {
+  map.offset = fit.offset;
+  map.scale = fit.scale;
+  map.gain = fit.gain;
+  map.beyond = fit.beyond;
+}
 
 LineAgreement calibrate_muscle(const anatomy::Specimen& specimen, int index, const Skeleton& skeleton,
                                LimbMuscle& muscle) {

@@ -11,6 +11,13 @@ struct LineAgreement {
   double stiffness = 0.0;  // dF/dL by rotating a joint, over the line's; 1 when no joint changes the line's length
 };
 
+/// Fingerprint of what a muscle's calibration depends on in the specimen: its mesh, fibres and figures, its line, and
+/// the joints. FNV-1a over their bits.
+std::uint64_t calibration_fingerprint(const anatomy::Specimen& specimen, int muscle);
+
+/// Puts the fibres as a calibration left them. `fit`: of this muscle, by its fingerprint.
+void apply_fit(const anatomy::FibreFit& fit, FibreMap& map);
+
 /// Adjusts the fibres so that the muscle as a whole does what its line does (one muscle, one mechanics). A curved belly
 /// straightens when it pulls and soft ends give way, so the fibres shorten on the isometric muscle; the offset returns
 /// their mean length to rest_stretch, the scale of the peak stress returns the force, and the gain the slope dF/dL.

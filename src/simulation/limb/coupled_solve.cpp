@@ -34,7 +34,7 @@ void update_direction(const Columns& from, double factor, Columns& to) {
 Columns zeros(const Limb& limb, Eigen::Index columns) {
   Columns out;
   for (const LimbMuscle& muscle : limb.muscles) {
-    out.push_back(Eigen::MatrixXd::Zero(muscle.rigid ? 0 : muscle.system.residual_N.size(), columns));
+    out.push_back(Eigen::MatrixXd::Zero(is_solved(muscle) ? muscle.system.residual_N.size() : 0, columns));
   }
   return out;
 }
@@ -82,17 +82,17 @@ struct WholeStep {
   /// The arrow system without coupling, solved for forces on the nodes alone.
   Eigen::VectorXd solve_uncoupled(const Columns& force, Columns& nodes) const {
     workers.run(static_cast<int>(limb.muscles.size()), [&](int m) {
-      if (!limb.muscles[at(m)].rigid) nodes[at(m)] = solve(limb.muscles[at(m)], force[at(m)]);
+      if (is_solved(limb.muscles[at(m)])) nodes[at(m)] = solve(limb.muscles[at(m)], force[at(m)]);
     });
     const Eigen::Index rows = small.matrixLU().rows();
     if (rows == 0) return Eigen::VectorXd(0);
     Eigen::VectorXd right = Eigen::VectorXd::Zero(rows);
     for (std::size_t m = 0; m < nodes.size(); ++m) {
-      if (!limb.muscles[m].rigid) right -= limb.muscles[m].borders.transpose() * nodes[m].col(0);
+      if (is_solved(limb.muscles[m])) right -= limb.muscles[m].borders.transpose() * nodes[m].col(0);
     }
     Eigen::VectorXd rest = small.solve(right);
     for (std::size_t m = 0; m < nodes.size(); ++m) {
-      if (!limb.muscles[m].rigid) nodes[m].col(0) -= limb.muscles[m].border_solution * rest;
+      if (is_solved(limb.muscles[m])) nodes[m].col(0) -= limb.muscles[m].border_solution * rest;
     }
     return rest;
   }
@@ -100,7 +100,7 @@ struct WholeStep {
 
 void add_all_coupling(const Limb& limb, const Columns& columns, Columns& out) {
   for (int m = 0; m < static_cast<int>(limb.muscles.size()); ++m) {
-    if (!limb.muscles[at(m)].rigid) add_coupling_of(limb, m, columns, out[at(m)]);
+    if (is_solved(limb.muscles[at(m)])) add_coupling_of(limb, m, columns, out[at(m)]);
   }
 }
 
@@ -120,7 +120,7 @@ struct StaticSystem {
   void multiply(const Columns& from, Columns& to) const {
     workers.run(static_cast<int>(limb.muscles.size()), [&](int m) {
       const LimbMuscle& muscle = limb.muscles[at(m)];
-      if (muscle.rigid) return;
+      if (!is_solved(muscle)) return;
       const MeanTerm& mean = muscle.system.mean;
       to[at(m)] = muscle.system.matrix.lower().selfadjointView<Eigen::Lower>() * from[at(m)];
       to[at(m)] += mean.factor_Nm * mean.gradient * (mean.gradient.transpose() * from[at(m)]);
@@ -129,7 +129,7 @@ struct StaticSystem {
   }
   void solve_uncoupled(const Columns& force, Columns& nodes) const {
     workers.run(static_cast<int>(limb.muscles.size()), [&](int m) {
-      if (!limb.muscles[at(m)].rigid) nodes[at(m)] = solve(limb.muscles[at(m)], force[at(m)]);
+      if (is_solved(limb.muscles[at(m)])) nodes[at(m)] = solve(limb.muscles[at(m)], force[at(m)]);
     });
   }
 };
@@ -138,7 +138,7 @@ struct StaticSystem {
 bool follow_joint(const StaticSystem& system, int joint) {
   Columns follow = zeros(system.limb, 1), residual = follow, nodes = follow, product = follow;
   for (std::size_t m = 0; m < follow.size(); ++m) {
-    if (system.limb.muscles[m].rigid) continue;
+    if (!is_solved(system.limb.muscles[m])) continue;
     follow[m] = system.limb.muscles[m].follow_m_rad.col(joint);
     residual[m] = system.limb.muscles[m].system.coupling_N_rad.col(joint);
   }
@@ -160,7 +160,7 @@ bool follow_joint(const StaticSystem& system, int joint) {
     weight = next;
   }
   for (std::size_t m = 0; m < follow.size(); ++m) {
-    if (!system.limb.muscles[m].rigid) system.limb.muscles[m].follow_m_rad.col(joint) = follow[m];
+    if (is_solved(system.limb.muscles[m])) system.limb.muscles[m].follow_m_rad.col(joint) = follow[m];
   }
   return std::sqrt(dot(residual, residual)) <= enough;
 }
@@ -189,7 +189,7 @@ void couple_step(Limb& limb, const Eigen::PartialPivLU<Eigen::MatrixXd>& small, 
   Columns start = zeros(limb, 1), residual = start, change = start, nodes = start, along = start;
   for (std::size_t m = 0; m < start.size(); ++m) {
     const LimbMuscle& muscle = limb.muscles[m];
-    if (!muscle.rigid) start[m].col(0) = -muscle.free_solution - muscle.border_solution * solution;
+    if (is_solved(muscle)) start[m].col(0) = -muscle.free_solution - muscle.border_solution * solution;
   }
   add_all_coupling(limb, start, residual);
   for (Eigen::MatrixXd& r : residual) r = -r;

@@ -117,7 +117,7 @@ Vec3 spring_slope(const Limb& limb, const ToolSpring& spring, int joint) {
 void follow_angles(Limb& limb) {
   limb.skeleton.set_pose(limb.angles());
   for (LimbMuscle& muscle : limb.muscles) {
-    if (!muscle.rigid) place_clamped(muscle.tissue, limb.skeleton, muscle.state);
+    if (is_solved(muscle)) place_clamped(muscle.tissue, limb.skeleton, muscle.state);
   }
   for (const ToolSpring& spring : limb.springs) {
     if (spring.muscle >= 0) place_follower(limb, spring.muscle);
@@ -191,6 +191,16 @@ Eigen::MatrixXd solve(const LimbMuscle& muscle, const Eigen::MatrixXd& right) {
   return solution;
 }
 
+Eigen::VectorXd joint_velocity_rad_s(const Limb& limb, const TimeRule& rule) {
+  return rule.rate_1_s * limb.now.angle_rad - rule.now_1_s * limb.last.angle_rad +
+         rule.before_1_s * limb.before.angle_rad;
+}
+
+Eigen::VectorXd joint_acceleration_rad_s2(const Limb& limb, const TimeRule& rule) {
+  return rule.rate_1_s * joint_velocity_rad_s(limb, rule) - rule.now_1_s * limb.last.velocity_rad_s +
+         rule.before_1_s * limb.before.velocity_rad_s;
+}
+
 void stop_moving(Limb& limb) {
   limb.now.velocity_rad_s.setZero();
   for (LimbMuscle& muscle : limb.muscles) {
@@ -204,6 +214,7 @@ void return_to_file_pose(Limb& limb) {
   limb.now.velocity_rad_s.setZero();
   limb.last = limb.before = limb.now;
   for (LimbMuscle& muscle : limb.muscles) {
+    muscle.sleep.reset();
     muscle.state = make_state(muscle.tissue);
     muscle.stiffness_Nm_rad.setZero();
     muscle.contact_stiffness_Nm_rad.setZero();

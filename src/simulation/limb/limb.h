@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/pose.h"
 #include "simulation/contact/contact_law.h"
 #include "simulation/follower/follower.h"
 #include "simulation/line/line_tissue.h"
@@ -41,6 +42,27 @@ struct MuscleReadout {
   double contact_depth_m = 0.0;  // largest overlap, over that at the file pose
 };
 
+/// What a joint does to a muscle as it rotates: nothing, strain it, or carry the whole of it along.
+enum class JointPart { None, Strains, Carries };
+
+/// A muscle asleep (sleep.h): a load on the joints, linear about one pose of them.
+struct Sleep {
+  double activation = 0.0;        // where it fell asleep
+  bool settled = false;           // it did so at the end of a settle, and its load is still that one
+  std::vector<JointPart> joints;  // one a joint
+  int carrier = -1;               // body that exactly those joints move which carry the muscle; -1: none
+  // in that pose
+  Eigen::VectorXd angle_rad;         // of all joints
+  Pose carrier_pose;                 // X_WL
+  Eigen::VectorXd position_m;        // of all nodes, world
+  Eigen::MatrixXd motion_m_rad;      // of all nodes against the angles, in equilibrium
+  Eigen::VectorXd residual_Nm;       // minus the torque on the joints, weight included
+  Eigen::VectorXd torque_Nm;         // of the tissue on the joints, positive flexes
+  Eigen::MatrixXd stiffness_Nm_rad;  // joints x joints, nodes in equilibrium
+  Eigen::MatrixXd inertia_kg_m2;     // joints x joints, of the nodes going along
+  Eigen::VectorXd placed_rad;        // angles for which the nodes were placed last
+};
+
 /// One muscle: model, state, and what a solve leaves behind. Owned by one task at a time.
 struct LimbMuscle {
   MuscleTissue tissue;                // what does not change
@@ -59,6 +81,7 @@ struct LimbMuscle {
   Eigen::VectorXd start_m, change_m;  // of the Newton step: nodes where it starts, change of the free ones
   Eigen::VectorXd coupled_m;          // what contact with neighbours adds to that change; empty: none
   Eigen::MatrixXd follow_m_rad;       // matrix^-1 coupling, in the last stiffness: free nodes follow by minus this
+  bool follows = false;               // the last refresh of the stiffness came to such a solution
   double energy_slope = 0.0;          // along that change
   double residual_share = 0.0;        // out-of-balance force over the size of the forces, springs included
   bool balanced = false;              // within this step: needs no new tangent
@@ -66,6 +89,7 @@ struct LimbMuscle {
   std::optional<TimeRule> kept_rule;  // of the step whose factored tangent serves the next one, too; none: it does not
   bool made_definite = false;         // the last tangent had to be
   bool sound = true;                  // the last factorisation and state were finite
+  std::optional<Sleep> sleep;         // none: awake
   MuscleReadout readout;              // of the last step or settle
   Eigen::VectorXd stiffness_Nm_rad;   // quasi-static, one a joint, of the last refresh
   Eigen::VectorXd contact_stiffness_Nm_rad;  // what contact adds to it, of the last such refresh
@@ -74,6 +98,11 @@ struct LimbMuscle {
 /// A shape on its bones: neither its tissue nor its line is solved for.
 inline bool only_follows(const LimbMuscle& muscle) {
   return muscle.rigid && !muscle.line;
+}
+
+/// Its nodes are unknowns of a step: it neither follows its bones nor sleeps.
+inline bool is_solved(const LimbMuscle& muscle) {
+  return !muscle.rigid && !muscle.sleep;
 }
 
 /// Angles of all joints at one instant, and their rates. One a joint, positive flexes.
@@ -129,8 +158,8 @@ Vec3 spring_point(const Limb& limb, const ToolSpring& spring);
 /// d(spring point)/d(angle) [m/rad] with the free nodes held: through clamped nodes or the body alone.
 Vec3 spring_slope(const Limb& limb, const ToolSpring& spring, int joint);
 
-/// Puts the bodies and all clamped nodes where the present angles say; of the rigid muscles those that a spring pulls
-/// at.
+/// Puts the bodies and the clamped nodes of who is solved for where the present angles say; of the rigid muscles those
+/// that a spring pulls at.
 void follow_angles(Limb& limb);
 /// Puts a rigid muscle where the skeleton's pose has it; others stay. After a step or a settle, for nothing in a solve
 /// reads these nodes. Several muscles may be placed at once.
@@ -150,6 +179,10 @@ void add_to_hash(std::span<const double> values, std::uint64_t& hash);
 
 /// Copies the outcome of the last forces pass to the muscles' readouts, and the bones' loads to `limb.loads`.
 void read_out(Limb& limb);
+
+/// Of the joints in the present iterate, at the end of a step by `rule`.
+Eigen::VectorXd joint_velocity_rad_s(const Limb& limb, const TimeRule& rule);
+Eigen::VectorXd joint_acceleration_rad_s2(const Limb& limb, const TimeRule& rule);
 
 /// All present rates zero; the pose stays, and so does the history.
 void stop_moving(Limb& limb);

@@ -6,6 +6,7 @@
 #include "simulation/limb/coupled_solve.h"
 #include "simulation/limb/find_touches.h"
 #include "simulation/limb/settle_together.h"
+#include "simulation/limb/sleep.h"
 
 namespace myotact::simulation {
 namespace {
@@ -114,7 +115,7 @@ void turn_to(Limb& limb, const Eigen::VectorXd& angles_rad) {
   limb.now.angle_rad = angles_rad;
   follow_angles(limb);
   for (LimbMuscle& muscle : limb.muscles) {
-    if (!muscle.rigid) carry_along(limb, from, muscle);
+    if (is_solved(muscle)) carry_along(limb, from, muscle);
   }
 }
 
@@ -141,7 +142,7 @@ bool settle_each(Limb& limb, double wanted_share, WorkerPool& workers) {
   std::vector<char> settled(limb.muscles.size(), 1);
   workers.run(static_cast<int>(limb.muscles.size()), [&](int m) {
     const auto i = static_cast<std::size_t>(m);
-    if (!limb.muscles[i].rigid)
+    if (is_solved(limb.muscles[i]))
       settled[i] = settle_muscle(limb.skeleton, limb.gravity_m_s2, wanted_share, limb.muscles[i]);
   });
   return std::all_of(settled.begin(), settled.end(), [](char s) { return s != 0; });
@@ -193,15 +194,16 @@ Eigen::MatrixXd eliminated_stiffness(Limb& limb, const TissueLoad& load, WorkerP
   std::vector<char> usable(limb.muscles.size(), 1);
   workers.run(count, [&](int m) {
     LimbMuscle& muscle = limb.muscles[static_cast<std::size_t>(m)];
-    if (muscle.rigid) return;
+    if (!is_solved(muscle)) return;
     compute_system(limb.skeleton, load, muscle, Accuracy::Refined);
     const Pivots pivots = factor_system(muscle, muscle.system.coupling_N_rad, muscle.follow_m_rad, Accuracy::Refined);
+    muscle.follows = pivots != Pivots::Unusable && muscle.follow_m_rad.allFinite();
     usable[static_cast<std::size_t>(m)] = pivots != Pivots::Unusable;
   });
   if (std::find(usable.begin(), usable.end(), 0) == usable.end()) couple_follow(limb, workers);
   for (int m = 0; m < count; ++m) {
     const LimbMuscle& muscle = limb.muscles[static_cast<std::size_t>(m)];
-    if (!muscle.rigid && usable[static_cast<std::size_t>(m)]) stiffness.col(m) = followed_stiffness(muscle);
+    if (is_solved(muscle) && usable[static_cast<std::size_t>(m)]) stiffness.col(m) = followed_stiffness(muscle);
   }
   return stiffness;
 }
@@ -231,6 +233,7 @@ bool settle_limb(Limb& limb, std::span<const double> angles_rad, std::span<const
   const Eigen::VectorXd start_activations = activations_of(limb);
   const Eigen::VectorXd goal_activations =
       Eigen::Map<const Eigen::VectorXd>(activations.data(), start_activations.size());
+  wake_unsettled(limb, goal, goal_activations);
   const int parts = std::max(
       {1, parts_of(goal - start, kLargestPart_rad),
        limb.touch_surfaces.empty() ? 1 : parts_of(goal_activations - start_activations, kLargestActivationPart)});
@@ -262,7 +265,8 @@ void refresh_muscle_stiffness(const Limb& limb, LimbMuscle& muscle) {
   compute_system(limb.skeleton, static_load(limb.gravity_m_s2), muscle, Accuracy::Refined);
   Eigen::MatrixXd right = muscle.system.coupling_N_rad, follow;
   subtract_followed_coupling(limb, muscle, right);
-  if (factor_system(muscle, right, follow, Accuracy::Refined) == Pivots::Unusable || !follow.allFinite()) return;
+  muscle.follows = factor_system(muscle, right, follow, Accuracy::Refined) != Pivots::Unusable && follow.allFinite();
+  if (!muscle.follows) return;
   muscle.follow_m_rad = follow;
   const Eigen::VectorXd stiffness = followed_stiffness(muscle);
   if (stiffness.allFinite()) muscle.stiffness_Nm_rad = stiffness;
@@ -271,7 +275,8 @@ void refresh_muscle_stiffness(const Limb& limb, LimbMuscle& muscle) {
 void refresh_stiffness(Limb& limb, WorkerPool& workers) {
   TissueLoad held = static_load(limb.gravity_m_s2);
   held.contact_held = true;
-  const Eigen::MatrixXd without = eliminated_stiffness(limb, held, workers);
+  const bool touches = !limb.touch_surfaces.empty();
+  const Eigen::MatrixXd without = touches ? eliminated_stiffness(limb, held, workers) : Eigen::MatrixXd();
   const Eigen::MatrixXd whole = eliminated_stiffness(limb, static_load(limb.gravity_m_s2), workers);
   for (std::size_t m = 0; m < limb.muscles.size(); ++m) {
     LimbMuscle& muscle = limb.muscles[m];
@@ -279,8 +284,9 @@ void refresh_stiffness(Limb& limb, WorkerPool& workers) {
     const Eigen::VectorXd stiffness = whole.col(static_cast<Eigen::Index>(m));
     if (muscle.rigid || !stiffness.allFinite()) continue;
     muscle.stiffness_Nm_rad = stiffness;
-    const Eigen::VectorXd contact = stiffness - without.col(static_cast<Eigen::Index>(m));
     muscle.contact_stiffness_Nm_rad.setZero();
+    if (!touches) continue;
+    const Eigen::VectorXd contact = stiffness - without.col(static_cast<Eigen::Index>(m));
     if (contact.allFinite()) muscle.contact_stiffness_Nm_rad = contact;
   }
 }

@@ -266,16 +266,12 @@ bool open_pulling(Limb& limb, const Eigen::VectorXd& solution, const SmallSystem
 }
 
 Eigen::VectorXd skeleton_residual(Limb& limb, const TimeRule& rule) {
-  const Eigen::VectorXd& q = limb.now.angle_rad;
-  const Eigen::VectorXd velocity =
-      rule.rate_1_s * q - rule.now_1_s * limb.last.angle_rad + rule.before_1_s * limb.before.angle_rad;
-  const Eigen::VectorXd acceleration =
-      rule.rate_1_s * velocity - rule.now_1_s * limb.last.velocity_rad_s + rule.before_1_s * limb.before.velocity_rad_s;
+  const Eigen::VectorXd velocity = joint_velocity_rad_s(limb, rule);
   const auto span = [](const Eigen::VectorXd& v) {
     return std::span<const double>(v.data(), static_cast<std::size_t>(v.size()));
   };
   limb.loads.compute(limb.skeleton, {limb.gravity_m_s2, span(velocity), span(limb.external_torque_Nm)});
-  return limb.loads.mass_kg_m2 * acceleration - limb.loads.force_Nm;
+  return limb.loads.mass_kg_m2 * joint_acceleration_rad_s2(limb, rule) - limb.loads.force_Nm;
 }
 
 void add_up(Limb& limb, const TimeRule& rule, SmallSystem& small) {
@@ -283,8 +279,8 @@ void add_up(Limb& limb, const TimeRule& rule, SmallSystem& small) {
   small.right.setZero();
   add_skeleton(limb, rule, small);
   for (const LimbMuscle& muscle : limb.muscles) {
-    if (muscle.line) add_joint_part(muscle, small);
-    if (!muscle.rigid) add_muscle(muscle, small);
+    if (muscle.line || muscle.sleep) add_joint_part(muscle, small);
+    if (is_solved(muscle)) add_muscle(muscle, small);
   }
   add_springs(limb, small);
   read_compliance(limb, small);

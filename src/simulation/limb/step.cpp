@@ -10,6 +10,7 @@
 #include "core/at.h"
 #include "simulation/limb/coupled_solve.h"
 #include "simulation/limb/find_touches.h"
+#include "simulation/limb/sleep.h"
 #include "simulation/limb/small_system.h"
 
 namespace myotact::simulation {
@@ -87,7 +88,7 @@ void start_way(const Limb& limb, const Solutions& solutions, int index, LimbMusc
 /// Moves all muscles' nodes along the way.
 void move_nodes(Limb& limb, double part) {
   for (LimbMuscle& muscle : limb.muscles) {
-    if (muscle.rigid) continue;
+    if (!is_solved(muscle)) continue;
     muscle.state.now.position_m = muscle.start_m;
     move_free_nodes(muscle, part * muscle.change_m);
     place_clamped(muscle.tissue, limb.skeleton, muscle.state);
@@ -105,8 +106,8 @@ void evaluate(const Limb& limb, const TissueLoad& load, int index, LimbMuscle& m
 double energy_slope(Limb& limb, const TimeRule& rule, const Way& way) {
   double slope = skeleton_residual(limb, rule).dot(way.change_rad);
   for (const LimbMuscle& muscle : limb.muscles) {
-    if (!muscle.rigid) slope += muscle.energy_slope;
-    if (!muscle.rigid || muscle.line) slope += muscle.system.joint_residual_Nm.dot(way.change_rad);
+    if (is_solved(muscle)) slope += muscle.energy_slope;
+    if (!only_follows(muscle)) slope += muscle.system.joint_residual_Nm.dot(way.change_rad);
   }
   for (std::size_t s = 0; s < limb.springs.size(); ++s) {
     const ToolSpring& spring = limb.springs[s];
@@ -123,11 +124,13 @@ bool go(Limb& limb, const TissueLoad& load, const Way& way, double part, WorkerP
   limb.now.angle_rad = way.start_rad + part * way.change_rad;
   follow_angles(limb);
   evaluate_lines(limb, load.rule);
+  evaluate_sleepers(limb, load.rule);
   move_nodes(limb, part);
   workers.run(static_cast<int>(limb.muscles.size()), [&](int m) {
-    if (!limb.muscles[at(m)].rigid) evaluate(limb, load, m, limb.muscles[at(m)]);
+    if (is_solved(limb.muscles[at(m)])) evaluate(limb, load, m, limb.muscles[at(m)]);
   });
-  return std::all_of(limb.muscles.begin(), limb.muscles.end(), [](const LimbMuscle& m) { return m.rigid || m.sound; });
+  return std::all_of(limb.muscles.begin(), limb.muscles.end(),
+                     [](const LimbMuscle& m) { return !is_solved(m) || m.sound; });
 }
 
 /// The way that the small system's solutions mean; all muscles' start and change.
@@ -137,7 +140,7 @@ Way make_way(Limb& limb, const SmallSystem& small, const Solutions& solutions, W
     way.change_rad[small.joints[a]] = solutions.coupled[static_cast<Eigen::Index>(a)];
   }
   workers.run(static_cast<int>(limb.muscles.size()), [&](int m) {
-    if (!limb.muscles[at(m)].rigid) start_way(limb, solutions, m, limb.muscles[at(m)]);
+    if (is_solved(limb.muscles[at(m)])) start_way(limb, solutions, m, limb.muscles[at(m)]);
   });
   return way;
 }
@@ -216,7 +219,7 @@ struct Task {
 double allowed_part(const Limb& limb, double farthest_m) {
   double longest_m = 0.0;
   for (const LimbMuscle& muscle : limb.muscles) {
-    if (muscle.rigid || muscle.change_m.size() == 0) continue;
+    if (!is_solved(muscle) || muscle.change_m.size() == 0) continue;
     longest_m = std::max(longest_m, muscle.change_m.reshaped(3, muscle.tissue.free_nodes).colwise().norm().maxCoeff());
   }
   return longest_m > farthest_m ? farthest_m / longest_m : 1.0;
@@ -226,7 +229,7 @@ double allowed_part(const Limb& limb, double farthest_m) {
 std::vector<int> longest_first(const Limb& limb, const TimeRule& rule) {
   std::vector<int> order;
   for (int m = 0; m < static_cast<int>(limb.muscles.size()); ++m) {
-    if (!limb.muscles[at(m)].rigid) order.push_back(m);
+    if (is_solved(limb.muscles[at(m)])) order.push_back(m);
   }
   const auto cost = [&](int m) {
     const LimbMuscle& muscle = limb.muscles[at(m)];
@@ -246,7 +249,7 @@ Iteration newton_step(Limb& limb, const Task& task, WorkerPool& workers, int& de
     eliminate(limb, small, load, m, limb.muscles[at(m)]);
   });
   for (const LimbMuscle& muscle : limb.muscles) {
-    if (muscle.rigid) continue;
+    if (!is_solved(muscle)) continue;
     if (!muscle.sound) return {false};
     definite_solves += muscle.made_definite;
   }
@@ -269,7 +272,7 @@ Iteration newton_step(Limb& limb, const Task& task, WorkerPool& workers, int& de
   result.lines_share = lines_share(limb, load.rule);
   if (way.change_rad.size() > 0) result.rotation_rad = way.change_rad.cwiseAbs().maxCoeff();
   for (LimbMuscle& muscle : limb.muscles) {
-    if (muscle.rigid) continue;
+    if (!is_solved(muscle)) continue;
     result.residual_share = std::max(result.residual_share, muscle.residual_share);
     muscle.balanced = muscle.residual_share < kSolvedShare;
     if (!muscle.balanced) muscle.kept_rule.reset();
@@ -280,9 +283,9 @@ Iteration newton_step(Limb& limb, const Task& task, WorkerPool& workers, int& de
 
 /// Rates that the next step starts from.
 void finish(Limb& limb, const TimeRule& rule) {
-  limb.now.velocity_rad_s =
-      rule.rate_1_s * limb.now.angle_rad - rule.now_1_s * limb.last.angle_rad + rule.before_1_s * limb.before.angle_rad;
+  limb.now.velocity_rad_s = joint_velocity_rad_s(limb, rule);
   for (LimbMuscle& muscle : limb.muscles) {
+    if (muscle.sleep) continue;
     TissueState& state = muscle.state;
     for (std::size_t p = 0; p < state.stretch_rate_1_s.size(); ++p) {
       state.stretch_rate_1_s[p] =
@@ -300,7 +303,7 @@ void carry_on(Limb& limb, double time_s) {
     if (limb.skeleton.moves(j)) limb.now.angle_rad[j] += time_s * limb.last.velocity_rad_s[j];
   }
   for (LimbMuscle& muscle : limb.muscles) {
-    if (!muscle.rigid) muscle.state.now.position_m += time_s * muscle.state.last.velocity_m_s;
+    if (is_solved(muscle)) muscle.state.now.position_m += time_s * muscle.state.last.velocity_m_s;
   }
 }
 
@@ -321,6 +324,7 @@ StepReport advance(Limb& limb, const StepInput& input, WorkerPool& workers) {
     see_neighbours(limb);
   }
   evaluate_lines(limb, load.rule);
+  evaluate_sleepers(limb, load.rule);
   for (LimbMuscle& muscle : limb.muscles) {
     muscle.balanced = muscle.strained = false;
     if (!input.second_order_in_time) muscle.kept_rule.reset();
@@ -363,6 +367,7 @@ void push_history(Limb& limb) {
   limb.before = limb.last;
   limb.last = limb.now;
   for (LimbMuscle& muscle : limb.muscles) {
+    if (muscle.sleep) continue;  // all instants are the same
     std::swap(muscle.state.before, muscle.state.last);
     muscle.state.last = muscle.state.now;
     if (muscle.line) push_history(*muscle.line);

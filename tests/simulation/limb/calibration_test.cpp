@@ -1,0 +1,64 @@
+// The fits that the shipped specimens carry are those that calibration finds; a fit of another muscle is not used.
+
+#include "simulation/limb/calibration.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "simulation/simulation.h"
+#include "support/source_folder.h"
+
+namespace myotact::simulation {
+namespace {
+
+class Calibration : public ::testing::TestWithParam<const char*> {
+ protected:
+  static anatomy::Specimen load() { return anatomy::load_specimen(source_folder() + "/meshes/" + GetParam()); }
+  static SimulationSettings alone() {
+    SimulationSettings settings;
+    settings.contact = false;
+    return settings;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Shipped, Calibration,
+                         ::testing::Values("canine_elbow", "canine_whole_forelimb", "canine_whole_hindlimb"));
+
+TEST_P(Calibration, FindsWhatTheSpecimenCarries) {
+  const anatomy::Specimen specimen = load();
+  anatomy::Specimen bare = specimen;
+  for (anatomy::Muscle& muscle : bare.muscles) muscle.fibre_fit.reset();
+  const Simulation found(bare, alone());
+  for (std::size_t m = 0; m < specimen.muscles.size(); ++m) {
+    const auto& carried = specimen.muscles[m].fibre_fit;
+    const auto fit = found.fibre_fit(static_cast<int>(m));
+    ASSERT_TRUE(carried && fit) << specimen.muscles[m].key;
+    EXPECT_EQ(carried->of, fit->of) << specimen.muscles[m].key << ": run myotact calibrate";
+    // The last digits are a processor's.
+    EXPECT_NEAR(carried->offset, fit->offset, 0.01) << specimen.muscles[m].key;
+    EXPECT_NEAR(carried->scale / fit->scale, 1.0, 0.01) << specimen.muscles[m].key;
+    EXPECT_NEAR(carried->gain / fit->gain, 1.0, 0.01) << specimen.muscles[m].key;
+    EXPECT_NEAR(carried->force, fit->force, 0.01) << specimen.muscles[m].key;
+  }
+}
+
+TEST(CalibrationFingerprint, ChangesWithTheMuscleItsLineAndTheJoints) {
+  const anatomy::Specimen specimen = anatomy::load_specimen(source_folder() + "/meshes/canine_elbow");
+  const std::uint64_t whole = calibration_fingerprint(specimen, 0);
+  const auto changed = [&](auto&& change) {
+    anatomy::Specimen other = specimen;
+    change(other);
+    return calibration_fingerprint(other, 0) != whole;
+  };
+  EXPECT_NE(calibration_fingerprint(specimen, 1), whole);
+  EXPECT_TRUE(changed([](anatomy::Specimen& s) { s.muscles[0].tets.nodes_m.back().x() += 1e-9; }));
+  EXPECT_TRUE(changed([](anatomy::Specimen& s) { s.muscles[0].peak_force_N += 1.0; }));
+  EXPECT_TRUE(changed([](anatomy::Specimen& s) { s.joints[0].centre_m.z() += 1e-6; }));
+  EXPECT_TRUE(changed([](anatomy::Specimen& s) {
+    for (anatomy::MuscleLine& line : s.lines) line.points.back().position_m.y() += 1e-6;
+  }));
+  EXPECT_FALSE(changed([](anatomy::Specimen& s) { s.muscles[1].peak_force_N += 1.0; }));
+}
+
+}  // namespace
+}  // namespace myotact::simulation
