@@ -56,8 +56,9 @@ Simulation::Impl::Impl(const anatomy::Specimen& given, const SimulationSettings&
 LineAgreement Simulation::Impl::fit_fibres(int index) {
   LimbMuscle& muscle = limb.muscles[at(index)];
   const std::optional<anatomy::FibreFit>& fit = specimen.muscles[at(index)].fibre_fit;
-  const bool known =
-      muscle.tissue.model == TissueModel::Fem && fit && fit->of == calibration_fingerprint(specimen, index);
+  // A muscle that lies on bones shortens round them: it has another fit.
+  const bool known = muscle.tissue.model == TissueModel::Fem && !settings.contact && fit &&
+                     fit->of == calibration_fingerprint(specimen, index);
   if (!known) return calibrate_muscle(specimen, index, limb.skeleton, muscle);
   apply_fit(*fit, muscle.tissue.fibre_map);
   return {fit->force != 0.0 ? fit->force : std::nan(""), 1.0};
@@ -227,7 +228,7 @@ double Simulation::pull_over_line(int muscle) const {
 }
 std::optional<anatomy::FibreFit> Simulation::fibre_fit(int muscle) const {
   const MuscleTissue& tissue = impl_->limb.muscles[at(muscle)].tissue;
-  if (tissue.model != TissueModel::Fem) return std::nullopt;
+  if (tissue.model != TissueModel::Fem || impl_->settings.contact) return std::nullopt;
   const double force = pull_over_line(muscle);
   const FibreMap& map = tissue.fibre_map;
   return anatomy::FibreFit{calibration_fingerprint(impl_->specimen, muscle),
