@@ -19,7 +19,7 @@ std::uint64_t read_fingerprint(const JsonValue& value) {
   std::uint64_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, 16);
   if (error != std::errc{} || end != text.data() + text.size() || text.size() != 16)
-    throw value.error("must be 16 hexadecimal digits; delete the file, or make it again with myotact calibrate");
+    throw value.error("must be 16 hexadecimal digits; delete the file, and myotact calibrate makes it again");
   return number;
 }
 

@@ -1,10 +1,9 @@
-#include <algorithm>
 #include <iostream>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "anatomy/calibration_file.h"
+#include "anatomy/hinge_chains.h"
 #include "app/options.h"
 #include "core/file.h"
 #include "simulation/simulation.h"
@@ -38,15 +37,15 @@ void print_table(const anatomy::Specimen& specimen) {
 
 int calibrate(const Options& options) {
   const std::filesystem::path file = options.file / anatomy::kCalibrationFile;
-  anatomy::Specimen specimen = anatomy::load_specimen(options.file);
+  // With the joints that scenes make of it: a fit is known again by them.
+  anatomy::Specimen specimen = anatomy::with_hinge_chains(anatomy::load_specimen(options.file));
   require_writable(file);
   calibrate_all(specimen, options.workers);
   write_file(file, anatomy::calibration_json(specimen));
-  if (options.json) {
+  if (options.json)
     std::cout << anatomy::calibration_json(specimen);
-  } else {
+  else
     print_table(specimen);
-  }
   return static_cast<int>(ExitStatus::Done);
 }
 

@@ -174,20 +174,21 @@ nlohmann::json summary_json(const scene::Scene& scene, const RunSummary& summary
   for (std::size_t t = 0; t < scene.tools.size() && scene.tools.size() > 1; ++t) {
     json[scene.tools[t].hand] = touch_json(summary.extremes.tools[t]);
   }
-  json.update({{"scene", scene.name},
-               {"specimen", scene.specimen.name},
-               {"muscles", scene.specimen.muscles.size()},
-               {"simulated_s", summary.simulated_s},
-               {"wall_s", summary.wall_s},
-               {"steps", summary.steps},
-               {"steps_per_s", summary.wall_s > 0.0 ? static_cast<double>(summary.steps) / summary.wall_s : 0.0},
-               {"largest_drift_deg", summary.extremes.drift_rad * kDegrees},
-               {"largest_residual_share", summary.extremes.residual_share},
-               {"largest_volume_error", summary.extremes.volume_error},
-               {"smallest_J", summary.extremes.smallest_J},
-               {"mean_muscles_asleep", static_cast<double>(summary.extremes.asleep) /
-                                           static_cast<double>(std::max<std::uint64_t>(summary.extremes.steps, 1))},
-               {"notice", summary.notice}});
+  json.update(
+      {{"scene", scene.name},
+       {"specimen", scene.specimen.name},
+       {"muscles", scene.specimen.muscles.size()},
+       {"simulated_s", summary.simulated_s},
+       {"wall_s", summary.wall_s},
+       {"steps", summary.steps},
+       {"steps_per_s", summary.wall_s > 0.0 ? static_cast<double>(summary.steps) / summary.wall_s : 0.0},
+       {"largest_drift_deg", summary.extremes.drift_rad * kDegrees},
+       {"largest_residual_share", summary.extremes.residual_share},
+       {"largest_volume_error", summary.extremes.volume_error},
+       {"smallest_J", summary.extremes.smallest_J},
+       {"mean_muscles_asleep",
+        summary.steps > 0 ? static_cast<double>(summary.extremes.asleep) / static_cast<double>(summary.steps) : 0.0},
+       {"notice", summary.notice}});
   return json;
 }
 

@@ -16,7 +16,6 @@ void Extremes::add_tick(std::size_t tool, const haptics::HapticTick& tick) {
 }
 
 void Extremes::add_step(const Scene& scene, const simulation::Simulation& simulation) {
-  ++steps;
   residual_share = std::max(residual_share, simulation.residual_share());
   for (int m = 0; m < static_cast<int>(scene.specimen.muscles.size()); ++m) {
     volume_error = std::max(volume_error, std::abs(simulation.volume_ratio(m) - 1.0));

@@ -28,8 +28,7 @@ struct Extremes {
   double residual_share = 0.0;  // out-of-balance force of a step over the size of the forces
   double volume_error = 0.0;    // |V / V at rest - 1| of a whole muscle
   double smallest_J = 1.0;      // over all integration points of the muscles
-  std::uint64_t steps = 0;
-  std::uint64_t asleep = 0;  // muscles not solved for, summed over the steps
+  std::uint64_t asleep = 0;     // muscles not solved for since nothing moved them, summed over the steps
 
   void add_tick(std::size_t tool, const haptics::HapticTick& tick);
   void add_step(const Scene& scene, const simulation::Simulation& simulation);

@@ -42,7 +42,7 @@ struct Simulation::Impl {
   std::vector<LineAgreement> line_agreements;  // one a muscle; that of a rigid one is perfect
   std::uint64_t steps = 0;                     // since construction
   int whole_steps = 0;          // of equal length since the last restart; the second-order rule needs one
-  int settled_steps = 0;        // since the last settle: they say whose stiffness is refreshed
+  int settled_steps = 0;        // since the last settle: they say when a stiffness is refreshed
   int refreshed = -1;           // muscle whose stiffness was refreshed last in a step; -1: none since the last settle
   int failed_steps = 0;         // since construction
   double residual_share = 0.0;  // of the last step

@@ -13,22 +13,13 @@ namespace myotact::simulation {
 namespace {
 
 using messages::ToolState;
+using testing::press_tool;
 
 /// Coarse bars: what these tests compare does not depend on the mesh.
 testing::BarShape coarse_bar() {
   testing::BarShape shape;
   shape.cells = {4, 1, 1};
   return shape;
-}
-
-ToolState press(int surface, int triangle, const Vec3& target_m, double stiffness_N_m) {
-  ToolState tool;
-  tool.contact.surface = surface;
-  tool.contact.triangle = triangle;
-  tool.contact.barycentric = {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0};
-  tool.contact.target_world_m = to_array(target_m);
-  tool.contact.stiffness_N_m = stiffness_N_m;
-  return tool;
 }
 
 /// A triangle in the middle of the muscle's upper side.
@@ -56,7 +47,7 @@ std::uint64_t hash_after_steps(int workers) {
   simulation.set_excitation(0, 0.8);
   simulation.set_excitation(1, 0.3);
   for (int i = 0; i < 5; ++i) {
-    const ToolState tool = press(0, 3, Vec3(-0.03, 0.0, 0.035), 200.0);
+    const ToolState tool = press_tool(0, 3, Vec3(-0.03, 0.0, 0.035), 200.0);
     simulation.step({&tool, 1});
   }
   return simulation.state_hash();
@@ -138,7 +129,7 @@ TEST(Simulation, ASpringOnTheSkinPullsAndItsComplianceTellsHowFar) {
   const int triangle = top_triangle(specimen, 0);
   const Vec3 start = testing::skin_centre_m(simulation, specimen, 0, triangle);
   const double stiffness_N_m = 100.0;
-  const ToolState tool = press(0, triangle, start - Vec3(0.0, 0.0, 1e-4), stiffness_N_m);
+  const ToolState tool = press_tool(0, triangle, start - Vec3(0.0, 0.0, 1e-4), stiffness_N_m);
   simulation.step({&tool, 1});
   const Vec3 moved = testing::skin_centre_m(simulation, specimen, 0, triangle) - start;
   const Vec3 force = stiffness_N_m * (to_vec3(tool.contact.target_world_m) - start - moved);
@@ -153,7 +144,7 @@ TEST(Simulation, ASpringOnTheSkinPullsAndItsComplianceTellsHowFar) {
 TEST(Simulation, APushOnABoneTurnsTheJoint) {
   const anatomy::Specimen specimen = testing::hinged_bones();
   Simulation simulation(specimen, {});
-  ToolState tool = press(1, 0, Vec3::Zero(), 50.0);
+  ToolState tool = press_tool(1, 0, Vec3::Zero(), 50.0);
   const std::array<int, 3>& triangle = specimen.bones[1].surface.triangles[0];
   Vec3 start = Vec3::Zero();
   for (int v : triangle) start += specimen.bones[1].surface.positions_m[static_cast<std::size_t>(v)] / 3.0;
@@ -171,7 +162,7 @@ TEST(Simulation, ThePushedBoneTellsItsForceAndHowFarItsJointYields) {
   for (int v : triangle) start += specimen.bones[1].surface.positions_m[static_cast<std::size_t>(v)] / 3.0;
   for (const double stiffness_N_m : {5.0, 50.0}) {
     Simulation simulation(specimen, {});
-    ToolState tool = press(1, 0, Vec3::Zero(), stiffness_N_m);
+    ToolState tool = press_tool(1, 0, Vec3::Zero(), stiffness_N_m);
     tool.contact.target_world_m = to_array(start + Vec3(0.0, 0.0, 1e-3));
     simulation.step({&tool, 1});
     Vec3 moved = simulation.body_pose(1) * start - start;
@@ -305,11 +296,11 @@ TEST(Simulation, SurvivesJumpsAndNonsense) {
   Simulation simulation(specimen, {});
   simulation.set_excitation(0, 1.0);
   simulation.set_excitation(1, std::nan(""));
-  ToolState yank = press(0, 0, Vec3(0.0, 0.3, 0.3), 5e3);
+  ToolState yank = press_tool(0, 0, Vec3(0.0, 0.3, 0.3), 5e3);
   yank.grabbed_line = 1;
   yank.grab_fraction = 0.5;
   yank.line_stiffness_N_m = 2e3;
-  ToolState nonsense = press(99, -5, Vec3(std::nan(""), 1e300, 0.0), -1.0);
+  ToolState nonsense = press_tool(99, -5, Vec3(std::nan(""), 1e300, 0.0), -1.0);
   nonsense.grabbed_line = 77;
   yank.grabbed_body = 1;
   yank.body_point_rest_m = {0.2, 0.0, 0.0};

@@ -12,22 +12,11 @@ namespace myotact::simulation {
 namespace {
 
 using messages::ToolState;
-using testing::skin_centre_m, testing::skin_triangle_near;
+using testing::press_tool, testing::skin_centre_m, testing::skin_triangle_near;
 using Compliance = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
 
 constexpr double kRodInertia_kg_m2 = 0.2 * 0.2 * 0.2 / 3.0;  // 0.2 kg, 0.2 m, about its end
 constexpr double kHinge_Nm_rad = 6.0;
-
-ToolState press(int surface, int triangle, const Vec3& target_m, double stiffness_N_m) {
-  ToolState tool;
-  tool.tool_position_world_m = tool.proxy_position_world_m = to_array(target_m);
-  tool.contact.surface = surface;
-  tool.contact.triangle = triangle;
-  tool.contact.barycentric = {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0};
-  tool.contact.target_world_m = to_array(target_m);
-  tool.contact.stiffness_N_m = stiffness_N_m;
-  return tool;
-}
 
 ToolState hold(const Vec3& rest_m, const Vec3& target_m, double stiffness_N_m) {
   ToolState tool;
@@ -52,7 +41,7 @@ Pressed press_flexor(double depth_m, const std::vector<ToolState>& others) {
   EXPECT_TRUE(simulation.settle({&straight, 1}, {}));
   const int triangle = skin_triangle_near(simulation, specimen, 0, Vec3(-0.03, 0.0, 0.04));
   const Vec3 start_m = skin_centre_m(simulation, specimen, 0, triangle);
-  std::vector<ToolState> tools = {press(0, triangle, start_m - depth_m * Vec3::UnitZ(), 200.0)};
+  std::vector<ToolState> tools = {press_tool(0, triangle, start_m - depth_m * Vec3::UnitZ(), 200.0)};
   tools.insert(tools.end(), others.begin(), others.end());
   simulation.step(tools);
   messages::LocalModel model;
@@ -74,7 +63,7 @@ TEST(TwoTools, OnOneMuscleEachComplianceHasTheOthersPressInIt) {
   const Simulation rest(specimen, {});
   const int beside = skin_triangle_near(rest, specimen, 0, Vec3(-0.045, 0.0, 0.04));
   ASSERT_NE(beside, skin_triangle_near(rest, specimen, 0, Vec3(-0.03, 0.0, 0.04)));
-  const ToolState other = press(0, beside, skin_centre_m(rest, specimen, 0, beside), 2000.0);
+  const ToolState other = press_tool(0, beside, skin_centre_m(rest, specimen, 0, beside), 2000.0);
   const Mat3 alone_m_N = press_flexor(1e-4, {}).compliance_m_N;
   const Mat3 beside_m_N = press_flexor(1e-4, {other}).compliance_m_N;
   EXPECT_LT(compliance_error(alone_m_N, {}), 0.01);
@@ -95,8 +84,8 @@ TEST(TwoTools, EachIsToldItsOwnForceInAnyOrder) {
   const int top = skin_triangle_near(simulation, specimen, 0, Vec3(-0.03, 0.0, 0.04));
   const int bottom = skin_triangle_near(simulation, specimen, 1, Vec3(-0.03, 0.0, -0.04));
   const std::array<ToolState, 2> tools = {
-      press(0, top, skin_centre_m(simulation, specimen, 0, top) - 1e-3 * Vec3::UnitZ(), 200.0),
-      press(1, bottom, skin_centre_m(simulation, specimen, 1, bottom) + 2e-3 * Vec3::UnitZ(), 300.0)};
+      press_tool(0, top, skin_centre_m(simulation, specimen, 0, top) - 1e-3 * Vec3::UnitZ(), 200.0),
+      press_tool(1, bottom, skin_centre_m(simulation, specimen, 1, bottom) + 2e-3 * Vec3::UnitZ(), 300.0)};
   simulation.step(tools);
   for (int t = 0; t < 2; ++t) {
     messages::LocalModel model;

@@ -27,4 +27,16 @@ inline int skin_triangle_near(const simulation::Simulation& simulation, const an
   return best;
 }
 
+/// A tool that presses on the middle of a triangle of a surface, through a spring to `target_m` (world).
+inline messages::ToolState press_tool(int surface, int triangle, const Vec3& target_m, double stiffness_N_m) {
+  messages::ToolState tool;
+  tool.tool_position_world_m = tool.proxy_position_world_m = to_array(target_m);
+  tool.contact.surface = surface;
+  tool.contact.triangle = triangle;
+  tool.contact.barycentric = {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0};
+  tool.contact.target_world_m = to_array(target_m);
+  tool.contact.stiffness_N_m = stiffness_N_m;
+  return tool;
+}
+
 }  // namespace myotact::testing

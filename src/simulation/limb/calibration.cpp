@@ -109,7 +109,7 @@ double bounded(double factor) {
 }  // namespace
 
 std::uint64_t calibration_fingerprint(const anatomy::Specimen& specimen, int index) {
-  std::uint64_t hash = 14695981039346656037ull;
+  std::uint64_t hash = kHashStart;
   const auto add = [&](std::initializer_list<double> values) { add_to_hash({values.begin(), values.size()}, hash); };
   const auto add_points = [&](const std::vector<Vec3>& points) {
     for (const Vec3& p : points) add({p.x(), p.y(), p.z()});

@@ -239,7 +239,7 @@ void add_to_hash(std::span<const double> values, std::uint64_t& hash) {
 }
 
 std::uint64_t hash_of_state(const Limb& limb) {
-  std::uint64_t hash = 14695981039346656037ull;
+  std::uint64_t hash = kHashStart;
   add_to_hash(as_span(limb.now.angle_rad), hash);
   add_to_hash(as_span(limb.now.velocity_rad_s), hash);
   for (const LimbMuscle& muscle : limb.muscles) {

@@ -45,7 +45,8 @@ struct MuscleReadout {
 /// What a joint does to a muscle as it rotates: nothing, strain it, or carry the whole of it along.
 enum class JointPart { None, Strains, Carries };
 
-/// A muscle asleep (sleep.h): a load on the joints, linear about one pose of them.
+/// A muscle asleep (sleep.h): a load on the joints, linear about one pose of them. What else is read out of it
+/// (tension, volume, least J) is as in that pose.
 struct Sleep {
   double activation = 0.0;        // where it fell asleep
   bool settled = false;           // it did so at the end of a settle, and its load is still that one
@@ -172,6 +173,8 @@ void move_free_nodes(LimbMuscle& muscle, const Eigen::VectorXd& change_m);
 /// systems; torque and tension into their readouts.
 void evaluate_lines(Limb& limb, const TimeRule& rule);
 
+/// Where a hash of add_to_hash() begins.
+inline constexpr std::uint64_t kHashStart = 14695981039346656037ull;
 /// Equal for equal bits of everything that moves: angles, positions, their rates, activations, fibres of Line muscles.
 std::uint64_t hash_of_state(const Limb& limb);
 /// FNV-1a over the bytes of more numbers; bits count, so that 0 and -0 differ.

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <span>
-
 #include "simulation/limb/limb.h"
 
 namespace myotact::simulation {

@@ -20,7 +20,7 @@ namespace myotact::simulation {
 namespace {
 
 using messages::ToolState;
-using testing::skin_centre_m, testing::skin_triangle_near;
+using testing::press_tool, testing::skin_centre_m, testing::skin_triangle_near;
 
 constexpr int kRest = 20, kPress = 80, kHold = 140, kFlexed = 290, kEnd = 540;  // steps at which each part ends
 constexpr double kDepth_m = 3e-3, kCoupling_N_m = 800.0, kTorque_Nm = 0.06;
@@ -73,14 +73,8 @@ class Forearm {
     simulation_.set_joint_torque(elbow_, balance_Nm_ + kTorque_Nm * flexing * flexing);
     if (index < kRest || index >= kHold) return simulation_.step({});
     const double share = std::min(1.0, static_cast<double>(index - kRest) / (kPress - kRest));
-    ToolState tool;
     const Vec3 target_m = start_m_ - share * kDepth_m * Vec3::UnitY();
-    tool.tool_position_world_m = tool.proxy_position_world_m = to_array(target_m);
-    tool.contact.surface = muscle_;
-    tool.contact.triangle = triangle_;
-    tool.contact.barycentric = {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0};
-    tool.contact.target_world_m = to_array(target_m);
-    tool.contact.stiffness_N_m = kCoupling_N_m;
+    const ToolState tool = press_tool(muscle_, triangle_, target_m, kCoupling_N_m);
     simulation_.step({&tool, 1});
     messages::LocalModel model;
     simulation_.write_local_model(tool, model);
