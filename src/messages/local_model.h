@@ -28,8 +28,8 @@ struct LocalLine {
 ///
 /// within one step more. Where the tool rests on several surfaces both are of all together. Row-major.
 struct LocalContact {
-  std::int32_t surface = -1;              // touched in that step, -1: none
-  std::array<double, 3> force_world_N{};  // of the tool's coupling spring on the tissue at the end of the step
+  std::int32_t surface = -1;              // touched in that step, or next to the tool then; -1: none
+  std::array<double, 3> force_world_N{};  // of the tool's coupling spring on the tissue at the end of the step; 0: none
   std::array<double, 9>
       compliance_m_N{};  // of what the tool rests on, its joints and inertia included, spring left out
 };

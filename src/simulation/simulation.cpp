@@ -181,7 +181,10 @@ void Simulation::step(std::span<const messages::ToolState> tools) {
     activation =
         step_activation(activation, in.excitations[m], {muscle.activation_tau_s, muscle.deactivation_tau_s}, dt_s);
   }
-  in.limb.springs = tool_springs(tools, {in.specimen, in.surfaces.skins()}, in.limb);
+  const TouchableParts touchable{in.specimen, in.surfaces.skins()};
+  in.limb.springs = tool_springs(tools, touchable, in.limb);
+  const std::vector<ToolSpring> ahead = springs_ahead(tools, touchable, in.surfaces.patch());
+  in.limb.springs.insert(in.limb.springs.end(), ahead.begin(), ahead.end());
   wake_disturbed(in.limb, dt_s);
   push_history(in.limb);
   const StepReport report = advance(in.limb, {dt_s, in.whole_steps > 0}, in.workers);

@@ -28,18 +28,19 @@ void Simulation::Impl::write_contact(const messages::ToolContact& contact, int i
                                      messages::LocalModel& model) const {
   model.contact = {};
   const auto first = std::find_if(limb.springs.begin(), limb.springs.end(), [&](const ToolSpring& spring) {
-    return spring.tool == index && spring.surface >= 0 && spring.surface == contact.surface &&
-           spring.target_W_m == to_vec3(contact.target_world_m);
+    const bool touches = contact.stiffness_N_m > 0.0 && spring.surface == contact.surface &&
+                         spring.target_W_m == to_vec3(contact.target_world_m);
+    return spring.tool == index && spring.surface >= 0 && (spring.ahead || touches);
   });
-  if (contact.stiffness_N_m <= 0.0 || first == limb.springs.end()) return;
-  model.contact.surface = contact.surface;
+  if (first == limb.springs.end()) return;
+  model.contact.surface = first->surface;
   Vec3 force_N = Vec3::Zero();
   Mat3 compliance = Mat3::Zero();
   bool rests = false;  // on a surface that was found before
   for (std::size_t s = 0; s < limb.springs.size(); ++s) {
     if (limb.springs[s].open || !of_one_sphere(*first, limb.springs[s])) continue;
     if (!std::exchange(rests, true)) model.contact.surface = limb.springs[s].surface;
-    force_N += limb.spring_force_N[s];
+    if (!first->ahead) force_N += limb.spring_force_N[s];
     compliance = limb.spring_compliance_m_N[s];  // of the sphere: the same for all its points
   }
   model.contact.force_world_N = to_array(force_N);

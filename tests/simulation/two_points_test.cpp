@@ -108,7 +108,7 @@ TEST(TwoPoints, AtRestEachBearsWhatItsOwnSpringWould) {
   }
   SphereOnTwo both;
   both.press(0, kDepth_m, kDepth_m, kToRest);
-  const double seat_m_N = 0.1 / kCoupling_N_m;
+  const double seat_m_N = 0.03 / kCoupling_N_m;
   const double together_N_m = 1.0 / (1.0 / tissue_N_m[0] + seat_m_N) + 1.0 / (1.0 / tissue_N_m[1] + seat_m_N);
   const double expected_N = -kDepth_m / (1.0 / kCoupling_N_m + 1.0 / together_N_m);
   EXPECT_NEAR(both.force_N().z(), expected_N, 0.03 * std::abs(expected_N));

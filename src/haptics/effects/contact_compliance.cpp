@@ -14,7 +14,9 @@ namespace {
 constexpr double kLargestCoupling_N_m = 3e4;
 /// Softer tissue is taken as soft as this for the length of a step [m/N]. Tissue about to fold has next to no stiffness
 /// in the linear solve (1.7 m/N were seen where 3 mm/N came before and after), and would not move by a tenth of that.
-constexpr double kLargestCompliance_m_N = 3e-3;
+/// The long muscles of a whole limb have 5 to 15 mm/N: with 3 they felt up to four times too firm, with 30 a hand on
+/// the elbow's brachialis swings.
+constexpr double kLargestCompliance_m_N = 10e-3;
 /// The room beside a sphere changes with the surfaces; slower, the coupling would be too stiff on a bone that a step
 /// reached, faster it would follow every hop of the sphere.
 constexpr double kRoom_s = 0.01;
@@ -98,7 +100,7 @@ void ContactCompliance::tick(const messages::LocalModel& model, const ProxyConta
                              double dt_s) noexcept {
   const messages::LocalContact& known = model.contact;
   const bool elsewhere = touching.active && !(known.surface >= 0 && rests_on(touching, known.surface));
-  Mat3 compliance_m_N = compliance_m_N_;  // kept after the contact: the next touch of the same tissue finds it
+  Mat3 compliance_m_N = compliance_m_N_;  // kept where nothing else is known: the next touch of that tissue finds it
   double normal_m_N = normal_m_N_;
   Vec3 used_N = Vec3::Zero();
   if (elsewhere && touching.surface != surface_) {
@@ -107,21 +109,23 @@ void ContactCompliance::tick(const messages::LocalModel& model, const ProxyConta
     if (compliance_m_N_.isZero(0.0)) surface_ = touching.surface;
   } else if (!elsewhere && known.surface >= 0) {
     used_N = to_vec3(known.force_world_N);
-    if (touching.active) {
-      surface_ = known.surface;
-      if (known.compliance_m_N != model_rows_) {  // else it was said before: once a model, not once a tick
-        model_rows_ = known.compliance_m_N;
-        model_m_N_ = sound_compliance(model_rows_);
-      }
-      compliance_m_N = model_m_N_;
-      normal_m_N = touching.normal.dot(compliance_m_N * touching.normal);
+    surface_ = known.surface;
+    if (known.compliance_m_N != model_rows_) {  // else it was said before: once a model, not once a tick
+      model_rows_ = known.compliance_m_N;
+      model_m_N_ = sound_compliance(model_rows_);
     }
+    compliance_m_N = model_m_N_;
+    normal_m_N = touching.active ? touching.normal.dot(compliance_m_N * touching.normal) : compliance_m_N.trace() / 3.0;
   }
   const double share = share_of_tick(model, now_ns, dt_s);
+  const double known_share = was_touching_ ? share : 1.0;  // what is not felt may change at once
+  was_touching_ = touching.active;
   room_ += std::min(1.0, dt_s / kRoom_s) * (room_beside(touching) - room_);
-  compliance_m_N_ += share * (compliance_m_N - compliance_m_N_);
-  normal_m_N_ += share * (normal_m_N - normal_m_N_);
-  used_N_ += share * (used_N - used_N_);
+  compliance_m_N_ += known_share * (compliance_m_N - compliance_m_N_);
+  normal_m_N_ += known_share * (normal_m_N - normal_m_N_);
+  const Vec3 change_N = share * (used_N - used_N_);
+  unloaded_moved_m_ = -given_m_N_ * change_N;
+  used_N_ += change_N;
   if (touching.active) normal_ = touching.normal;
   const double most_m_N = 1.0 / felt_stiffness_N_m() - 1.0 / stiffest_N_m();
   given_m_N_ = with_room(compliance_m_N_, normal_, normal_m_N_, most_m_N);
@@ -136,7 +140,8 @@ void ContactCompliance::forget() noexcept {
   compliance_m_N_ = given_m_N_ = Mat3::Zero();
   normal_m_N_ = 0.0;
   room_ = 1.0;
-  used_N_ = Vec3::Zero();
+  used_N_ = unloaded_moved_m_ = Vec3::Zero();
+  was_touching_ = false;
 }
 
 double ContactCompliance::stiffest_N_m() const noexcept {

@@ -27,6 +27,9 @@ namespace myotact::haptics {
 /// millimetre of the way there: were it to fall at the touch, the same force would need a hand 1 mm deeper from one
 /// step to the next, and there is none; hand and tissue would swing between both.
 ///
+/// The simulation tells how the surface next to the tool gives way before it is touched, so that a touch is as soft as
+/// the tissue from its first tick.
+///
 /// The matrix matters along the surface: were c taken there, too, a step of the simulation would answer a change of the
 /// force by (1/K + c) / (1/K + C) times as much, ten times where a strand gives way to the side only. Directions in
 /// which the tissue is softer than A are taken as soft as A leaves room for: they lag, which is calm. Real-time safe;
@@ -46,6 +49,9 @@ class ContactCompliance {
   std::int32_t surface() const noexcept { return surface_; }
   /// From the device to where it would press as hard into the played surface [m].
   Vec3 shift_m() const noexcept { return given_m_N_ * used_N_; }
+  /// What the tissue would have moved by in the last tick, beyond the played surface, if nothing touched it [m]. A
+  /// compliance that changes is no motion: it leaves the touched tissue where it is.
+  const Vec3& unloaded_moved_m() const noexcept { return unloaded_moved_m_; }
   /// A: > 0, of the spring between the played surface and that place.
   double felt_stiffness_N_m() const noexcept;
   /// K: > 0, of the spring between tissue and device, for the simulation.
@@ -66,6 +72,8 @@ class ContactCompliance {
   Mat3 model_m_N_ = Mat3::Zero();       // what of it is sound
   double room_ = 1.0;                   // beside the sphere, 0 .. 1
   Vec3 used_N_ = Vec3::Zero();          // force on the tissue that belongs to the played surface
+  Vec3 unloaded_moved_m_ = Vec3::Zero();
+  bool was_touching_ = false;  // in the last tick
 };
 
 }  // namespace myotact::haptics

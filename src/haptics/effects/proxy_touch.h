@@ -36,7 +36,6 @@ class ProxyTouch {
   MovingSurface surface_;
   Proxy proxy_;
   ContactCompliance compliance_;
-  Vec3 unloaded_moved_m_ = Vec3::Zero();  // in this tick, beyond the surface, of the tissue if nothing touched it
   ProxyCounters counted_;
 };
 

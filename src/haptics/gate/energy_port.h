@@ -36,7 +36,8 @@ struct PortTick {
 ///
 ///   coupling  E -= F . (dx_hand - dx_environment)            must not fall below 0
 ///             above `stored` it is what friction took: at most store_J, and it leaks
-///   swing     S += F . dx_environment - F_slow . v_slow dt   must stay below 2 mJ; it leaks
+///   swing     S += F . dx_environment - F_slow . v_slow dt   must stay below 2 mJ; it leaks,
+///             in 30 ms where the port opens
 ///
 /// What is missing is taken back by damping, missing / (T v^2), no more than the device supports, in ticks whose way is
 /// longer than the encoder's rounding.

@@ -35,6 +35,13 @@ Vec3 place_m(const Vec3& previous_m, const Vec3& current_m, double share) {
   return share >= 1.0 ? current_m : Vec3(previous_m + share * (current_m - previous_m));
 }
 
+/// Of the time that is left of the model's step after `last_ns`, what is gone by `now_ns`.
+double share_until(const messages::LocalModel& model, std::uint64_t last_ns, std::uint64_t now_ns) {
+  const std::uint64_t end_ns = model.published_at_ns + model.dt_ns;
+  if (now_ns >= end_ns || last_ns >= end_ns) return 1.0;
+  return now_ns <= last_ns ? 0.0 : static_cast<double>(now_ns - last_ns) / static_cast<double>(end_ns - last_ns);
+}
+
 /// Order of the triangles in a model.
 std::int64_t key_of(std::int32_t surface, std::int32_t triangle) {
   return (std::int64_t{surface} << 32) + triangle;
@@ -108,19 +115,23 @@ bool is_sound(const messages::LocalModel& model) noexcept {
   return is_place(model.coverage_centre_world_m) && std::isfinite(model.coverage_radius_m) && line_is_finite;
 }
 
-void MovingSurface::begin_tick(const messages::LocalModel& model, std::uint64_t now_ns, bool is_new) noexcept {
+void MovingSurface::begin_tick(const messages::LocalModel& model, std::uint64_t now_ns, bool is_new,
+                               double ahead) noexcept {
+  ahead_ = ahead;
   if ((is_new || model_ == nullptr) && !has_list_of(model)) {
     adopt_list(model);
   } else {
     from_m_.leftCols(vertex_count_) = to_m_.leftCols(vertex_count_);
   }
   model_ = &model;
-  const double s = played(model, now_ns);
+  const double s = played(model, now_ns), share = share_until(model, last_ns_, now_ns);
   const Frame previous_m = frame_m(model.previous_world_m, vertex_count_);
   const Frame current_m = frame_m(model.current_world_m, vertex_count_);
   double largest_squared_m2 = 0.0;
   for (int i = 0; i < vertex_count_; ++i) {
-    to_m_.col(i) = place_m(previous_m.col(i), current_m.col(i), s);
+    const Vec3 led_m = ahead_ * (current_m.col(i) - previous_m.col(i));
+    lead_m_.col(i) = place_m(lead_m_.col(i), led_m, share);
+    to_m_.col(i) = place_m(previous_m.col(i), current_m.col(i), s) + lead_m_.col(i);
     largest_squared_m2 = std::max(largest_squared_m2, (to_m_.col(i) - from_m_.col(i)).squaredNorm());
   }
   largest_motion_m_ = std::sqrt(largest_squared_m2);
@@ -158,11 +169,15 @@ void MovingSurface::adopt_list(const messages::LocalModel& model) noexcept {
   const double s = played(model, last_ns_);
   const Frame previous_m = frame_m(model.previous_world_m, model.vertex_count);
   const Frame current_m = frame_m(model.current_world_m, model.vertex_count);
+  const Vertices leads_m = lead_m_;
   for (int i = 0; i < model.vertex_count; ++i) {
-    if (before[at(i)] >= 0)
+    if (before[at(i)] >= 0) {
       from_m_.col(i) = to_m_.col(before[at(i)]);
-    else
-      from_m_.col(i) = place_m(previous_m.col(i), current_m.col(i), s);
+      lead_m_.col(i) = leads_m.col(before[at(i)]);
+    } else {
+      lead_m_.col(i) = ahead_ * (current_m.col(i) - previous_m.col(i));
+      from_m_.col(i) = place_m(previous_m.col(i), current_m.col(i), s) + lead_m_.col(i);
+    }
   }
   std::copy_n(model.triangles.begin(), model.triangle_count, triangles_.begin());
   known_count_ = model.triangle_count;

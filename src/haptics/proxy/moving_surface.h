@@ -15,17 +15,19 @@ bool is_sound(const messages::LocalModel& model) noexcept;
 
 /// The surface near the tool during one tick, which runs from `fraction` 0 (end of the last tick) to 1 (now).
 ///
-///   model:  previous ---- s = (now - published) / dt ---- current, then held
+///   model:  previous ---- s = (now - published) / dt ---- current, then held;  + lead
 ///   tick:             from ====== to
 ///
-/// A new model carries on from where the surface was: its vertices start where the same triangles' corners ended, so
-/// that an early or late model moves the surface and never makes it jump. Triangles that the old model did not hold
-/// start where the new one has them at the end of the last tick. Real-time safe.
+/// A step is played while the next one is computed, and so comes late by one: the surface may lead by a share of the
+/// step's way. The lead changes evenly over a step. A new model carries on from where the surface was: its vertices
+/// start where the same triangles' corners ended, so that an early or late model moves the surface and never makes it
+/// jump. Triangles that the old model did not hold start where the new one has them at the end of the last tick.
+/// Real-time safe.
 class MovingSurface {
  public:
   /// Starts the tick that ends at `now_ns`. `model` must be sound and must stay in place until the next call.
-  /// `is_new`: it is not the model of the last call.
-  void begin_tick(const messages::LocalModel& model, std::uint64_t now_ns, bool is_new) noexcept;
+  /// `is_new`: it is not the model of the last call. `ahead`: the lead, as a share of the step's way, >= 0.
+  void begin_tick(const messages::LocalModel& model, std::uint64_t now_ns, bool is_new, double ahead = 0.0) noexcept;
 
   int triangle_count() const noexcept { return model_ == nullptr ? 0 : model_->triangle_count; }
   const messages::LocalModel::Triangle& triangle(int local) const noexcept {
@@ -70,6 +72,8 @@ class MovingSurface {
   int vertex_count_ = 0;  // of the places
   Vertices from_m_ = Vertices::Zero();
   Vertices to_m_ = Vertices::Zero();
+  Vertices lead_m_ = Vertices::Zero();
+  double ahead_ = 0.0;  // of this tick
   double largest_motion_m_ = 0.0;
   std::uint64_t last_ns_ = 0;  // end of the last tick
   std::uint64_t list_count_ = 0;

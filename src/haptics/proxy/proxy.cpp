@@ -35,9 +35,6 @@ constexpr double kConverged_m = 1e-7;
 constexpr int kTestBudget = 2000;
 /// The next move would be less than a tenth of this one (depth over radius of curvature): not worth its look.
 constexpr double kSettled_m = 1e-6;
-/// A stuck sphere may be off its anchor by this share of the radius (normal travel over a curved surface) before the
-/// anchor is renewed: the anchor is what keeps it from creeping, so it is kept as long as it makes sense.
-constexpr double kAnchorSlack = 0.05;
 /// Beyond all that a model holds.
 constexpr double kEverywhere_m = 1e3;
 /// Of the radius: the way that a tick is allowed at first, besides that of hand and surface. Longer ways come with
@@ -325,67 +322,6 @@ void Proxy::settle_friction(const Tick& tick) noexcept {
   const auto speed_along_surface = [&](const Vec3& v) { return (v - v.dot(contact_.normal) * contact_.normal).norm(); };
   friction_.settle(speed_along_surface(p_m_ - tick.rubbed_from_m),
                    speed_along_surface(tick.goal.velocity_m_s - contact_.velocity_m_s), tick.dt_s);
-}
-
-void Proxy::settle_contact(const Projection& held, const Tick& tick) noexcept {
-  const bool touches = held.active_count > 0;
-  if (!touches) {
-    contact_ = {};
-    anchor_ = {};
-    friction_.release();
-    return;
-  }
-  int strongest = 0;
-  for (int i = 1; i < held.active_count; ++i) {
-    if (held.reaction_m[at(i)] > held.reaction_m[at(strongest)]) strongest = i;
-  }
-  const MovingSurface& surface = *tick.surface;
-  const int local = near_.near(touching_[at(held.active[at(strongest)])]).local;
-  const bool keeps = !tick.slipped && anchor_.local >= 0 &&
-                     (p_m_ - anchored_m(surface, 1.0)).norm() < kAnchorSlack * settings_.radius_m;
-  if (!keeps) set_anchor(surface, local);
-  const geometry::TrianglePoint touched = geometry::closest_point_on_triangle(
-      p_m_, surface.corner_m(local, 0, 1.0), surface.corner_m(local, 1, 1.0), surface.corner_m(local, 2, 1.0));
-  contact_.active = true;
-  contact_.surface = surface.triangle(local).surface;
-  contact_.triangle = surface.triangle(local).triangle;
-  contact_.barycentric = touched.barycentric;
-  contact_.point_m = touched.position_m;
-  contact_.normal = (held.point_m - tick.goal.position_m).normalized();
-  contact_.velocity_m_s = surface.motion_m(local, touched.barycentric) / tick.dt_s;
-  contact_.sliding = tick.slipped;
-  settle_friction(tick);
-  contact_.bearing = held.active_count;
-  settle_beside(surface);
-}
-
-void Proxy::settle_beside(const MovingSurface& surface) noexcept {
-  std::array<NearestPoint, messages::kMaxContactsBeside> found;
-  const int count = near_.nearest_beside(p_m_, contact_.surface, settings_.radius_m + kBeside_m, found);
-  contact_.beside = {};
-  for (int i = 0; i < count; ++i) {
-    const NearestPoint& point = found[at(i)];
-    const messages::LocalModel::Triangle& triangle = surface.triangle(point.local);
-    const double felt_m =
-        near_.stand_off_m(point.local) > 0.0 ? skin_.nearest(point, p_m_).distance_m : point.distance_m;
-    contact_.beside[at(i)] = {triangle.surface,
-                              triangle.triangle,
-                              point.barycentric,
-                              point.point_m,
-                              (p_m_ - point.point_m) / point.distance_m,
-                              std::max(0.0, felt_m - settings_.radius_m)};
-  }
-}
-
-void Proxy::set_anchor(const MovingSurface& surface, int local) noexcept {
-  const geometry::TrianglePoint touched = geometry::closest_point_on_triangle(
-      p_m_, surface.corner_m(local, 0, 1.0), surface.corner_m(local, 1, 1.0), surface.corner_m(local, 2, 1.0));
-  anchor_.held = true;
-  anchor_.surface = surface.triangle(local).surface;
-  anchor_.triangle = surface.triangle(local).triangle;
-  anchor_.barycentric = touched.barycentric;
-  anchor_.offset_T_m = surface.frame_W(local, 1.0).transpose() * (p_m_ - touched.position_m);
-  anchor_.local = local;
 }
 
 }  // namespace myotact::haptics

@@ -66,7 +66,7 @@ Limb::Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> model
 }
 
 double seat_m_N(const Limb& limb, const ToolSpring& spring) {
-  constexpr double kShareOfCoupling = 0.1;
+  constexpr double kShareOfCoupling = 0.03;  // as much too soft is a sphere that one point alone bears
   const auto points = std::count_if(limb.springs.begin(), limb.springs.end(), [&](const ToolSpring& other) {
     return !other.open && of_one_sphere(spring, other);
   });

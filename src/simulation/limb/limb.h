@@ -30,6 +30,7 @@ struct ToolSpring {
   double stiffness_N_m = 0.0;       // > 0, no rest length
   Vec3 normal_W = Vec3::Zero();     // of a contact: out of the tissue
   bool open = false;                // of a contact: found to pull in this step, and so without force
+  bool ahead = false;               // no contact yet, of the surface next to the tool: its force is next to nothing
 };
 
 /// What a muscle does at the end of a step or settle.
@@ -148,7 +149,7 @@ struct Limb {
 inline bool of_one_sphere(const ToolSpring& a, const ToolSpring& b) {
   return a.tool == b.tool && a.surface >= 0 && b.surface >= 0;
 }
-/// Compliance of a seat [m/N], a tenth of the coupling's: so that rigid points share a force. None where a sphere has
+/// Compliance of a seat [m/N], 3 % of the coupling's: so that rigid points share a force. None where a sphere has
 /// one point alone, and of what is no contact.
 double seat_m_N(const Limb& limb, const ToolSpring& spring);
 /// Force of a spring on what it pulls at, in the present iterate [N, world]; 0 for an open one.

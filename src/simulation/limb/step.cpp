@@ -195,7 +195,8 @@ double lines_share(Limb& limb, const TimeRule& rule) {
     if (!muscle.rigid) return 0.0;
     if (muscle.line) scale_Nm += muscle.system.joint_residual_Nm.cwiseAbs().maxCoeff();
   }
-  if (scale_Nm == 0.0 || !limb.springs.empty()) return 0.0;
+  const auto pulls = [](const ToolSpring& spring) { return !spring.ahead; };
+  if (scale_Nm == 0.0 || std::any_of(limb.springs.begin(), limb.springs.end(), pulls)) return 0.0;
   Eigen::VectorXd residual_Nm = skeleton_residual(limb, rule);
   for (const LimbMuscle& muscle : limb.muscles) {
     if (muscle.line) residual_Nm += muscle.system.joint_residual_Nm;

@@ -229,7 +229,7 @@ LocalPatch::Place LocalPatch::nearest(const Vec3& p, int first, double radius_m)
     const geometry::SurfacePlace here = surface.tree.nearest(p, surface.current_m, radius_m);
     if (here.triangle < 0) continue;
     radius_m = here.distance_m;
-    place = {s, here.point.position_m};
+    place = {s, here.triangle, here.point.barycentric, here.point.position_m};
   }
   return place;
 }

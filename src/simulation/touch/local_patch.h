@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -39,7 +40,9 @@ class LocalPatch {
 
   /// What nearest() finds.
   struct Place {
-    int surface = -1;                // -1: none within the radius
+    int surface = -1;  // -1: none within the radius
+    int triangle = -1;
+    std::array<double, 3> barycentric{};
     Vec3 position_m = Vec3::Zero();  // W
   };
   /// The place of the surface numbered `first` or higher that comes nearest to `p` (world) now, within the radius.

@@ -128,7 +128,31 @@ std::vector<ToolSpring> contact_springs(const messages::ToolState& tool, const T
   return springs;
 }
 
+/// Of a spring ahead [N/m]: 15 nN over kAhead_m, a millionth of what a finger feels.
+constexpr double kNoForce_N_m = 1e-6;
+
 }  // namespace
+
+std::vector<ToolSpring> springs_ahead(std::span<const messages::ToolState> tools, const TouchableParts& parts,
+                                      const LocalPatch& patch) {
+  std::vector<ToolSpring> springs;
+  for (std::size_t t = 0; t < tools.size(); ++t) {
+    const messages::ToolState& tool = tools[t];
+    const Vec3 middle_m = to_vec3(tool.proxy_position_world_m);
+    const bool free = tool.sequence > 0 && tool.contact.stiffness_N_m <= 0.0 && tool.grabbed_line < 0 &&
+                      tool.grabbed_body < 0 && usable_target(middle_m);
+    if (!free) continue;
+    const LocalPatch::Place place = patch.nearest(middle_m, 0, kAhead_m);
+    if (place.surface < 0) continue;
+    std::optional<ToolSpring> spring = contact_spring(
+        {place.surface, place.triangle, place.barycentric, {}, to_array(place.position_m), kNoForce_N_m}, parts);
+    if (!spring) continue;
+    spring->tool = static_cast<int>(t);
+    spring->ahead = true;
+    springs.push_back(*spring);
+  }
+  return springs;
+}
 
 std::vector<ToolSpring> tool_springs(std::span<const messages::ToolState> tools, const TouchableParts& parts,
                                      const Limb& limb) {

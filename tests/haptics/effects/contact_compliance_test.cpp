@@ -184,6 +184,37 @@ TEST(ContactCompliance, LittleRoomBesideTheSphereSoftensTheCoupling) {
   }
 }
 
+// The simulation tells of the surface next to the tool, too.
+TEST(ContactCompliance, ATouchThatWasForeseenIsAsSoftAsTheTissueFromItsFirstTick) {
+  constexpr double kTissue_m_N = 5e-3;
+  Play play;
+  play.touching = {};
+  play.step(0.0, kTissue_m_N);
+  play.tick(10);
+  EXPECT_EQ(play.compliance.shift_m().norm(), 0.0);
+  play.touching.active = true;
+  play.touching.surface = 0;
+  play.tick();
+  EXPECT_NEAR(1.0 / play.compliance.felt_stiffness_N_m(), 1.0 / 3e4 + kTissue_m_N, 1e-9);
+  play.touching.surface = 1;  // of which nothing was told
+  play.step(0.0, kTissue_m_N);
+  play.tick(10);
+  EXPECT_NEAR(play.compliance.felt_stiffness_N_m(), kDevice_N_m, 1e-9);
+}
+
+// Under the force that the simulation used, the touched tissue stays where it is whatever its compliance becomes.
+TEST(ContactCompliance, AChangeOfForceMovesTheUnloadedTissueAndOneOfComplianceDoesNot) {
+  Play play;
+  play.step(1.0, 2e-3);
+  play.tick(10);
+  play.step(1.0, 1e-3);
+  play.tick(10);
+  EXPECT_EQ(play.compliance.unloaded_moved_m().norm(), 0.0);
+  play.step(1.5, 1e-3);
+  play.tick();
+  EXPECT_NEAR(play.compliance.unloaded_moved_m().z(), 0.1 * 0.5 * 1e-3, 1e-12);
+}
+
 // A tool that bounces meets the tissue as soft as it left it, without the force of the last touch.
 TEST(ContactCompliance, OutlivesTheContact) {
   Play play;

@@ -141,6 +141,26 @@ double swing_out_J(double frequency_hz, double amplitude_m) {
 }
 
 // Work wanted a cycle: pi F amplitude = 0.5 N pi amplitude.
+// What swings touches again at once; a hand that has left the tissue is not held back for long.
+TEST(EnergyPort, AHandThatLetsGoIsFreeOfWhatSwung) {
+  EnergyPort port;
+  double missing_J = 0.0;
+  for (int i = 0; i < 400; ++i) {  // 25 Hz, 1 mm, the force as the speed
+    const double speed = std::cos(2.0 * std::numbers::pi * 25.0 * 1e-3 * i);
+    port.admit(along_x(speed, 0.0, 0.0, 1e-3 * 2.0 * std::numbers::pi * 25.0 * 1e-3 * speed));
+    port.book(1.0);
+    missing_J = port.missing_J();
+  }
+  EXPECT_GT(missing_J, 5e-3);
+  for (int i = 0; i < 150; ++i) {
+    PortTick away = along_x(0.0, 1e-4);
+    away.opens = true;
+    port.admit(away);
+    port.book(1.0);
+  }
+  EXPECT_EQ(port.missing_J(), 0.0);
+}
+
 TEST(EnergyPort, LetsTheSlowWorkOfAMuscleThroughAndNotAFastSwing) {
   const double amplitude_m = 2e-3;
   const double slow_J = swing_out_J(1.0, amplitude_m), slow_wanted_J = 2.0 * 0.5 * std::numbers::pi * amplitude_m;

@@ -188,5 +188,48 @@ TEST(Proxy, RestsInAGrooveOnBothSides) {
   EXPECT_NEAR(player.proxy.position_m().x(), 0.0, 1e-6);
 }
 
+// Walls that close under a sphere of radius r lift it by the slope of their half angle a: each wall, turning at w about
+// the bottom, moves by w r cos(a) / sin(a) against the sphere, which yields by that over sin(a).
+TEST(Proxy, AGrooveThatClosesCarriesTheSphereUp) {
+  const double half_angle_rad = 40.0 * std::numbers::pi / 180.0, rate_1_s = 0.5;
+  const geometry::TriangleMesh groove = geometry::make_groove(2.0 * half_angle_rad, 0.08, 16);
+  const auto closing = [&](double time_s) {
+    std::vector<Vec3> now_m = groove.positions_m;
+    for (Vec3& p : now_m) p.x() *= 1.0 - rate_1_s * time_s;
+    return now_m;
+  };
+  ContactSettings settings = settings_with(0.0);
+  SurfacePlayer player(groove, closing, settings);
+  const double rest_m = settings.radius_m / std::sin(half_angle_rad);
+  for (int tick = 0; tick < 60; ++tick) player.tick({Vec3(0, 0, rest_m + 1e-3 - 5e-5 * tick), Vec3::Zero()});
+  ASSERT_GE(player.proxy.contact().bearing, 2);
+  const double before_m = player.proxy.position_m().z();
+  player.tick({Vec3(0, 0, rest_m - 2e-3), Vec3::Zero()});
+  const double lifted_m_s = (player.proxy.position_m().z() - before_m) / 1e-3;
+  EXPECT_GT(lifted_m_s, 1e-4);
+  EXPECT_NEAR(player.proxy.contact().velocity_m_s.z(), lifted_m_s, 0.05 * lifted_m_s);
+}
+
+// The surface of a model that leads on is beyond the step's end by that share of its way, and stays there.
+TEST(MovingSurface, LeadsOnByAShareOfTheStep) {
+  const geometry::TriangleMesh plane = geometry::make_plane(0.04, 4);
+  std::vector<Vec3> later_m = plane.positions_m;
+  for (Vec3& p : later_m) p.z() += 1e-3;
+  messages::LocalModel model;
+  write_patch(plane, plane.positions_m, later_m, Vec3::Zero(), model);
+  model.published_at_ns = 1'000'000;
+  model.dt_ns = 10'000'000;
+  MovingSurface surface;
+  double before_m = 0.0;
+  for (std::uint64_t tick = 1; tick <= 15; ++tick) {
+    surface.begin_tick(model, tick * 1'000'000, tick == 1, 0.25);
+    const double z_m = surface.corner_m(0, 0, 1.0).z();
+    EXPECT_LE(z_m, 1.25e-3 + 1e-12);
+    EXPECT_GE(z_m, before_m);
+    before_m = z_m;
+  }
+  EXPECT_NEAR(before_m, 1.25e-3, 1e-12);
+}
+
 }  // namespace
 }  // namespace myotact::haptics
