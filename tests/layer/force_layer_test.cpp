@@ -110,7 +110,8 @@ std::string name_of(const ::testing::TestParamInfo<ForceMethod>& which) {
 INSTANTIATE_TEST_SUITE_P(Methods, ByMethod,
                          ::testing::Values(ForceMethod::Proxy, ForceMethod::Penetration, ForceMethod::Plane), name_of);
 
-/// The proxy leads the step that is played by a quarter: its floor comes 3/4 of a step late and evenly, although steps are 16 or 17 ticks apart.
+/// The proxy leads the step that is played by a quarter: its floor comes 3/4 of a step late and evenly, although steps
+/// are 16 or 17 ticks apart.
 TEST(ForceLayer, AFloorThatRisesIsPlayedEvenlyThreeQuartersOfAStepLate) {
   constexpr double kSpeed_m_s = 5e-3;
   const Vec3 hand_m(0, 0, kRadius_m + 1e-3);
