@@ -11,7 +11,7 @@ namespace {
 /// A moving hand is ahead of the tissue that is played, and feels that way against the tissue's inertia. A quarter of a
 /// step more takes a third of it. Half a step takes two, but makes a hand held between two surfaces swing by 31 instead
 /// of 14 mN (elbow, 42 places), and a whole one swings on thin sheets.
-constexpr double kAhead = 0.25;
+constexpr double kLeadShare = 0.25;
 
 }  // namespace
 
@@ -28,7 +28,7 @@ Vec3 coupling_force_N(const Proxy& proxy, const ProxyGoal& device, const Contact
 ProxyTouch::ProxyTouch(const ContactSettings& settings) : settings_(settings), proxy_(settings) {}
 
 TouchTick ProxyTouch::tick(const HandTick& hand, double share) noexcept {
-  if (hand.model != nullptr) surface_.begin_tick(*hand.model, hand.now_ns, hand.is_new, kAhead);
+  if (hand.model != nullptr) surface_.begin_tick(*hand.model, hand.now_ns, hand.is_new, kLeadShare);
   TouchTick tick;
   tick.force_N = force_N(hand, share);
   tick.end_m = proxy_.position_m() - compliance_.shift_m();

@@ -20,7 +20,7 @@ Vec3 EnergyPort::admit(const PortTick& tick) noexcept {
   slow_environment_m_s_ += forget * (tick.environment_moved_m / tick.dt_s - slow_environment_m_s_);
   const double slow_W = slow_force_N_.dot(slow_environment_m_s_);
   const double kept = std::exp(-tick.dt_s / settings_.leak_s);
-  const double kept_swing = tick.opens ? std::exp(-tick.dt_s / kSlow_s) : kept;  // what swings touches again at once
+  const double kept_swing = tick.opens ? 1.0 - forget : kept;  // what swings touches again at once
   swing_J_ = kept_swing * (swing_J_ + sent_N_.dot(tick.environment_moved_m) - tick.dt_s * slow_W);
   const double gave_J = sent_N_.dot(tick.hand_moved_m);
   const double stepped_J = std::clamp(gave_J - tick.spring_gave_J, 0.0, tick.friction_J);

@@ -116,10 +116,9 @@ bool is_sound(const messages::LocalModel& model) noexcept {
 }
 
 void MovingSurface::begin_tick(const messages::LocalModel& model, std::uint64_t now_ns, bool is_new,
-                               double ahead) noexcept {
-  ahead_ = ahead;
+                               double lead_share) noexcept {
   if ((is_new || model_ == nullptr) && !has_list_of(model)) {
-    adopt_list(model);
+    adopt_list(model, lead_share);
   } else {
     from_m_.leftCols(vertex_count_) = to_m_.leftCols(vertex_count_);
   }
@@ -129,7 +128,7 @@ void MovingSurface::begin_tick(const messages::LocalModel& model, std::uint64_t 
   const Frame current_m = frame_m(model.current_world_m, vertex_count_);
   double largest_squared_m2 = 0.0;
   for (int i = 0; i < vertex_count_; ++i) {
-    const Vec3 led_m = ahead_ * (current_m.col(i) - previous_m.col(i));
+    const Vec3 led_m = lead_share * (current_m.col(i) - previous_m.col(i));
     lead_m_.col(i) = place_m(lead_m_.col(i), led_m, share);
     to_m_.col(i) = place_m(previous_m.col(i), current_m.col(i), s) + lead_m_.col(i);
     largest_squared_m2 = std::max(largest_squared_m2, (to_m_.col(i) - from_m_.col(i)).squaredNorm());
@@ -154,7 +153,7 @@ bool MovingSurface::has_list_of(const messages::LocalModel& model) const noexcep
          std::memcmp(model.triangles.data(), triangles_.data(), bytes) == 0;
 }
 
-void MovingSurface::adopt_list(const messages::LocalModel& model) noexcept {
+void MovingSurface::adopt_list(const messages::LocalModel& model, double lead_share) noexcept {
   std::array<std::int32_t, messages::kMaxLocalVertices> before;  // the same vertices in the old model
   before.fill(-1);
   // Both lists ascend: one walk along both meets every triangle that both hold.
@@ -175,7 +174,7 @@ void MovingSurface::adopt_list(const messages::LocalModel& model) noexcept {
       from_m_.col(i) = to_m_.col(before[at(i)]);
       lead_m_.col(i) = leads_m.col(before[at(i)]);
     } else {
-      lead_m_.col(i) = ahead_ * (current_m.col(i) - previous_m.col(i));
+      lead_m_.col(i) = lead_share * (current_m.col(i) - previous_m.col(i));
       from_m_.col(i) = place_m(previous_m.col(i), current_m.col(i), s) + lead_m_.col(i);
     }
   }

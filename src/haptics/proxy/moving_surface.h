@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/vector.h"
+#include "geometry/closest_point.h"
 #include "messages/local_model.h"
 
 namespace myotact::haptics {
@@ -26,8 +27,9 @@ bool is_sound(const messages::LocalModel& model) noexcept;
 class MovingSurface {
  public:
   /// Starts the tick that ends at `now_ns`. `model` must be sound and must stay in place until the next call.
-  /// `is_new`: it is not the model of the last call. `ahead`: the lead, as a share of the step's way, >= 0.
-  void begin_tick(const messages::LocalModel& model, std::uint64_t now_ns, bool is_new, double ahead = 0.0) noexcept;
+  /// `is_new`: it is not the model of the last call. `lead_share`: of the step's way, >= 0.
+  void begin_tick(const messages::LocalModel& model, std::uint64_t now_ns, bool is_new,
+                  double lead_share = 0.0) noexcept;
 
   int triangle_count() const noexcept { return model_ == nullptr ? 0 : model_->triangle_count; }
   const messages::LocalModel::Triangle& triangle(int local) const noexcept {
@@ -37,6 +39,11 @@ class MovingSurface {
   Vec3 corner_m(int local, int corner, double fraction) const noexcept {
     const std::int32_t vertex = triangle(local).vertices[static_cast<std::size_t>(corner)];
     return from_m_.col(vertex) + fraction * (to_m_.col(vertex) - from_m_.col(vertex));
+  }
+  /// The place of a triangle next to `p_m` at a fraction of the tick.
+  geometry::TrianglePoint closest_point(const Vec3& p_m, int local, double fraction) const noexcept {
+    return geometry::closest_point_on_triangle(p_m, corner_m(local, 0, fraction), corner_m(local, 1, fraction),
+                                               corner_m(local, 2, fraction));
   }
   Vec3 corner_motion_m(int local, int corner) const noexcept {
     const std::int32_t vertex = triangle(local).vertices[static_cast<std::size_t>(corner)];
@@ -63,7 +70,7 @@ class MovingSurface {
   using Vertices = Eigen::Matrix<double, 3, messages::kMaxLocalVertices>;
 
   bool has_list_of(const messages::LocalModel& model) const noexcept;
-  void adopt_list(const messages::LocalModel& model) noexcept;
+  void adopt_list(const messages::LocalModel& model, double lead_share) noexcept;
 
   const messages::LocalModel* model_ = nullptr;
   std::array<messages::LocalModel::Triangle, messages::kMaxLocalTriangles> triangles_{};
@@ -73,7 +80,6 @@ class MovingSurface {
   Vertices from_m_ = Vertices::Zero();
   Vertices to_m_ = Vertices::Zero();
   Vertices lead_m_ = Vertices::Zero();
-  double ahead_ = 0.0;  // of this tick
   double largest_motion_m_ = 0.0;
   std::uint64_t last_ns_ = 0;  // end of the last tick
   std::uint64_t list_count_ = 0;

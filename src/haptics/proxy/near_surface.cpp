@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/at.h"
-#include "geometry/closest_point.h"
 
 namespace myotact::haptics {
 
@@ -81,9 +80,7 @@ double NearSurface::linearise(const Vec3& p_m, double fraction) noexcept {
   clearance_m_ = far_m;
   for (int i = 0; i < candidate_count_; ++i) {
     const int local = candidates_[at(i)];
-    const geometry::TrianglePoint nearest =
-        geometry::closest_point_on_triangle(p_m, surface.corner_m(local, 0, fraction),
-                                            surface.corner_m(local, 1, fraction), surface.corner_m(local, 2, fraction));
+    const geometry::TrianglePoint nearest = surface.closest_point(p_m, local, fraction);
     const Vec3 away_m = p_m - nearest.position_m;
     const double distance_m = away_m.norm();
     if (!(distance_m <= far_m + stand_off_m(local)))
@@ -151,8 +148,7 @@ int NearSurface::nearest_beside(const Vec3& p_m, std::int32_t surface, double re
   for (int i = 0; i < surface_->triangle_count(); ++i) {
     const double far_m = sphere(i).radius_m + reach_m + moved_m_;
     if (surface_->triangle(i).surface == surface || (sphere(i).centre_m - p_m).squaredNorm() > far_m * far_m) continue;
-    const geometry::TrianglePoint nearest = geometry::closest_point_on_triangle(
-        p_m, surface_->corner_m(i, 0, 1.0), surface_->corner_m(i, 1, 1.0), surface_->corner_m(i, 2, 1.0));
+    const geometry::TrianglePoint nearest = surface_->closest_point(p_m, i, 1.0);
     const NearestPoint point{i, (p_m - nearest.position_m).norm(), nearest.position_m, nearest.barycentric};
     if (!(point.distance_m > 0.0 && point.distance_m <= reach_m)) continue;
     const auto known = found.first(count);

@@ -1,12 +1,8 @@
 #include "haptics/proxy/proxy.h"
 
 #include <algorithm>
-#include <cmath>
-
-#include <Eigen/Geometry>
 
 #include "core/at.h"
-#include "geometry/closest_point.h"
 #include "haptics/proxy/surface_walk.h"
 
 namespace myotact::haptics {

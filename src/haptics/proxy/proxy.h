@@ -134,7 +134,7 @@ class Proxy {
   Vec3 anchored_m(const MovingSurface& surface, double fraction) const noexcept;
   void settle_contact(const Projection& held, const Tick& tick) noexcept;
   void settle_friction(const Tick& tick) noexcept;
-  Vec3 seat_motion_m(const Projection& held, const MovingSurface& surface, int strongest) const noexcept;
+  Vec3 seat_motion_m(const Projection& held, const MovingSurface& surface, const Vec3& strongest_m) const noexcept;
   void settle_beside(const MovingSurface& surface) noexcept;
   void set_anchor(const MovingSurface& surface, int local) noexcept;
 

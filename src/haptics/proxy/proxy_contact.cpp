@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 
 #include "core/at.h"
-#include "geometry/closest_point.h"
 #include "haptics/proxy/proxy.h"
 
 namespace myotact::haptics {
@@ -35,38 +34,35 @@ void Proxy::settle_contact(const Projection& held, const Tick& tick) noexcept {
   const bool keeps = !tick.slipped && anchor_.local >= 0 &&
                      (p_m_ - anchored_m(surface, 1.0)).norm() < kAnchorSlack * settings_.radius_m;
   if (!keeps) set_anchor(surface, local);
-  const geometry::TrianglePoint touched = geometry::closest_point_on_triangle(
-      p_m_, surface.corner_m(local, 0, 1.0), surface.corner_m(local, 1, 1.0), surface.corner_m(local, 2, 1.0));
+  const geometry::TrianglePoint touched = surface.closest_point(p_m_, local, 1.0);
   contact_.active = true;
   contact_.surface = surface.triangle(local).surface;
   contact_.triangle = surface.triangle(local).triangle;
   contact_.barycentric = touched.barycentric;
   contact_.point_m = touched.position_m;
   contact_.normal = (held.point_m - tick.goal.position_m).normalized();
-  contact_.velocity_m_s = seat_motion_m(held, surface, local) / tick.dt_s;
+  contact_.velocity_m_s = seat_motion_m(held, surface, surface.motion_m(local, touched.barycentric)) / tick.dt_s;
   contact_.sliding = tick.slipped;
   settle_friction(tick);
   contact_.bearing = held.active_count;
   settle_beside(surface);
 }
 
-/// What the tissue carries the sphere by in the tick: as the strongest contact's does along the surface, and along the
-/// normal as all that hold it do together, each by its share of the force.
-Vec3 Proxy::seat_motion_m(const Projection& held, const MovingSurface& surface, int strongest) const noexcept {
+/// What the tissue carries the sphere by in the tick: along the surface as the strongest contact's does, which moved by
+/// `strongest_m`, and along the normal as all that hold it do together, each by its share of the force.
+Vec3 Proxy::seat_motion_m(const Projection& held, const MovingSurface& surface,
+                          const Vec3& strongest_m) const noexcept {
+  if (held.active_count == 1) return strongest_m;
   double lifted_m2 = 0.0, reactions_m = 0.0;
-  Vec3 strongest_m = Vec3::Zero();
   for (int i = 0; i < held.active_count; ++i) {
-    const int place = held.active[at(i)];
-    const int local = near_.near(touching_[at(place)]).local;
-    const geometry::TrianglePoint point = geometry::closest_point_on_triangle(
-        p_m_, surface.corner_m(local, 0, 1.0), surface.corner_m(local, 1, 1.0), surface.corner_m(local, 2, 1.0));
-    const Vec3 moved_m = surface.motion_m(local, point.barycentric);
-    lifted_m2 += held.reaction_m[at(i)] * touching_spaces_[at(place)].normal.dot(moved_m);
-    reactions_m += held.reaction_m[at(i)] * touching_spaces_[at(place)].normal.dot(contact_.normal);
-    if (local == strongest) strongest_m = moved_m;
+    const int place = held.active[at(i)], local = near_.near(touching_[at(place)]).local;
+    const Vec3& normal = touching_spaces_[at(place)].normal;
+    const Vec3 moved_m = surface.motion_m(local, surface.closest_point(p_m_, local, 1.0).barycentric);
+    lifted_m2 += held.reaction_m[at(i)] * normal.dot(moved_m);
+    reactions_m += held.reaction_m[at(i)] * normal.dot(contact_.normal);
   }
-  const double lifted_m = reactions_m > 0.0 ? lifted_m2 / reactions_m : contact_.normal.dot(strongest_m);
-  return strongest_m + (lifted_m - contact_.normal.dot(strongest_m)) * contact_.normal;
+  if (!(reactions_m > 0.0)) return strongest_m;
+  return strongest_m + (lifted_m2 / reactions_m - contact_.normal.dot(strongest_m)) * contact_.normal;
 }
 
 void Proxy::settle_beside(const MovingSurface& surface) noexcept {
@@ -88,8 +84,7 @@ void Proxy::settle_beside(const MovingSurface& surface) noexcept {
 }
 
 void Proxy::set_anchor(const MovingSurface& surface, int local) noexcept {
-  const geometry::TrianglePoint touched = geometry::closest_point_on_triangle(
-      p_m_, surface.corner_m(local, 0, 1.0), surface.corner_m(local, 1, 1.0), surface.corner_m(local, 2, 1.0));
+  const geometry::TrianglePoint touched = surface.closest_point(p_m_, local, 1.0);
   anchor_.held = true;
   anchor_.surface = surface.triangle(local).surface;
   anchor_.triangle = surface.triangle(local).triangle;

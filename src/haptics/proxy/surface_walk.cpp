@@ -6,8 +6,6 @@
 
 #include <Eigen/Geometry>
 
-#include "geometry/closest_point.h"
-
 namespace myotact::haptics {
 
 namespace {
@@ -16,8 +14,7 @@ namespace {
 constexpr int kMostSteps = 32;
 
 NearestPoint nearest_on(const MovingSurface& surface, int local, const Vec3& p_m) {
-  const geometry::TrianglePoint found = geometry::closest_point_on_triangle(
-      p_m, surface.corner_m(local, 0, 0.0), surface.corner_m(local, 1, 0.0), surface.corner_m(local, 2, 0.0));
+  const geometry::TrianglePoint found = surface.closest_point(p_m, local, 0.0);
   return {local, (p_m - found.position_m).norm(), found.position_m, found.barycentric};
 }
 

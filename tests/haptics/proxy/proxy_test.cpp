@@ -188,8 +188,8 @@ TEST(Proxy, RestsInAGrooveOnBothSides) {
   EXPECT_NEAR(player.proxy.position_m().x(), 0.0, 1e-6);
 }
 
-// Walls that close under a sphere of radius r lift it by the slope of their half angle a: each wall, turning at w about
-// the bottom, moves by w r cos(a) / sin(a) against the sphere, which yields by that over sin(a).
+// Walls that close under a sphere lift it faster than either of them moves along its normal: the contact's speed is the
+// sphere's, not a wall's.
 TEST(Proxy, AGrooveThatClosesCarriesTheSphereUp) {
   const double half_angle_rad = 40.0 * std::numbers::pi / 180.0, rate_1_s = 0.5;
   const geometry::TriangleMesh groove = geometry::make_groove(2.0 * half_angle_rad, 0.08, 16);
