@@ -61,10 +61,11 @@ struct Options {
   double rate_hz = 1000.0;
   std::optional<std::string> test_device;       // devices: the one to be checked with a person's help
   std::optional<std::string> calibrate_device;  // devices: the one to be calibrated with a person's help
-  std::string bind = "127.0.0.1";               // serve, as the seven below
+  std::string bind = "127.0.0.1";               // serve, as the eight below
   std::uint16_t port = 7480;
   std::uint16_t websocket_port = 7481;
   bool no_websocket = false;
+  bool web = false;                  // a page for browsers, too
   std::vector<std::string> origins;  // of web pages elsewhere that may connect
   std::optional<std::size_t> hands;  // without: those of the scene
   bool lockstep = false;

@@ -9,7 +9,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
+#include "app/class_link.h"
+#include "app/class_page.h"
 #include "app/equipment.h"
 #include "app/interruption.h"
 #include "app/network_options.h"
@@ -41,6 +44,16 @@ void print_access(const Options& options, std::uint16_t port, const net::AccessP
   std::cout.flush();
 }
 
+/// How a class joins, and a picture of that for telephones where somebody looks at a terminal.
+void print_class(const Options& options, std::uint16_t port, const net::AccessPolicy& access_policy) {
+  const net::Endpoint page = {reachable_address(options.bind), port};
+  const std::string link = class_link(page, access_policy.token, "student");
+  std::cout << "page " << link << '\n'
+            << "instructor_page " << class_link(page, access_policy.instructor_token, "instructor") << '\n';
+  if (isatty(STDOUT_FILENO) != 0) std::cout << '\n' << qr_for_terminal(link);
+  std::cout.flush();
+}
+
 nlohmann::json counters_json(const net::ServerCounters& counters) {
   nlohmann::json faults = nlohmann::json::object();
   for (std::size_t i = 1; i < net::kWireFaults; ++i) {
@@ -64,6 +77,7 @@ int serve_lockstep(const Options& options, const scene::Scene& scene, const net:
 
 int serve_free(const Options& options, const scene::Scene& scene, const net::AccessPolicy& access_policy) {
   const auto recorder = open_recorder(options, scene, std::vector<device::DeviceProfile>(scene.tools.size()));
+  const net::WebFiles page = options.web ? class_page(scene) : net::WebFiles{};
   simulation::Simulation simulation(scene.specimen, scene.settings);
   remote::ServeSettings settings;
   settings.endpoint = {options.bind, options.port};
@@ -72,11 +86,12 @@ int serve_free(const Options& options, const scene::Scene& scene, const net::Acc
   remote::ServedScene served(scene, simulation, settings, recorder.get());
   std::optional<net::WebSocketListener> websocket;
   if (!options.no_websocket) {
-    websocket.emplace(net::Endpoint{options.bind, options.websocket_port}, served.server(), options.origins);
+    websocket.emplace(net::Endpoint{options.bind, options.websocket_port}, served.server(), options.origins, page);
     std::cout << "websocket " << options.bind << ':' << websocket->port() << '\n';
   }
   served.start();
   print_access(options, served.server().port(), access_policy);
+  if (options.web) print_class(options, websocket->port(), access_policy);
   while (interruption() == 0 && served.running() && served.time_s() < options.seconds.value_or(1e12)) {
     served.obey();
     std::this_thread::sleep_for(std::chrono::milliseconds(10));

@@ -15,6 +15,16 @@ namespace myotact::net {
 
 namespace {
 
+/// The same hand, which touches and holds nothing.
+messages::ToolState without_touch(const messages::ToolState& state) {
+  messages::ToolState free;
+  free.sequence = state.sequence;
+  free.time_ns = state.time_ns;
+  free.model_sequence = state.model_sequence;
+  free.tool_position_world_m = free.proxy_position_world_m = state.tool_position_world_m;
+  return free;
+}
+
 /// As hard to guess as a token: who knows it takes over the hand.
 std::uint64_t new_resume_id() {
   const Token random = new_token();
@@ -70,6 +80,7 @@ void Connection::leave() {
   if (!admitted_) return;
   --server_.admitted;
   if (wants_.frames) --server_.watchers;
+  if (wants_.pictures) --server_.picture_watchers;
   spdlog::info("Client {} left.", id_.load());
 }
 
@@ -119,8 +130,10 @@ bool Connection::welcome(const Hello& hello) {
     return false;
   }
   role_ = hello.role;
+  name_ = hello.name;
   wants_ = hello.wants;
   if (wants_.frames) ++server_.watchers;
+  if (wants_.pictures) ++server_.picture_watchers;
   stops_ = server_.stops;  // before the Welcome: no stop after it is missed
   id_ = server_.next_client++;
   admitted_ = true;
@@ -135,7 +148,7 @@ bool Connection::welcome(const Hello& hello) {
   answer.server_time_ns = realtime::steady_now_ns();
   const std::string& scene = server_.settings.scene_json;
   spdlog::info("Client connected! {} as {}{}", peer_, describe(role_),
-               hand_ >= 0 ? fmt::format(", hand {}", hand_) : std::string());
+               hand_ >= 0 ? fmt::format(", hand {}", hand_.load()) : std::string());
   bool sent = write(encode(answer)) &&
               write(FrameType::Control, 0, {reinterpret_cast<const std::uint8_t*>(scene.data()), scene.size()});
   for (const Bytes& mesh : server_.settings.meshes) sent = sent && (!wants_.meshes || write(FrameType::Mesh, 0, mesh));
@@ -188,6 +201,12 @@ bool Connection::obey(const Frame& frame) {
       return take_event(frame);
     case FrameType::Control:
       return take_control(frame);
+    case FrameType::PictureSeen: {
+      PictureSeen seen;
+      if (!decode(frame.payload, seen)) break;
+      seen_ = seen.sequence;
+      return true;
+    }
     case FrameType::Bye:
       return false;
     default:
@@ -211,8 +230,9 @@ bool Connection::take_tool_frame(const Frame& frame) {
     return false;
   }
   const messages::ToolState& state = joiner_.state();
+  const bool rests = server_.rests && role_ != Role::Instructor;
   HandChannels& channels = server_.hands.channels(hand_);
-  channels.states.publish(state);
+  channels.states.publish(rests ? without_touch(state) : state);
   channels.forces.update();
   messages::HandForce force = channels.forces.front();
   if (force.step < first_step_) force.force_world_N = {};
@@ -240,9 +260,6 @@ bool Connection::take_control(const Frame& frame) {
   const std::string text(frame.payload.begin(), frame.payload.end());
   const auto wait = controls_.take(std::chrono::steady_clock::now());
   if (wait.count() > 0) std::this_thread::sleep_for(wait);
-  if (role_ != Role::Instructor) {
-    return write(encode(Event{EventCode::Refused, 0, "only an instructor may change the scene"}));
-  }
   if (!server_.ask({id_, role_, text}))
     return write(encode(Event{EventCode::Refused, 0, "too much is asked for at once"}));
   return true;

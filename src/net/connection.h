@@ -7,6 +7,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "net/frame_reader.h"
 #include "net/server_state.h"
@@ -34,6 +35,7 @@ class Connection {
   bool finished() const { return finished_; }
   bool is_waiting() const { return !admitted_; }  // for its Hello
   std::uint32_t id() const { return id_; }
+  ClientFacts facts() const { return {id_, role_, hand_, name_}; }  // once it no longer waits
   /// Sends the client, soon, why something that it asked for is not done.
   void refuse_wish(const std::string& why);
   /// The last word of a server that has no more time for it.
@@ -58,8 +60,10 @@ class Connection {
   void send_all();
   bool send_news();
   bool send_events();
+  bool send_announcement();
   bool send_model();
   bool send_scene();
+  bool send_picture();
 
   bool write(FrameType type, std::uint8_t flags, std::span<const std::uint8_t> payload, bool may_drop = false);
   bool write(const SmallFrame& frame, bool may_drop = false);
@@ -72,15 +76,20 @@ class Connection {
   ToolStateJoiner joiner_;
   TokenBucket frames_, controls_;
   std::atomic<std::uint32_t> id_{0};
-  Role role_ = Role::Viewer;
+  Role role_ = Role::Viewer;  // as name and wants of the Hello
+  std::string name_;
   Wants wants_;
-  int hand_ = -1;
+  std::atomic<int> hand_{-1};
   std::uint64_t first_step_ = 0;  // whose force is of this client's hand
   std::uint32_t stops_ = 0;       // sent so far
   std::mutex refusing_;
   std::deque<std::string> refusals_;  // of wishes, to be sent
   Bytes model_bytes_;
-  std::shared_ptr<const EncodedScene> shown_;  // sent last
+  std::shared_ptr<const EncodedScene> shown_;                 // sent last
+  std::shared_ptr<const ScenePicture> pictured_;              // sent last
+  std::deque<std::pair<std::uint64_t, std::size_t>> unseen_;  // pictures on their way, with their bytes
+  std::atomic<std::uint64_t> seen_{0};                        // the newest picture that the client has drawn
+  std::shared_ptr<const Announcement> heard_;                 // sent last
   std::mutex writing_;
   std::uint32_t sequence_ = 0;         // of the next frame, under writing_
   std::atomic<bool> is_stuck_{false};  // it did not take a frame: nothing after it would make sense to it

@@ -34,7 +34,7 @@ void Connection::send_all() {
 }
 
 bool Connection::send_news() {
-  return send_events() && send_model() && send_scene();
+  return send_events() && send_announcement() && send_model() && send_scene() && send_picture();
 }
 
 bool Connection::send_events() {
@@ -53,8 +53,17 @@ bool Connection::send_events() {
   return true;
 }
 
+bool Connection::send_announcement() {
+  if (!wants_.announcements) return true;
+  const std::shared_ptr<const Announcement> said = server_.announcement();
+  if (!said || said == heard_) return true;
+  heard_ = said;
+  const std::string& text = role_ == Role::Instructor ? said->to_instructors : said->to_all;
+  return write(FrameType::Control, 0, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
 bool Connection::send_model() {
-  if (hand_ < 0) return true;
+  if (hand_ < 0 || wants_.pictures) return true;
   HandChannels& channels = server_.hands.channels(hand_);
   if (!channels.models.update()) return true;
   encode(channels.models.front(), model_bytes_);
@@ -72,6 +81,23 @@ bool Connection::send_scene() {
     if (!send_events() || !send_model() || !write(frame->type, flags, frame->payload)) return false;
   }
   shown_ = scene;
+  return true;
+}
+
+/// No more is under way than a slow line carries in a second: what waits in buffers is old when it arrives.
+bool Connection::send_picture() {
+  constexpr std::size_t kMostUnseen = 24 * 1024;  // bytes; at 4 kB a picture and 30 a second, a round trip of 200 ms
+  if (!wants_.pictures) return true;
+  const std::shared_ptr<const ScenePicture> picture = server_.picture();
+  if (!picture || picture == pictured_) return true;
+  while (!unseen_.empty() && unseen_.front().first <= seen_) unseen_.pop_front();
+  std::size_t unseen_bytes = 0;
+  for (const auto& [sequence, bytes] : unseen_) unseen_bytes += bytes;
+  if (unseen_bytes >= kMostUnseen) return true;
+  const Bytes payload = picture_payload(*picture, pictured_.get());
+  if (!write(FrameType::Picture, 0, payload)) return false;
+  unseen_.emplace_back(picture->sequence, payload.size());
+  pictured_ = picture;
   return true;
 }
 

@@ -6,6 +6,7 @@
 #include "net/control_state_codec.h"
 #include "net/readings_codec.h"
 #include "net/scene_encoder.h"
+#include "net/varint.h"
 
 namespace myotact::net {
 
@@ -28,20 +29,6 @@ bool get_head(ByteReader& in, std::size_t least, SkinHead& head) {
   in.get(head.skins);
   in.get(head.vertices);
   return in.ok() && head.skin < head.skins && head.skins <= kMostSkins && head.vertices <= in.left() / least;
-}
-
-bool get_varint(ByteReader& in, std::int64_t& value) {
-  constexpr int kMostBits = 35;  // of a difference between two numbers of 32 bits
-  std::uint64_t zigzag = 0;
-  for (int shift = 0; shift < kMostBits; shift += 7) {
-    std::uint8_t byte = 0;
-    in.get(byte);
-    zigzag |= std::uint64_t{byte & 0x7Fu} << shift;
-    if ((byte & 0x80) != 0) continue;
-    value = static_cast<std::int64_t>(zigzag >> 1) ^ -static_cast<std::int64_t>(zigzag & 1);
-    return in.ok();
-  }
-  return false;
 }
 
 }  // namespace

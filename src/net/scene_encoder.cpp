@@ -6,6 +6,7 @@
 #include "net/byte_cursor.h"
 #include "net/control_state_codec.h"
 #include "net/readings_codec.h"
+#include "net/varint.h"
 
 namespace myotact::net {
 
@@ -50,16 +51,6 @@ std::shared_ptr<const SceneKey> make_key(std::uint32_t number, std::vector<GridS
     key->frames.push_back(std::move(frame));
   }
   return key;
-}
-
-/// 7 bits a byte, the lowest first; the sign in the lowest bit, so that small numbers are short.
-void put_varint(Bytes& out, std::int64_t value) {
-  auto zigzag = static_cast<std::uint64_t>(value) << 1 ^ static_cast<std::uint64_t>(value >> 63);
-  while (zigzag >= 0x80) {
-    out.push_back(static_cast<std::uint8_t>(zigzag | 0x80));
-    zigzag >>= 7;
-  }
-  out.push_back(static_cast<std::uint8_t>(zigzag));
 }
 
 std::vector<EncodedFrame> deltas_of(const std::vector<GridSkin>& skins, const SceneKey& key) {

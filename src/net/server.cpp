@@ -75,13 +75,27 @@ void Server::refuse(std::uint32_t client, const std::string& why) {
   }
 }
 
+std::vector<ClientFacts> Server::clients() {
+  std::vector<ClientFacts> clients;
+  const std::lock_guard lock(mutex_);
+  for (const auto& connection : connections_) {
+    if (!connection->is_waiting() && !connection->finished()) clients.push_back(connection->facts());
+  }
+  return clients;
+}
+
+void Server::announce(Announcement announcement) {
+  state_.announce(std::make_shared<const Announcement>(std::move(announcement)));
+}
+
 void Server::stop_forces() {
   ++state_.stops;
   state_.bell.ring();
 }
 
 void Server::show(const messages::SceneFrame& frame) {
-  state_.show(encoder_.encode(frame));
+  if (state_.watchers > 0) state_.show(encoder_.encode(frame));
+  if (state_.picture_watchers > 0) state_.show(picture_encoder_.encode(frame));
 }
 
 }  // namespace myotact::net

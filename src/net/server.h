@@ -37,11 +37,16 @@ class Server {
   std::uint32_t stops() const { return state_.stops; }  // emergency stops that clients asked for so far
   void stop_forces();                                   // of all hands, asked for by this machine's person
   std::size_t client_count() const { return state_.admitted; }
+  std::vector<ClientFacts> clients();
+  /// Takes the place of what was said before; who joins later hears it too.
+  void announce(Announcement announcement);
+  /// While it is on, all hands but instructors' touch and hold nothing.
+  void let_hands_rest(bool on) { state_.rests = on; }
   bool is_new_complaint(const std::string& text) { return state_.is_new_complaint(text); }
   ServerCounters counters() const { return state_.counters(); }
 
   /// Whether anybody wants to see scene frames.
-  bool is_watched() const { return state_.watchers > 0; }
+  bool is_watched() const { return state_.watchers > 0 || state_.picture_watchers > 0; }
   /// One thread: shows a newer frame to all who want to see.
   void show(const messages::SceneFrame& frame);
 
@@ -52,6 +57,7 @@ class Server {
   Socket listener_;
   ServerState state_;
   SceneEncoder encoder_;
+  PictureEncoder picture_encoder_;
   std::mutex mutex_;
   std::vector<std::unique_ptr<Connection>> connections_;
   std::atomic<bool> closing_{false};

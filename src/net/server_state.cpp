@@ -24,6 +24,32 @@ std::shared_ptr<const EncodedScene> ServerState::scene() const {
   return scene_;
 }
 
+void ServerState::show(std::shared_ptr<const ScenePicture> picture) {
+  {
+    const std::lock_guard lock(mutex_);
+    picture_ = std::move(picture);
+  }
+  bell.ring();
+}
+
+std::shared_ptr<const ScenePicture> ServerState::picture() const {
+  const std::lock_guard lock(mutex_);
+  return picture_;
+}
+
+void ServerState::announce(std::shared_ptr<const Announcement> announcement) {
+  {
+    const std::lock_guard lock(mutex_);
+    announcement_ = std::move(announcement);
+  }
+  bell.ring();
+}
+
+std::shared_ptr<const Announcement> ServerState::announcement() const {
+  const std::lock_guard lock(mutex_);
+  return announcement_;
+}
+
 bool ServerState::ask(ControlRequest request) {
   const std::lock_guard lock(mutex_);
   if (requests_.size() >= kMostRequests) {

@@ -15,6 +15,7 @@
 #include "net/admission.h"
 #include "net/doorbell.h"
 #include "net/hand_table.h"
+#include "net/picture_encoder.h"
 #include "net/scene_encoder.h"
 #include "net/small_frames.h"
 
@@ -41,6 +42,22 @@ struct ControlRequest {
   std::string text;  // UTF-8
 };
 
+/// One who has joined.
+struct ClientFacts {
+  std::uint32_t id = 0;
+  Role role = Role::Viewer;
+  int hand = -1;  // of the scene's tools, -1: none
+  std::string name;
+
+  bool operator==(const ClientFacts&) const = default;
+};
+
+/// What is said to all clients that want announcements, as Control frames: JSON of at most kMostControl bytes.
+struct Announcement {
+  std::string to_all;          // but instructors
+  std::string to_instructors;  // who are told more
+};
+
 struct ServerCounters {
   std::uint64_t accepted = 0, refused = 0, failed = 0, closed_slow = 0, closed_silent = 0, dropped_controls = 0;
   std::array<std::uint64_t, kWireFaults> faults{};  // bad frames by kind
@@ -57,10 +74,16 @@ class ServerState {
   std::atomic<std::uint32_t> stops{0};
   std::atomic<std::uint32_t> next_client{1};
   std::atomic<int> watchers{0};          // clients that want scene frames
+  std::atomic<int> picture_watchers{0};  // clients that want pictures
   std::atomic<std::size_t> admitted{0};  // clients after their Hello
+  std::atomic<bool> rests{false};        // all hands but instructors' touch and hold nothing
 
   void show(std::shared_ptr<const EncodedScene> scene);
   std::shared_ptr<const EncodedScene> scene() const;
+  void show(std::shared_ptr<const ScenePicture> picture);
+  std::shared_ptr<const ScenePicture> picture() const;
+  void announce(std::shared_ptr<const Announcement> announcement);
+  std::shared_ptr<const Announcement> announcement() const;
 
   /// False: too many wait to be obeyed.
   bool ask(ControlRequest request);
@@ -75,6 +98,8 @@ class ServerState {
  private:
   mutable std::mutex mutex_;
   std::shared_ptr<const EncodedScene> scene_;
+  std::shared_ptr<const ScenePicture> picture_;
+  std::shared_ptr<const Announcement> announcement_;
   std::deque<ControlRequest> requests_;
   ServerCounters counters_;
   std::set<std::string> complaints_;

@@ -67,7 +67,8 @@ const char* describe(Role role) noexcept {
 SmallFrame encode(const Hello& hello) {
   const auto wants = static_cast<std::uint8_t>((hello.wants.hand ? 1 : 0) | (hello.wants.frames ? 2 : 0) |
                                                (hello.wants.readings ? 4 : 0) | (hello.wants.meshes ? 8 : 0) |
-                                               (hello.wants.in_force ? 16 : 0));
+                                               (hello.wants.in_force ? 16 : 0) | (hello.wants.pictures ? 32 : 0) |
+                                               (hello.wants.announcements ? 64 : 0));
   return Payload(FrameType::Hello)
       .put(hello.version, static_cast<std::uint8_t>(hello.role), wants, static_cast<std::uint8_t>(hello.hand),
            hello.resume_id, hello.token)
@@ -84,8 +85,9 @@ bool decode(std::span<const std::uint8_t> payload, Hello& hello) {
   const bool has_hand = get_enum(in, HandWish::Any, HandWish::Right, hello.hand);
   in.get(hello.resume_id);
   in.get(hello.token);
-  hello.wants = {(wants & 1) != 0, (wants & 2) != 0, (wants & 4) != 0, (wants & 8) != 0, (wants & 16) != 0};
-  return has_role && has_hand && wants < 32 && get_text(in, kMostName, hello.name);
+  hello.wants = {(wants & 1) != 0,  (wants & 2) != 0,  (wants & 4) != 0, (wants & 8) != 0,
+                 (wants & 16) != 0, (wants & 32) != 0, (wants & 64) != 0};
+  return has_role && has_hand && wants < 128 && get_text(in, kMostName, hello.name);
 }
 
 SmallFrame encode(const Welcome& welcome) noexcept {
@@ -134,6 +136,16 @@ bool decode(std::span<const std::uint8_t> payload, Event& event) {
   const bool has_code = get_enum(in, EventCode::Stop, EventCode::Refused, event.code);
   in.get(event.value);
   return has_code && get_text(in, kMostText, event.text);
+}
+
+SmallFrame encode(const PictureSeen& seen) noexcept {
+  return Payload(FrameType::PictureSeen).put(seen.sequence).frame();
+}
+
+bool decode(std::span<const std::uint8_t> payload, PictureSeen& seen) noexcept {
+  ByteReader in(payload);
+  in.get(seen.sequence);
+  return in.done();
 }
 
 SmallFrame encode(const Ping& ping) noexcept {

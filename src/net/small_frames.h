@@ -19,11 +19,13 @@ enum class HandWish : std::uint8_t { Any, Left, Right };
 
 /// What a client wants to be sent, besides what it asks for.
 struct Wants {
-  bool hand = false;      // one of the scene's, with its local models
-  bool frames = false;    // skins and bones
-  bool readings = false;  // all other numbers of the scene
-  bool meshes = false;    // once: triangles of skins and bones, for clients that have no files of them
-  bool in_force = false;  // the commands in force of the muscles, and who gave them
+  bool hand = false;           // one of the scene's, with its local models
+  bool frames = false;         // skins and bones
+  bool readings = false;       // all other numbers of the scene
+  bool meshes = false;         // once: triangles of skins and bones, for clients that have no files of them
+  bool in_force = false;       // the commands in force of the muscles, and who gave them
+  bool pictures = false;       // all of these packed for a screen on a slow line, and a hand without local models
+  bool announcements = false;  // what is said to a class
 };
 
 struct Hello {
@@ -51,6 +53,11 @@ struct ForceAnswer {
   std::uint64_t tool_sequence = 0;  // of that state
   std::uint64_t step = 0;           // of the simulation
   std::array<double, 3> force_world_N{};
+};
+
+/// What a viewer has drawn: of what is on its way to it, pictures are no longer.
+struct PictureSeen {
+  std::uint64_t sequence = 0;  // of the picture
 };
 
 enum class EventCode : std::uint8_t { Stop = 1, Refused = 2 };
@@ -90,6 +97,7 @@ SmallFrame encode(const ForceAnswer& force) noexcept;
 SmallFrame encode(const Event& event);
 SmallFrame encode(const Ping& ping) noexcept;
 SmallFrame encode(const Pong& pong) noexcept;
+SmallFrame encode(const PictureSeen& seen) noexcept;
 SmallFrame encode(const Bye& bye);
 
 // False: the payload is of another length, or holds a value out of its range or text that is not UTF-8.
@@ -99,6 +107,7 @@ bool decode(std::span<const std::uint8_t> payload, ForceAnswer& force) noexcept;
 bool decode(std::span<const std::uint8_t> payload, Event& event);
 bool decode(std::span<const std::uint8_t> payload, Ping& ping) noexcept;
 bool decode(std::span<const std::uint8_t> payload, Pong& pong) noexcept;
+bool decode(std::span<const std::uint8_t> payload, PictureSeen& seen) noexcept;
 bool decode(std::span<const std::uint8_t> payload, Bye& bye);
 
 }  // namespace myotact::net

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <exception>
 #include <memory>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -44,6 +45,8 @@ constexpr std::size_t kMostRequest = 8192;                         // of the HTT
 constexpr std::size_t kMostGuests = 128;                           // under way at once
 constexpr std::size_t kMostOrigin = 128;                           // of it in a log
 constexpr std::chrono::seconds kRequestWait(3);
+constexpr std::chrono::seconds kFileWait(60);  // for all of one file on the slowest line
+constexpr const char* kPlain = "text/plain; charset=utf-8";
 constexpr std::chrono::milliseconds kNoRoom(50);  // until another connection may have left
 
 /// "example.org" of "https://example.org:8080".
@@ -66,40 +69,100 @@ bool is_own_name(const std::string& host) {
   return !none;
 }
 
-/// One WebSocket and the server's end of its stream; lives as long as an operation of it is under way.
+/// What all guests are let in by.
+struct House {
+  Server& server;
+  std::vector<std::string> origins;
+  WebFiles files;
+  std::atomic<std::size_t> guests{0};
+};
+
+/// One connection: requests for files, until one of them becomes a WebSocket with the server's end of its stream. Lives
+/// as long as an operation of it is under way.
 class Guest : public std::enable_shared_from_this<Guest> {
  public:
-  Guest(Tcp::socket socket, Server& server, const std::vector<std::string>& origins, std::atomic<std::size_t>& guests)
-      : socket_(std::move(socket)),
-        inner_(socket_.get_executor()),
-        server_(server),
-        origins_(origins),
-        guests_(guests) {
-    ++guests_;
+  Guest(Tcp::socket socket, House& house)
+      : socket_(std::move(socket)), inner_(socket_.get_executor()), house_(house), server_(house.server) {
+    ++house_.guests;
   }
-  ~Guest() { --guests_; }
+  ~Guest() { --house_.guests; }
 
   void start() {
     Failure ignored;
     beast::get_lowest_layer(socket_).socket().set_option(Tcp::no_delay(true), ignored);
-    beast::get_lowest_layer(socket_).expires_after(kRequestWait);
-    request_.header_limit(kMostRequest);
-    request_.body_limit(0);
-    http::async_read(socket_.next_layer(), buffer_, request_,
-                     [self = shared_from_this()](Failure failure, std::size_t) { self->answer(failure); });
+    read_request();
   }
 
  private:
+  void read_request() {
+    beast::get_lowest_layer(socket_).expires_after(kRequestWait);
+    request_.emplace();
+    request_->header_limit(kMostRequest);
+    request_->body_limit(0);
+    http::async_read(socket_.next_layer(), buffer_, *request_,
+                     [self = shared_from_this()](Failure failure, std::size_t) { self->answer(failure); });
+  }
+
+  std::string header(http::field field) const { return std::string(request_->get()[field]); }
+
   void answer(Failure failure) {
-    if (failure || !websocket::is_upgrade(request_.get())) return;
-    const auto text = [this](http::field field) { return std::string(request_.get()[field]); };
-    if (!may_open(text(http::field::host), text(http::field::origin), origins_)) {
-      if (server_.is_new_complaint("origin " + text(http::field::origin).substr(0, kMostOrigin))) {
+    if (failure) return;
+    if (websocket::is_upgrade(request_->get())) return open();
+    if (!house_.files.empty()) answer_file();
+  }
+
+  /// The file that is asked for, or in a sentence why not.
+  void answer_file() {
+    const std::string path = std::string(request_->get().target()).substr(0, request_->get().target().find('?'));
+    const auto found = house_.files.find(path);
+    const auto method = request_->get().method();
+    if (!is_own_host(header(http::field::host))) {
+      return send_file(http::status::forbidden, web_file(kPlain, "Ask for this page by the machine's address."));
+    }
+    if (method != http::verb::get && method != http::verb::head) {
+      return send_file(http::status::method_not_allowed, web_file(kPlain, "Files can be got here, nothing else."));
+    }
+    if (found == house_.files.end())
+      return send_file(http::status::not_found, web_file(kPlain, "There is no such file."));
+    if (header(http::field::if_none_match) == found->second.tag) {
+      return send_file(http::status::not_modified, {found->second.content_type, "", "", found->second.tag});
+    }
+    send_file(http::status::ok, found->second);
+  }
+
+  void send_file(http::status status, const WebFile& file) {
+    const bool is_packed = !file.gzip.empty() && header(http::field::accept_encoding).find("gzip") != std::string::npos;
+    response_.emplace(status, request_->get().version());
+    response_->set(http::field::content_type, file.content_type);
+    response_->set(http::field::etag, file.tag);
+    response_->set(http::field::cache_control, "no-cache");
+    response_->set(http::field::vary, "Accept-Encoding");
+    response_->set("Content-Security-Policy", security_policy(header(http::field::host)));
+    response_->set("X-Content-Type-Options", "nosniff");
+    response_->set("Referrer-Policy", "no-referrer");
+    response_->set("Cross-Origin-Opener-Policy", "same-origin");
+    response_->set("Cross-Origin-Resource-Policy", "same-origin");
+    if (is_packed) response_->set(http::field::content_encoding, "gzip");
+    const std::string& body = is_packed ? file.gzip : file.body;
+    response_->content_length(body.size());
+    if (request_->get().method() != http::verb::head) response_->body() = body;
+    response_->keep_alive(request_->get().keep_alive());
+    beast::get_lowest_layer(socket_).expires_after(kFileWait);
+    http::async_write(socket_.next_layer(), *response_, [self = shared_from_this()](Failure failure, std::size_t) {
+      if (!failure && self->response_->keep_alive()) self->read_request();
+    });
+  }
+
+  void open() {
+    if (!may_open(header(http::field::host), header(http::field::origin), house_.origins)) {
+      const std::string origin = header(http::field::origin).substr(0, kMostOrigin);
+      if (server_.is_new_complaint("origin " + origin)) {
         spdlog::warn("a WebSocket of a page from \"{}\" was refused; --allow-origin lets it in (reported once)",
-                     text(http::field::origin).substr(0, kMostOrigin));
+                     origin);
       }
-      http::response<http::empty_body> refusal(http::status::forbidden, request_.get().version());
+      http::response<http::empty_body> refusal(http::status::forbidden, request_->get().version());
       refusal.prepare_payload();
+      Failure failure;
       http::write(socket_.next_layer(), refusal, failure);
       return;
     }
@@ -110,7 +173,7 @@ class Guest : public std::enable_shared_from_this<Guest> {
     socket_.set_option(timeouts);
     socket_.read_message_max(kMostMessage);
     socket_.binary(true);
-    socket_.async_accept(request_.get(), [self = shared_from_this()](Failure refused) { self->join(refused); });
+    socket_.async_accept(request_->get(), [self = shared_from_this()](Failure refused) { self->join(refused); });
   }
 
   void join(Failure failure) {
@@ -170,26 +233,29 @@ class Guest : public std::enable_shared_from_this<Guest> {
 
   websocket::stream<beast::tcp_stream> socket_;
   Local::socket inner_;
+  House& house_;
   Server& server_;
-  const std::vector<std::string>& origins_;
-  std::atomic<std::size_t>& guests_;
   beast::flat_buffer buffer_;
-  http::request_parser<http::empty_body> request_;
+  std::optional<http::request_parser<http::empty_body>> request_;
+  std::optional<http::response<http::string_body>> response_;
   Bytes frame_;
 };
 
 }  // namespace
 
+bool is_own_host(const std::string& host) {
+  return is_own_name(host_of(host));
+}
+
 bool may_open(const std::string& host, const std::string& origin, const std::vector<std::string>& origins) {
-  const std::string own = host_of(host);
-  if (!is_own_name(own)) return false;
+  if (!is_own_host(host)) return false;
   if (origin.empty() || std::find(origins.begin(), origins.end(), origin) != origins.end()) return true;
-  return host_of(origin) == own;
+  return host_of(origin) == host_of(host);
 }
 
 struct WebSocketListener::Impl {
-  Impl(const Endpoint& endpoint, Server& joined, std::vector<std::string> allowed)
-      : server(joined), origins(std::move(allowed)), acceptor(context) {
+  Impl(const Endpoint& endpoint, Server& server, std::vector<std::string> origins, WebFiles files)
+      : house{server, std::move(origins), std::move(files)}, acceptor(context) {
     Socket listener = listen_at(endpoint);
     bound = port_of(listener);
     const bool is_v6 = endpoint.host.find(':') != std::string::npos;
@@ -211,7 +277,8 @@ struct WebSocketListener::Impl {
       try {
         context.run();
       } catch (const std::exception& failure) {
-        if (server.is_new_complaint(failure.what())) spdlog::warn("a WebSocket: {} (reported once)", failure.what());
+        if (house.server.is_new_complaint(failure.what()))
+          spdlog::warn("a WebSocket: {} (reported once)", failure.what());
       }
     }
   }
@@ -224,16 +291,12 @@ struct WebSocketListener::Impl {
         pause.async_wait([this](Failure) { accept(); });
         return;
       }
-      if (guests < kMostGuests) {
-        std::make_shared<Guest>(std::move(socket), server, origins, guests)->start();
-      }
+      if (house.guests < kMostGuests) std::make_shared<Guest>(std::move(socket), house)->start();
       accept();
     });
   }
 
-  Server& server;
-  std::vector<std::string> origins;
-  std::atomic<std::size_t> guests{0};
+  House house;
   asio::io_context context{1};
   Tcp::acceptor acceptor;
   asio::steady_timer pause{context};
@@ -241,8 +304,9 @@ struct WebSocketListener::Impl {
   std::thread thread;
 };
 
-WebSocketListener::WebSocketListener(const Endpoint& endpoint, Server& server, std::vector<std::string> origins)
-    : impl_(std::make_unique<Impl>(endpoint, server, std::move(origins))) {}
+WebSocketListener::WebSocketListener(const Endpoint& endpoint, Server& server, std::vector<std::string> origins,
+                                     WebFiles files)
+    : impl_(std::make_unique<Impl>(endpoint, server, std::move(origins), std::move(files))) {}
 
 WebSocketListener::~WebSocketListener() = default;
 

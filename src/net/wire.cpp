@@ -32,6 +32,7 @@ std::optional<std::size_t> most_of(std::uint8_t type) noexcept {
     case FrameType::Pong:
     case FrameType::Bye:
     case FrameType::InForce:
+    case FrameType::PictureSeen:
       return kSmallPayload;
     case FrameType::LocalModel:
     case FrameType::SceneKey:
@@ -39,6 +40,7 @@ std::optional<std::size_t> most_of(std::uint8_t type) noexcept {
     case FrameType::BonePoses:
     case FrameType::Readings:
     case FrameType::Mesh:
+    case FrameType::Picture:
       return kMostPayload;
     case FrameType::Control:
       return kMostControl;

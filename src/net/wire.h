@@ -37,6 +37,8 @@ enum class FrameType : std::uint8_t {
   Readings = 20,
   Mesh = 21,
   InForce = 22,
+  Picture = 23,
+  PictureSeen = 24,
   Control = 32,
 };
 

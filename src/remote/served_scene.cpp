@@ -110,16 +110,35 @@ void ServedScene::encode_frames() {
 void ServedScene::obey() {
   while (const auto request = server_->take_request()) {
     try {
-      const std::optional<messages::Order> order = order_of(request->text);
-      if (!order) {
-        server_->stop_forces();
-      } else if (const std::string why = session_.push({*order, messages::Commander::Network}); !why.empty()) {
-        server_->refuse(request->client, why);
-      }
+      obey(*request);
     } catch (const Error& failure) {
       server_->refuse(request->client, failure.what());
     }
   }
+  tell_class();
+}
+
+void ServedScene::obey(const net::ControlRequest& request) {
+  if (Classroom::is_for_class(request.text)) return class_.obey(request);
+  if (request.role != net::Role::Instructor) {
+    throw Error(ExitStatus::Usage, "only an instructor may change the scene");
+  }
+  const std::optional<messages::Order> order = order_of(request.text);
+  if (!order) return server_->stop_forces();
+  if (const std::string why = session_.push({*order, messages::Commander::Network}); !why.empty()) {
+    server_->refuse(request.client, why);
+  }
+}
+
+/// Ten times a second at most: a class of thirty that all answer at once is one piece of news.
+void ServedScene::tell_class() {
+  constexpr std::chrono::milliseconds kPeriod(100);
+  const auto now = std::chrono::steady_clock::now();
+  if (now - told_at_ < kPeriod) return;
+  told_at_ = now;
+  class_.set_members(server_->clients());
+  server_->let_hands_rest(class_.frozen());
+  if (class_.has_news()) server_->announce(class_.announcement());
 }
 
 }  // namespace myotact::remote

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -11,12 +12,14 @@
 
 #include "net/hand_table.h"
 #include "net/server.h"
+#include "remote/classroom.h"
 #include "scene/free_session.h"
 #include "scene/scene_file.h"
 
 namespace myotact::remote {
 
-inline constexpr std::size_t kMostHands = 8;
+/// Of one scene: a class. What each costs a step stands in the README's table of a class.
+inline constexpr std::size_t kMostHands = 32;
 
 struct ServeSettings {
   net::Endpoint endpoint;
@@ -43,7 +46,7 @@ class ServedScene {
   scene::FreeTiming stop();
   bool running() const { return session_.running(); }
 
-  /// One thread, many times a second: what instructors asked for goes to the simulation.
+  /// One thread, many times a second: what instructors asked for goes to the simulation, what is of the class to all.
   void obey();
 
   net::Server& server() { return *server_; }
@@ -51,11 +54,15 @@ class ServedScene {
 
  private:
   void encode_frames();
+  void obey(const net::ControlRequest& request);
+  void tell_class();
 
   std::vector<std::unique_ptr<net::HandChannels>> channels_;
   net::HandTable hands_;
   std::unique_ptr<net::Server> server_;
   scene::FreeSession session_;  // after the server, whose bell it rings to its end
+  Classroom class_;
+  std::chrono::steady_clock::time_point told_at_;
   std::atomic<double> time_s_{0.0};
   std::atomic<bool> closing_{false};
   std::thread encoder_;

@@ -87,20 +87,6 @@ TEST(Loopback, EverybodyMayStopAndAllHear) {
   EXPECT_EQ(host.server->stops(), 1u);
 }
 
-TEST(Loopback, OnlyInstructorsChangeTheScene) {
-  LoopbackServer host;
-  Client student(host.client(false, Role::Student)), instructor(host.client(false, Role::Instructor));
-  student.start();
-  instructor.start();
-  student.ask(R"({"do": "reset"})");
-  instructor.ask(R"({"do": "pause", "on": true})");
-  std::optional<ControlRequest> request;
-  ASSERT_TRUE(comes_true([&] { return (request = host.server->take_request()).has_value(); }));
-  EXPECT_EQ(request->text, R"({"do": "pause", "on": true})");
-  EXPECT_EQ(request->role, Role::Instructor);
-  EXPECT_FALSE(host.server->take_request());
-}
-
 TEST(Loopback, ScenesAreShown) {
   LoopbackServer host;
   Client viewer(host.client(false, Role::Viewer));

@@ -63,6 +63,7 @@ TEST(Vectors, SmallFramesBothWays) {
   expect_both_ways<Ping>("ping");
   expect_both_ways<Pong>("pong");
   expect_both_ways<Bye>("bye");
+  expect_both_ways<PictureSeen>("picture_seen");
 }
 
 TEST(Vectors, AHelloSaysWhatItSays) {
@@ -172,7 +173,7 @@ TEST(Vectors, WhatIsInForceIsRefusedOutOfItsRange) {
 
 TEST(Vectors, TheManifestTellsTheirBytes) {
   const nlohmann::json manifest = read_json(kFolder / "manifest.json");
-  EXPECT_EQ(manifest.size(), 16u);
+  EXPECT_EQ(manifest.size(), 19u);
   for (const auto& entry : manifest) {
     std::string hex;
     const std::string name = entry.at("file").get<std::string>();

@@ -12,7 +12,7 @@ HERE = pathlib.Path(__file__).parent
 MANIFEST = []
 TYPES = {"Hello": 1, "Welcome": 2, "ToolState": 3, "ToolContact": 4, "ToolGrip": 5, "Force": 6, "Event": 7, "Ping": 8,
          "Pong": 9, "Bye": 10, "LocalModel": 16, "SceneKey": 17, "SceneDelta": 18, "BonePoses": 19, "Readings": 20,
-         "Mesh": 21, "InForce": 22, "Control": 32}
+         "Mesh": 21, "InForce": 22, "Picture": 23, "PictureSeen": 24, "Control": 32}
 
 
 def write(name, kind, payload, fields, flags=0, sequence=0, time_ns=0):
@@ -89,9 +89,29 @@ pose = [1, 0, 0, 0.1, 0, 1, 0, 0.2, 0, 0, 1, 0.3]
 write("bone_poses", "BonePoses", struct.pack("<QdH", 5, 1.25, 1) + doubles(*pose),
       {"sequence": 5, "time_s": 1.25, "poses": [pose]}, flags=1, sequence=5)
 
-write("in_force", "InForce", struct.pack("<BBB", 2, 3, 1 + 4) + doubles(0.5, 0.25, 0.75, -0.125, 0.625),
+in_force = struct.pack("<BBB", 2, 3, 1 + 4) + doubles(0.5, 0.25, 0.75, -0.125, 0.625)
+write("in_force", "InForce", in_force,
       {"drive": "balance", "driver": "network", "hold_posture": True, "gravity": False, "paused": True,
        "recording": False, "flexors": 0.5, "extensors": 0.25, "common": 0.75, "difference": -0.125,
        "common_now": 0.625}, sequence=6)
+
+
+
+def picture(sequence, since, time_s, skins, parts):
+    """Stored, not compressed: the bytes are the same with every zlib. `skins`: {index: [numbers by x, y, z]}."""
+    inner = struct.pack("<dH", time_s, 1) + struct.pack("<12f", *pose) + struct.pack("<H", len(skins))
+    for index, numbers in skins.items():
+        inner += struct.pack("<HI", index, len(numbers) // 3) + b"".join(varint(n) for n in numbers)
+    return struct.pack("<QQ", sequence, since) + zlib.compress(inner + parts, 0)
+
+
+write("picture", "Picture",
+      picture(5, 0, 1.25, {0: [2000, -1, 4000, 0, 6000, 1]}, struct.pack("<BI", 2, len(in_force)) + in_force),
+      {"sequence": 5, "since": 0, "time_s": 1.25, "poses": [pose],
+       "skins_m": [[[0.1, 0.2, 0.3], [-0.00005, 0, 0.00005]]], "common_now": 0.625}, sequence=7)
+write("picture_change", "Picture", picture(8, 5, 1.5, {0: [0, 1, -64, 64, 0, 0]}, b"\0"),
+      {"sequence": 8, "since": 5, "time_s": 1.5, "poses": [pose],
+       "skins_m": [[[0.1, 0.1968, 0.3], [0, 0.0032, 0.00005]]]}, sequence=8)
+write("picture_seen", "PictureSeen", struct.pack("<Q", 8), {"sequence": 8}, sequence=9)
 
 (HERE / "manifest.json").write_text(json.dumps(MANIFEST, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "net/server_state.h"
+
+namespace myotact::remote {
+
+/// What a class has in common beside the limb: who is in and who raises a hand, where the instructor wants all to look,
+/// a question and its answers, a lesson and its results. src/net/README.md lists the messages. One thread.
+class Classroom {
+ public:
+  /// Whether this asks for something of the class, not of the scene.
+  static bool is_for_class(const std::string& control);
+  /// Does what a member asks for. Throws Error that says what is wrong with it, or that it is not for this role.
+  void obey(const net::ControlRequest& request);
+  /// Who is in now. What was said by who left, and is no result, goes with them.
+  void set_members(std::vector<net::ClientFacts> members);
+
+  /// Whether the hands of all but instructors are to rest.
+  bool frozen() const { return frozen_; }
+  /// Whether there is news since announcement() was called last.
+  bool has_news() const { return has_news_; }
+  net::Announcement announcement();
+
+ private:
+  /// What one member says besides results.
+  struct Said {
+    bool hand_up = false;
+    std::string answer;  // to the question; empty: none
+  };
+
+  void raise_hand(std::uint32_t client, bool up);
+  void answer(std::uint32_t client, const std::string& question, const std::string& answer);
+  void add_result(std::uint32_t client, nlohmann::json result);
+  void ask(nlohmann::json question);
+  nlohmann::json for_all() const;
+  nlohmann::json members_json() const;
+
+  std::vector<net::ClientFacts> members_;
+  std::map<std::uint32_t, Said> said_;  // by client
+  bool frozen_ = false;
+  nlohmann::json look_, question_, lesson_;  // null: none
+  std::deque<nlohmann::json> results_;       // the newest
+  std::size_t result_count_ = 0;             // so far
+  bool has_news_ = true;
+};
+
+}  // namespace myotact::remote
