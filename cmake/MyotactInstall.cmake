@@ -41,6 +41,8 @@ set(data "${CMAKE_INSTALL_DATADIR}/myotact")
 install(DIRECTORY assets meshes shaders DESTINATION "${data}" COMPONENT myotact
   PATTERN assets/desktop EXCLUDE
   PATTERN assets/pictures EXCLUDE)
+# Built by tools/build_web.sh before; without it `serve --web` tells what is missing.
+install(DIRECTORY web/dist DESTINATION "${data}/web" COMPONENT myotact OPTIONAL)
 # Where the system looks for what packages bring.
 install(FILES assets/devices/udev/70-myotact.rules DESTINATION lib/udev/rules.d COMPONENT myotact)
 install(DIRECTORY tests/validation DESTINATION "${data}/tests" COMPONENT myotact FILES_MATCHING PATTERN *.json)

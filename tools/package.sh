@@ -6,6 +6,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 install_missing "$project/tools/packages.txt"
 preset="${1:-release}"
+"$project/tools/build_web.sh"
 build "$preset" -- myotact-manual myotact-prepare-manual
 SOURCE_DATE_EPOCH="$(git -C "$project" log -1 --format=%ct 2>/dev/null || date +%s)"
 export SOURCE_DATE_EPOCH

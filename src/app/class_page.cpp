@@ -1,5 +1,6 @@
 #include "app/class_page.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -21,6 +22,17 @@
 namespace myotact::app {
 
 namespace {
+
+/// A whole picture of more would not fit into one frame, at 4 bytes a vertex.
+constexpr std::size_t kMostVertices = 250'000;
+
+void check_size(const anatomy::Specimen& specimen) {
+  std::size_t vertices = 0;
+  for (const anatomy::Muscle& muscle : specimen.muscles) vertices += muscle.skin.positions_m.size();
+  if (vertices <= kMostVertices) return;
+  throw Error(ExitStatus::BadData, fmt::format("{}: its skins have {} vertices; a class sees at most {}; simplify them",
+                                               specimen.name, vertices, kMostVertices));
+}
 
 using Json = nlohmann::json;
 
@@ -156,6 +168,7 @@ std::string lessons_json(const scene::Scene& scene) {
 }  // namespace
 
 net::WebFiles class_page(const scene::Scene& scene) {
+  check_size(scene.specimen);
   net::WebFiles files;
   add_page(files);
   const view::LimbShade shade = view::shade_limb(scene.specimen);

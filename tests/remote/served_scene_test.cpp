@@ -144,6 +144,46 @@ TEST(ServedScene, AnInstructorPausesAndABadWishIsAnswered) {
   }));
 }
 
+/// A page's connection, without a page.
+struct Member {
+  Member(Host& host, net::Role role) : stream(net::connect_to(host.client(role, false).server, kWait), kWait) {
+    net::Hello hello;
+    hello.role = role;
+    hello.wants.announcements = true;
+    stream.write(net::encode(hello), 0);
+  }
+  /// Reads on until a Control or an Event holds the words.
+  bool hears(Host& host, const std::string& words) {
+    for (int i = 0; i < 500; ++i) {
+      host.served.obey();
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      stream.write(net::encode(net::Ping{1}), 0);
+      for (auto frame = stream.read(); frame && frame->header.type != net::FrameType::Pong; frame = stream.read()) {
+        const std::string text(frame->payload.begin(), frame->payload.end());
+        if (text.find(words) != std::string::npos) return true;
+      }
+    }
+    return false;
+  }
+
+  static constexpr std::chrono::milliseconds kWait{5000};
+  net::FrameStream stream;
+};
+
+TEST(ServedScene, AClassHearsItsInstructorAndAStudentChangesNothing) {
+  Host host("particle");
+  Member student(host, net::Role::Student), instructor(host, net::Role::Instructor);
+  EXPECT_TRUE(student.hears(host, R"("students":1)"));
+  instructor.stream.write_text(R"({"do": "class_freeze", "on": true})", 0);
+  EXPECT_TRUE(student.hears(host, R"("frozen":true)"));
+  student.stream.write_text(R"({"do": "class_hand_up", "on": true})", 0);
+  EXPECT_TRUE(instructor.hears(host, R"("hands_up":[1])"));
+  student.stream.write_text(R"({"do": "reset"})", 0);
+  EXPECT_TRUE(student.hears(host, "only an instructor may change the scene"));
+  student.stream.write_text(R"({"do": "class_freeze", "on": false})", 0);
+  EXPECT_TRUE(student.hears(host, "only an instructor leads the class"));
+}
+
 /// A surface, a line and a body that no scene has: the hand is not heeded, and everybody else goes on.
 TEST(ServedScene, AHandOfNonsenseMovesNothing) {
   Host host("spring");

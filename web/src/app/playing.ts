@@ -1,0 +1,38 @@
+/** A page that plays a recording: nobody hears what it sends, and there is no hand. */
+import type { OpenedRecording } from '../record/open_recording';
+import { createTexts } from '../text/texts';
+import { WireError } from '../wire/cursor';
+import { assemble } from './assembly';
+import { Feed } from './feed';
+
+export function playRecording(recording: OpenedRecording): void {
+  const { dictionaries, facts, lessons, source } = recording;
+  const texts = createTexts(dictionaries);
+  const assembly = assemble(texts, facts, lessons);
+  const { page, view } = assembly;
+  page.setConnection({ state: 'playing' });
+  const feed = new Feed({
+    welcome: () => undefined,
+    mesh: (mesh) => view.takeMesh(mesh),
+    picture: (picture) => {
+      view.takePicture(picture);
+      page.takePicture(picture);
+    },
+    force: () => undefined,
+    event: () => undefined,
+    control: (message) => page.takeControl(message),
+  });
+  page.line = { send: (control) => source.send(control), primingFrames: () => [], wholePicture: () => null };
+  assembly.start(() => undefined);
+  recording.mount(page);
+  source.start((raw) => take(feed, raw));
+}
+
+function take(feed: Feed, raw: Uint8Array): void {
+  try {
+    feed.takeRaw(raw);
+  } catch (error) {
+    if (!(error instanceof WireError)) throw error;
+    console.warn(`a frame of the recording: ${error.message}`);
+  }
+}

@@ -1,0 +1,46 @@
+/** "All look here": while it is on, the class gets the instructor's camera and look whenever they change. */
+
+import type { App } from '../app/state';
+import { packLook } from './shared_look';
+import { Throttle } from './throttle';
+
+const PAUSE_MS = 100; // the server takes ten a second
+const MOST_SHIFT_M = 2e-4; // of the camera, that nobody would see
+
+export class Lead {
+  private timer: ReturnType<typeof setInterval> | null = null;
+  private sent = '';
+  private readonly throttle = new Throttle<object>(PAUSE_MS, (look) => this.app.send({ do: 'class_look', look }));
+
+  constructor(private readonly app: App) {
+    app.on('connection', () => (this.sent = '')); // a new connection may not know it
+  }
+
+  get leading(): boolean {
+    return this.timer !== null;
+  }
+
+  start(): void {
+    if (this.leading) return;
+    this.sent = '';
+    this.timer = setInterval(() => this.look(), PAUSE_MS);
+    this.look();
+  }
+
+  stop(): void {
+    if (this.timer !== null) clearInterval(this.timer);
+    this.timer = null;
+    this.throttle.stop();
+    this.app.send({ do: 'class_look', look: null });
+  }
+
+  private look(): void {
+    const { app } = this;
+    const pose = app.camera.pose();
+    const coarse = (place: number[]) => place.map((x) => Math.round(x / MOST_SHIFT_M));
+    const now = JSON.stringify([coarse(pose.eye), coarse(pose.target), app.look, app.selection]);
+    if (now === this.sent || app.connection.state !== 'joined') return;
+    this.sent = now;
+    this.throttle.push(packLook(pose, app.look, app.selection));
+  }
+}
