@@ -45,9 +45,9 @@ void print_access(const Options& options, std::uint16_t port, const net::AccessP
 }
 
 /// How a class joins, and a picture of that for telephones where somebody looks at a terminal.
-void print_class(const Options& options, std::uint16_t port, const net::AccessPolicy& access_policy) {
-  const net::Endpoint page = {reachable_address(options.bind), port};
+void invite_class(const net::Endpoint& page, const net::AccessPolicy& access_policy, remote::ServedScene& served) {
   const std::string link = class_link(page, access_policy.token, "student");
+  served.invite(link);
   std::cout << "page " << link << '\n'
             << "instructor_page " << class_link(page, access_policy.instructor_token, "instructor") << '\n';
   if (isatty(STDOUT_FILENO) != 0) std::cout << '\n' << qr_for_terminal(link);
@@ -91,11 +91,14 @@ int serve_free(const Options& options, const scene::Scene& scene, const net::Acc
   }
   served.start();
   print_access(options, served.server().port(), access_policy);
-  if (options.web) print_class(options, websocket->port(), access_policy);
+  if (options.web) invite_class({reachable_address(options.bind), websocket->port()}, access_policy, served);
   while (interruption() == 0 && served.running() && served.time_s() < options.seconds.value_or(1e12)) {
     served.obey();
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
+  served.server().say_goodbye();
+  constexpr std::chrono::milliseconds kPassedOn(100);  // by the listener, before it ends
+  if (websocket) std::this_thread::sleep_for(kPassedOn);
   const scene::FreeTiming timing = served.stop();
   const nlohmann::json report = {{"simulated_s", timing.simulated_s},
                                  {"wall_s", timing.wall_s},

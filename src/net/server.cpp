@@ -19,12 +19,19 @@ Server::~Server() {
   closing_ = true;
   shut_down(listener_);
   acceptor_.join();
+  say_goodbye();
+  const std::lock_guard lock(mutex_);
+  for (const auto& connection : connections_) connection->shut_down();
+  connections_.clear();
+}
+
+void Server::say_goodbye() {
   const std::lock_guard lock(mutex_);
   for (const auto& connection : connections_) {
-    if (!connection->is_waiting()) connection->dismiss(ByeReason::Closing, "the server stops");
-    connection->shut_down();
+    if (!connection->is_waiting() && !connection->finished()) {
+      connection->dismiss(ByeReason::Closing, "the server stops");
+    }
   }
-  connections_.clear();
 }
 
 void Server::accept_all() {

@@ -40,6 +40,8 @@ class Server {
   std::vector<ClientFacts> clients();
   /// Takes the place of what was said before; who joins later hears it too.
   void announce(Announcement announcement);
+  /// Tells everybody that the server stops. What comes in by other ways than TCP is passed on by whoever adopted it.
+  void say_goodbye();
   /// While it is on, all hands but instructors' touch and hold nothing.
   void let_hands_rest(bool on) { state_.rests = on; }
   bool is_new_complaint(const std::string& text) { return state_.is_new_complaint(text); }

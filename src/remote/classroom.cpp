@@ -22,7 +22,7 @@ constexpr std::size_t kMostLook = 4096;     // bytes, as JSON
 constexpr std::size_t kMostQuestion = 400;  // bytes of UTF-8, as all below
 constexpr std::size_t kMostOption = 100;
 constexpr std::size_t kFewestOptions = 2, kMostOptions = 6;
-constexpr std::size_t kMostId = 48;
+constexpr std::size_t kMostId = 64;
 constexpr double kMostPoints = 1e4;
 constexpr int kMostStep = 200;  // of a lesson
 
@@ -144,12 +144,26 @@ void Classroom::ask(Json question) {
   for (auto& [client, said] : said_) said.answer.clear();
 }
 
-void Classroom::set_members(std::vector<net::ClientFacts> members) {
+void Classroom::set_members(std::vector<net::ClientFacts> members, std::chrono::steady_clock::time_point now) {
+  constexpr std::chrono::seconds kAway(10);
+  const bool is_led = std::any_of(members.begin(), members.end(),
+                                  [](const auto& facts) { return facts.role == net::Role::Instructor; });
+  if (is_led) led_at_ = now;
+  if (now - led_at_ > kAway && (frozen_ || !look_.is_null())) {
+    frozen_ = false;
+    look_ = nullptr;
+    has_news_ = true;
+  }
   if (members == members_) return;
   members_ = std::move(members);
   std::erase_if(said_, [&](const auto& entry) {
     return std::none_of(members_.begin(), members_.end(), [&](const auto& facts) { return facts.id == entry.first; });
   });
+  has_news_ = true;
+}
+
+void Classroom::invite(const std::string& link) {
+  join_ = link;
   has_news_ = true;
 }
 
@@ -184,6 +198,7 @@ net::Announcement Classroom::announcement() {
   net::Announcement said;
   said.to_all = Json{{"class", body}}.dump();
   body["members"] = members_json();
+  if (!join_.empty()) body["join"] = join_;
   do {
     body["results"] = results_;
     said.to_instructors = Json{{"class", body}}.dump();

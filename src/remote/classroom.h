@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -21,8 +22,12 @@ class Classroom {
   static bool is_for_class(const std::string& control);
   /// Does what a member asks for. Throws Error that says what is wrong with it, or that it is not for this role.
   void obey(const net::ControlRequest& request);
-  /// Who is in now. What was said by who left, and is no result, goes with them.
-  void set_members(std::vector<net::ClientFacts> members);
+  /// Who is in now. What was said by who left, and is no result, goes with them. Without an instructor for ten seconds,
+  /// who may only have loaded a page again, the class is no longer frozen nor made to look anywhere.
+  void set_members(std::vector<net::ClientFacts> members, std::chrono::steady_clock::time_point now);
+
+  /// The link that an instructor hands to students.
+  void invite(const std::string& link);
 
   /// Whether the hands of all but instructors are to rest.
   bool frozen() const { return frozen_; }
@@ -45,11 +50,13 @@ class Classroom {
   nlohmann::json members_json() const;
 
   std::vector<net::ClientFacts> members_;
-  std::map<std::uint32_t, Said> said_;  // by client
+  std::map<std::uint32_t, Said> said_;            // by client
+  std::chrono::steady_clock::time_point led_at_;  // an instructor was in
   bool frozen_ = false;
   nlohmann::json look_, question_, lesson_;  // null: none
   std::deque<nlohmann::json> results_;       // the newest
   std::size_t result_count_ = 0;             // so far
+  std::string join_;                         // link of students; empty: not known
   bool has_news_ = true;
 };
 

@@ -136,7 +136,7 @@ void ServedScene::tell_class() {
   const auto now = std::chrono::steady_clock::now();
   if (now - told_at_ < kPeriod) return;
   told_at_ = now;
-  class_.set_members(server_->clients());
+  class_.set_members(server_->clients(), now);
   server_->let_hands_rest(class_.frozen());
   if (class_.has_news()) server_->announce(class_.announcement());
 }

@@ -49,6 +49,9 @@ class ServedScene {
   /// One thread, many times a second: what instructors asked for goes to the simulation, what is of the class to all.
   void obey();
 
+  /// The link by which students join, for instructors to hand on. By the thread that obeys.
+  void invite(const std::string& link) { class_.invite(link); }
+
   net::Server& server() { return *server_; }
   double time_s() const { return time_s_; }  // simulated
 

@@ -13,12 +13,14 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::uint32_t kTeacher = 1, kAnna = 2, kBen = 3;
+constexpr std::chrono::steady_clock::time_point kStart{std::chrono::hours(1)};
 
 Classroom class_of_two() {
   Classroom room;
   room.set_members({{kTeacher, net::Role::Instructor, -1, "teacher"},
                     {kAnna, net::Role::Student, 0, "Anna"},
-                    {kBen, net::Role::Student, -1, "<b>Ben</b>\n"}});
+                    {kBen, net::Role::Student, -1, "<b>Ben</b>\n"}},
+                   kStart);
   return room;
 }
 
@@ -42,10 +44,12 @@ std::string refusal(Classroom& room, std::uint32_t client, const Json& wish) {
 
 TEST(Classroom, StudentsHearWhatIsForAllAndTheInstructorWhoTheyAre) {
   Classroom room = class_of_two();
+  room.invite("http://127.0.0.1:7481/#token=00");
   const Json student = heard(room, false), instructor = heard(room, true);
   EXPECT_EQ(student.at("students"), 2);
   EXPECT_FALSE(student.contains("members")) << "names are the instructor's alone";
-  EXPECT_FALSE(student.contains("results"));
+  EXPECT_FALSE(student.contains("results") || student.contains("join"));
+  EXPECT_EQ(instructor.at("join"), "http://127.0.0.1:7481/#token=00");
   ASSERT_EQ(instructor.at("members").size(), 3u);
   EXPECT_EQ(instructor.at("members")[2].at("name"), "<b>Ben</b> ") << "as it was typed, but of one line";
 }
@@ -84,11 +88,26 @@ TEST(Classroom, HandsGoDownWithWhoLeavesAndResultsStay) {
   say(room, kAnna,
       {{"do", "class_result"}, {"lesson", "l"}, {"step", 2}, {"answer", "ulna"}, {"points", 0.5}, {"of", 1}});
   EXPECT_EQ(heard(room, false).at("hands_up"), Json({kAnna}));
-  room.set_members({{kTeacher, net::Role::Instructor, -1, "teacher"}});
+  room.set_members({{kTeacher, net::Role::Instructor, -1, "teacher"}}, kStart);
   EXPECT_EQ(heard(room, false).at("hands_up"), Json::array());
   const Json result = heard(room, true).at("results").at(0);
   EXPECT_EQ(result.at("name"), "Anna");
   EXPECT_EQ(result.at("points"), 0.5);
+}
+
+TEST(Classroom, AClassWithoutAnInstructorIsFreeAfterAWhile) {
+  using std::chrono::seconds;
+  Classroom room = class_of_two();
+  say(room, kTeacher, {{"do", "class_freeze"}, {"on", true}});
+  say(room, kTeacher, {{"do", "class_look"}, {"look", {{"camera", 1}}}});
+  const std::vector<net::ClientFacts> anna = {{kAnna, net::Role::Student, 0, "Anna"}};
+  room.set_members(anna, kStart + seconds(9));
+  EXPECT_TRUE(room.frozen()) << "the instructor's page is loaded again";
+  room.announcement();
+  room.set_members(anna, kStart + seconds(11));
+  EXPECT_FALSE(room.frozen());
+  EXPECT_TRUE(room.has_news());
+  EXPECT_TRUE(heard(room, false).at("look").is_null());
 }
 
 TEST(Classroom, WhatIsWrongIsRefusedAndChangesNothing) {
@@ -115,7 +134,7 @@ TEST(Classroom, WhatIsSaidFitsIntoAFrameWhateverMembersWrite) {
   Classroom room;
   std::vector<net::ClientFacts> members = {{kTeacher, net::Role::Instructor, -1, "teacher"}};
   for (std::uint32_t id = 2; id < 66; ++id) members.push_back({id, net::Role::Student, -1, std::string(48, '"')});
-  room.set_members(members);
+  room.set_members(members, kStart);
   for (int i = 0; i < 200; ++i) {
     room.obey({2u, net::Role::Student,
                Json{{"do", "class_result"},

@@ -7,7 +7,7 @@ import { readClassState } from '../src/class/class_state';
 import { countAnswers, makeQuestion, MOST_OPTIONS } from '../src/class/question';
 import { linesOf, resultsCsv } from '../src/class/results';
 import { packLook, unpackLook } from '../src/class/shared_look';
-import { Throttle } from '../src/class/throttle';
+import { Throttle } from '../src/app/throttle';
 import { shortLine } from '../src/text/short_line';
 
 test('fields are quoted where they must be, and are no formulas', () => {

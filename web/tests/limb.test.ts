@@ -105,8 +105,19 @@ test('a ray hits the nearer part from outside only', () => {
 });
 
 test('the nearest place of a triangle is nearer than any other', () => {
-  const corners: [Point, Point, Point] = [[0, 0, 0], [1, 0, 0], [0.2, 0.8, 0.3]];
-  for (const place of [[0.3, 0.3, 1], [-1, -1, 0], [2, 0.1, 0], [0.2, 2, 0], [0.5, -1, 0.2], [0.9, 0.9, 0]] as Point[]) {
+  const corners: [Point, Point, Point] = [
+    [0, 0, 0],
+    [1, 0, 0],
+    [0.2, 0.8, 0.3],
+  ];
+  for (const place of [
+    [0.3, 0.3, 1],
+    [-1, -1, 0],
+    [2, 0.1, 0],
+    [0.2, 2, 0],
+    [0.5, -1, 0.2],
+    [0.9, 0.9, 0],
+  ] as Point[]) {
     const weights = closestOnTriangle(place, corners);
     assert.ok(Math.min(...weights) >= 0 && Math.abs(weights[0] + weights[1] + weights[2] - 1) < 1e-12);
     const best = distance(place, weighted(corners, weights));
@@ -172,8 +183,18 @@ test('labels keep their order and distance, and stay in the picture', () => {
   assert.deepEqual(spread([10, 100], 20, 0, 200), [10, 100]);
   assert.deepEqual(spread([50, 50, 50], 20, 0, 200), [30, 50, 70]);
   assert.deepEqual(spread([195, 199], 20, 0, 200), [180, 200]);
-  const placed = placeLabels([{ x: 0, y: 5, width: 9 }, { x: 9, y: 5, width: 9 }], 100, 20);
-  assert.deepEqual(placed.map((each) => each?.side), ['left', 'right']);
+  const placed = placeLabels(
+    [
+      { x: 0, y: 5, width: 9 },
+      { x: 9, y: 5, width: 9 },
+    ],
+    100,
+    20,
+  );
+  assert.deepEqual(
+    placed.map((each) => each?.side),
+    ['left', 'right'],
+  );
 });
 
 test('the look says how solid a part is', () => {

@@ -20,7 +20,11 @@ test('frames come out of pieces of any size', () => {
     const stream = new FrameStream();
     const got = [];
     for (let at = 0; at < bytes.length; at += size) got.push(...stream.push(bytes.subarray(at, at + size)));
-    assert.deepEqual(got.map(({ raw }) => [...raw]), sent.map((raw) => [...raw]), `pieces of ${size}`);
+    assert.deepEqual(
+      got.map(({ raw }) => [...raw]),
+      sent.map((raw) => [...raw]),
+      `pieces of ${size}`,
+    );
   }
 });
 

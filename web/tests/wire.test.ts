@@ -6,7 +6,13 @@ import { frameBytes, FrameType, parseFrame } from '../src/wire/frame';
 import { decodeInForce } from '../src/wire/readings';
 import { SceneDecoder } from '../src/wire/scene';
 import * as small from '../src/wire/small';
-import { decodeToolContact, decodeToolGrip, decodeToolState, toolStateParts, type ToolState } from '../src/wire/tool_state';
+import {
+  decodeToolContact,
+  decodeToolGrip,
+  decodeToolState,
+  toolStateParts,
+  type ToolState,
+} from '../src/wire/tool_state';
 import { allVectors, vector } from './vectors';
 
 test('CRC-32 is that of zlib', () => {
@@ -91,7 +97,10 @@ test('the frames of a tool state are the golden ones', () => {
 test('a tool state without touch is one frame without flags', () => {
   const { state } = decodeToolState(vector('tool_state').frame.payload);
   const parts = toolStateParts(state);
-  assert.deepEqual(parts.map(({ type, flags }) => [type, flags]), [[FrameType.ToolState, 0]]);
+  assert.deepEqual(
+    parts.map(({ type, flags }) => [type, flags]),
+    [[FrameType.ToolState, 0]],
+  );
 });
 
 test('a scene frame is whole with its poses', () => {
@@ -102,7 +111,10 @@ test('a scene frame is whole with its poses', () => {
   assert.equal(moment?.time_s, 1.25);
   assert.equal(moment?.sequence, 5);
   const grid = [10000, 19999, 30064, 95, -8192, 4];
-  assert.deepEqual([...moment!.skins.get(0)!], grid.map((steps) => Math.fround(1e-5 * steps)));
+  assert.deepEqual(
+    [...moment!.skins.get(0)!],
+    grid.map((steps) => Math.fround(1e-5 * steps)),
+  );
   const pose = [1, 0, 0, 0.1, 0, 1, 0, 0.2, 0, 0, 1, 0.3].map(Math.fround);
   assert.deepEqual([...moment!.poses![0]!], pose);
 });

@@ -68,7 +68,12 @@ export class ModeBar {
   private views(): HTMLElement {
     const group = this.group('web.bar.views', 'segments');
     for (const side of sides) {
-      group.append(this.page.texts.bind(button('segment', () => this.page.camera.showFrom(side)), `toolbar.${side}`));
+      group.append(
+        this.page.texts.bind(
+          button('segment', () => this.page.camera.showFrom(side)),
+          `toolbar.${side}`,
+        ),
+      );
     }
     return group;
   }

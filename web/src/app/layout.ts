@@ -32,9 +32,20 @@ export class Layout {
     this.element.append(header, this.sides.left, this.middle, this.sides.right, tabs, this.status);
   }
 
-  addPanel(side: PanelSide, id: string, titleKey: string, content: HTMLElement, options: PanelOptions = {}): () => void {
+  addPanel(
+    side: PanelSide,
+    id: string,
+    titleKey: string,
+    content: HTMLElement,
+    options: PanelOptions = {},
+  ): () => void {
     const title = this.texts.bind(el('summary', { class: 'panel-title' }), titleKey);
-    const panel = el('details', { class: 'panel', id: `panel-${id}` }, title, el('div', { class: 'panel-body' }, content));
+    const panel = el(
+      'details',
+      { class: 'panel', id: `panel-${id}` },
+      title,
+      el('div', { class: 'panel-body' }, content),
+    );
     panel.open = options.folded !== true;
     panel.style.order = String(options.order ?? 100);
     this.sides[side].append(panel);

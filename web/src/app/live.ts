@@ -21,7 +21,9 @@ export async function joinClass(texts: Texts, scene: SceneFacts, lessons: unknow
   const { page } = assembly;
   page.setMe({ client: 0, name, role: invitation.role, hand: -1 });
   const priming = new Priming();
-  const feed = new Feed(listenerOf(assembly, (sequence) => session.send(FrameType.PictureSeen, encodePictureSeen(sequence))));
+  const feed = new Feed(
+    listenerOf(assembly, (sequence) => session.send(FrameType.PictureSeen, encodePictureSeen(sequence))),
+  );
   const session: Session = new Session({
     url: `${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/socket`,
     token: tokenBytes(invitation.token),
@@ -83,4 +85,3 @@ async function fetchShade(): Promise<Uint8Array | null> {
   const answer = await fetch('/shade.bin');
   return answer.ok ? new Uint8Array(await answer.arrayBuffer()) : null;
 }
-

@@ -27,7 +27,10 @@ async function start(): Promise<void> {
 }
 
 async function liveTexts(): Promise<Texts> {
-  const dictionaries = LANGUAGES.map(async (language) => [language, await fetchJson<Dictionary>(`/languages/${language}.json`)]);
+  const dictionaries = LANGUAGES.map(async (language) => [
+    language,
+    await fetchJson<Dictionary>(`/languages/${language}.json`),
+  ]);
   return createTexts(Object.fromEntries(await Promise.all(dictionaries)) as Record<string, Dictionary>);
 }
 

@@ -6,7 +6,19 @@ import { Emitter } from './emitter';
 import { partsOf, type Part, type SceneFacts } from './facts';
 import type { Layout } from './layout';
 import { plainLook, type Camera, type Look } from './look';
-import type { App, AppEvents, ClassState, Connection, FrameTap, Me, Mode, PanelOptions, PanelSide, Texts, Touch } from './state';
+import type {
+  App,
+  AppEvents,
+  ClassState,
+  Connection,
+  FrameTap,
+  Me,
+  Mode,
+  PanelOptions,
+  PanelSide,
+  Texts,
+  Touch,
+} from './state';
 
 /** What a page is made of. */
 export interface PageParts {

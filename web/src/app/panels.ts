@@ -4,6 +4,7 @@ import { mountLearn } from '../learn';
 import { mountFind } from '../panels/find';
 import { mountLive } from '../panels/live';
 import { mountRecord } from '../record';
+import { languageChoice } from '../text/language_choice';
 import type { App } from './state';
 
 export function mountPanels(app: App): void {
@@ -12,4 +13,5 @@ export function mountPanels(app: App): void {
   mountClass(app);
   mountLearn(app);
   mountRecord(app);
+  app.mountTool(languageChoice(app));
 }

@@ -13,7 +13,10 @@ export class StatusLine {
 
   constructor(private readonly page: Page) {
     const { texts } = page;
-    const licences = texts.bind(el('a', { href: '/licences.txt', target: '_blank', rel: 'noopener' }), 'web.status.licences');
+    const licences = texts.bind(
+      el('a', { href: '/licences.txt', target: '_blank', rel: 'noopener' }),
+      'web.status.licences',
+    );
     const note = texts.bind(el('span', { class: 'status-note' }), 'status.not_medical');
     this.element.append(this.link, this.rates, note, licences);
     for (const event of ['connection', 'class', 'me', 'language'] as const) page.on(event, () => this.show());
@@ -26,7 +29,8 @@ export class StatusLine {
     this.link.dataset['state'] = connection.state;
     const joined = [me.name, texts.t(`web.role.${me.role}`)];
     if (me.hand < 0 && me.role !== 'viewer') joined.push(texts.t('web.status.no_hand'));
-    this.link.textContent = connection.state === 'joined' ? joined.join(' · ') : texts.t(`web.status.${connection.state}`);
+    this.link.textContent =
+      connection.state === 'joined' ? joined.join(' · ') : texts.t(`web.status.${connection.state}`);
     const sentence = 'key' in connection ? connection.key : frozen(classState?.frozen, me.role);
     this.banner.remove();
     if (sentence === null) return;

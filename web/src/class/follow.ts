@@ -1,4 +1,4 @@
-/** The other end of "all look here": the page looks where the instructor does, until the person wants to look freely. */
+/** The other end of "all look here": the page looks where the instructor does, until the person looks freely. */
 
 import { button, el } from '../app/dom';
 import type { Look } from '../app/look';

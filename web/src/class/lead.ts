@@ -1,8 +1,8 @@
 /** "All look here": while it is on, the class gets the instructor's camera and look whenever they change. */
 
 import type { App } from '../app/state';
+import { Throttle } from '../app/throttle';
 import { packLook } from './shared_look';
-import { Throttle } from './throttle';
 
 const PAUSE_MS = 100; // the server takes ten a second
 const MOST_SHIFT_M = 2e-4; // of the camera, that nobody would see

@@ -2,7 +2,15 @@
  * Where labels point to: on every part that is seen, a vertex in the middle of what is seen of it. A small picture in
  * which each part has a colour of its own tells what is seen.
  */
-import { Mesh, Scene, ShaderMaterial, Vector3, WebGLRenderTarget, type PerspectiveCamera, type WebGLRenderer } from 'three';
+import {
+  Mesh,
+  Scene,
+  ShaderMaterial,
+  Vector3,
+  WebGLRenderTarget,
+  type PerspectiveCamera,
+  type WebGLRenderer,
+} from 'three';
 import type { LimbDrawing } from './drawing';
 import type { LimbModel } from './model';
 import type { Surface } from './surface';

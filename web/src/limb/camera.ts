@@ -1,6 +1,18 @@
 /** Where the limb is looked at from, and the gestures that change it. */
 import CameraControls from 'camera-controls';
-import { Box3, MathUtils, Matrix4, PerspectiveCamera, Quaternion, Raycaster, Sphere, Spherical, Vector2, Vector3, Vector4 } from 'three';
+import {
+  Box3,
+  MathUtils,
+  Matrix4,
+  PerspectiveCamera,
+  Quaternion,
+  Raycaster,
+  Sphere,
+  Spherical,
+  Vector2,
+  Vector3,
+  Vector4,
+} from 'three';
 import type { Camera, CameraPose, Side } from '../app/look';
 import type { LimbModel } from './model';
 import { add, placed, scale, type Point } from './vectors';
@@ -52,7 +64,6 @@ export class LimbCamera implements Camera {
   resize(width: number, height: number): void {
     this.three.aspect = width / Math.max(1, height);
     this.three.updateProjectionMatrix();
-    if (!this.framed && this.frame(null, 0)) this.framed = true;
   }
 
   /** The first time that there is a limb to see. */

@@ -5,7 +5,7 @@
 
 /** A picture of more pixels than this a pixel of the page is no finer to the eye and costs a phone its frame rate. */
 const MOST_PIXEL_RATIO = 2;
-const STILL_AFTER_MS = 160;
+const STILL_AFTER_MS = 300;
 
 export class Fineness {
   /** Whether this browser draws without a graphics card. */

@@ -17,9 +17,14 @@ export function placeLabels(pins: Pin[], height: number, row: number): (Placed |
   const middle = median(pins.map((pin) => pin.x));
   const placed: (Placed | null)[] = pins.map(() => null);
   for (const side of ['left', 'right'] as const) {
-    const own = pins.map((_, i) => i).filter((i) => (pins[i]!.x < middle) === (side === 'left'));
+    const own = pins.map((_, i) => i).filter((i) => pins[i]!.x < middle === (side === 'left'));
     const ordered = own.sort((a, b) => pins[a]!.y - pins[b]!.y).slice(0, Math.floor(height / row) - 1);
-    const rows = spread(ordered.map((i) => pins[i]!.y), row, row / 2, height - row / 2);
+    const rows = spread(
+      ordered.map((i) => pins[i]!.y),
+      row,
+      row / 2,
+      height - row / 2,
+    );
     ordered.forEach((pin, k) => (placed[pin] = { side, y: rows[k]! }));
   }
   return placed;

@@ -3,7 +3,21 @@
  * bones are asked in their own frame.
  */
 import type { Surface } from './surface';
-import { add, cross, distance, dot, mix, placed, placedBack, pointAt, scale, subtract, turned, turnedBack, unit } from './vectors';
+import {
+  add,
+  cross,
+  distance,
+  dot,
+  mix,
+  placed,
+  placedBack,
+  pointAt,
+  scale,
+  subtract,
+  turned,
+  turnedBack,
+  unit,
+} from './vectors';
 import type { Point } from './vectors';
 
 /** Surfaces and where the bones' bodies are: the limb now, or as it was. */
@@ -75,16 +89,28 @@ function nearestTriangle(surface: Surface, { origin_m: o, direction: d }: Ray, m
   let best_m = most_m;
   let best: TriangleHit | null = null;
   for (let t = 0; t < triangles.length; t += 3) {
-    const a = 3 * triangles[t]!, b = 3 * triangles[t + 1]!, c = 3 * triangles[t + 2]!;
-    const ux = p[b]! - p[a]!, uy = p[b + 1]! - p[a + 1]!, uz = p[b + 2]! - p[a + 2]!;
-    const vx = p[c]! - p[a]!, vy = p[c + 1]! - p[a + 1]!, vz = p[c + 2]! - p[a + 2]!;
-    const qx = d[1] * vz - d[2] * vy, qy = d[2] * vx - d[0] * vz, qz = d[0] * vy - d[1] * vx;
+    const a = 3 * triangles[t]!,
+      b = 3 * triangles[t + 1]!,
+      c = 3 * triangles[t + 2]!;
+    const ux = p[b]! - p[a]!,
+      uy = p[b + 1]! - p[a + 1]!,
+      uz = p[b + 2]! - p[a + 2]!;
+    const vx = p[c]! - p[a]!,
+      vy = p[c + 1]! - p[a + 1]!,
+      vz = p[c + 2]! - p[a + 2]!;
+    const qx = d[1] * vz - d[2] * vy,
+      qy = d[2] * vx - d[0] * vz,
+      qz = d[0] * vy - d[1] * vx;
     const size = ux * qx + uy * qy + uz * qz;
     if (size <= 0) continue;
-    const sx = o[0] - p[a]!, sy = o[1] - p[a + 1]!, sz = o[2] - p[a + 2]!;
+    const sx = o[0] - p[a]!,
+      sy = o[1] - p[a + 1]!,
+      sz = o[2] - p[a + 2]!;
     const second = (sx * qx + sy * qy + sz * qz) / size;
     if (second < 0 || second > 1) continue;
-    const rx = sy * uz - sz * uy, ry = sz * ux - sx * uz, rz = sx * uy - sy * ux;
+    const rx = sy * uz - sz * uy,
+      ry = sz * ux - sx * uz,
+      rz = sx * uy - sy * ux;
     const third = (d[0] * rx + d[1] * ry + d[2] * rz) / size;
     if (third < 0 || second + third > 1) continue;
     const along_m = (vx * rx + vy * ry + vz * rz) / size;
@@ -183,9 +209,13 @@ const LEAST_FACING = 0.1;
 /** By the box round the triangle. */
 function mayBeNearer(surface: Surface, triangle: number, place: Point, reach_m: number): boolean {
   const { triangles, newest_m: p } = surface;
-  const a = 3 * triangles[3 * triangle]!, b = 3 * triangles[3 * triangle + 1]!, c = 3 * triangles[3 * triangle + 2]!;
+  const a = 3 * triangles[3 * triangle]!,
+    b = 3 * triangles[3 * triangle + 1]!,
+    c = 3 * triangles[3 * triangle + 2]!;
   for (let axis = 0; axis < 3; ++axis) {
-    const x = p[a + axis]!, y = p[b + axis]!, z = p[c + axis]!;
+    const x = p[a + axis]!,
+      y = p[b + axis]!,
+      z = p[c + axis]!;
     if (Math.min(x, y, z) > place[axis]! + reach_m || Math.max(x, y, z) < place[axis]! - reach_m) return false;
   }
   return true;
@@ -197,17 +227,21 @@ export function weighted(corners: [Point, Point, Point], weights: Point): Point 
 
 /** Barycentric coordinates of the triangle's point that is nearest (Ericson, Real-Time Collision Detection, 5.1.5). */
 export function closestOnTriangle(place: Point, [a, b, c]: [Point, Point, Point]): Point {
-  const ab = subtract(b, a), ac = subtract(c, a);
+  const ab = subtract(b, a),
+    ac = subtract(c, a);
   const ap = subtract(place, a);
-  const d1 = dot(ab, ap), d2 = dot(ac, ap);
+  const d1 = dot(ab, ap),
+    d2 = dot(ac, ap);
   if (d1 <= 0 && d2 <= 0) return [1, 0, 0];
   const bp = subtract(place, b);
-  const d3 = dot(ab, bp), d4 = dot(ac, bp);
+  const d3 = dot(ab, bp),
+    d4 = dot(ac, bp);
   if (d3 >= 0 && d4 <= d3) return [0, 1, 0];
   const vc = d1 * d4 - d3 * d2;
   if (vc <= 0 && d1 >= 0 && d3 <= 0) return mix([1, 0, 0], [0, 1, 0], d1 / (d1 - d3));
   const cp = subtract(place, c);
-  const d5 = dot(ab, cp), d6 = dot(ac, cp);
+  const d5 = dot(ab, cp),
+    d6 = dot(ac, cp);
   if (d6 >= 0 && d5 <= d6) return [0, 0, 1];
   const vb = d5 * d2 - d1 * d6;
   if (vb <= 0 && d2 >= 0 && d6 <= 0) return mix([1, 0, 0], [0, 0, 1], d2 / (d2 - d6));

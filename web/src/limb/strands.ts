@@ -93,7 +93,10 @@ function slicesOf(points: Point[], along: number[]): Slice[] {
   const centres = smooth(filled(sums));
   const radii = new Array<number>(SLICES + 1).fill(0);
   each((slice, weight, i) => (radii[slice]! += weight * distance(points[i]!, centres[slice]!)));
-  return framed(centres, radii.map((sum, i) => sum / (sums[i]!.weight || 1)));
+  return framed(
+    centres,
+    radii.map((sum, i) => sum / (sums[i]!.weight || 1)),
+  );
 }
 
 /** A slice without vertices takes the centre of the one before it. */

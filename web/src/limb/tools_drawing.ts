@@ -1,5 +1,16 @@
 /** The hands in the scene: balls, and of the own one a thin thread from where the tool is to where the hand is. */
-import { BufferAttribute, BufferGeometry, Line, LineBasicMaterial, Mesh, MeshBasicMaterial, Object3D, SphereGeometry, ShaderMaterial, Color } from 'three';
+import {
+  BufferAttribute,
+  BufferGeometry,
+  Line,
+  LineBasicMaterial,
+  Mesh,
+  MeshBasicMaterial,
+  Object3D,
+  SphereGeometry,
+  ShaderMaterial,
+  Color,
+} from 'three';
 import type { ToolReading } from '../wire/moment';
 import type { Point } from './vectors';
 

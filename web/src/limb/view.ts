@@ -60,7 +60,8 @@ export class LimbView {
 
   start(app: App): void {
     this.app = app;
-    for (const event of ['look', 'selection', 'language', 'touch'] as const) app.on(event, () => this.changed());
+    for (const event of ['look', 'language'] as const) app.on(event, () => this.changed());
+    for (const event of ['selection', 'touch'] as const) app.on(event, () => this.repaint());
     app.on('readings', () => this.followReadings(app));
     requestAnimationFrame((now_ms) => this.frame(now_ms));
   }
@@ -90,8 +91,14 @@ export class LimbView {
   }
 
   /** Draws anew at the next frame. */
-  changed(): void {
-    this.lookStale = this.stale = this.anchorsStale = true;
+  repaint(): void {
+    this.lookStale = this.stale = true;
+  }
+
+  /** The same where other parts may be seen now. */
+  private changed(): void {
+    this.repaint();
+    this.anchorsStale = true;
   }
 
   /** They come with every picture; a limb at rest in its own colours is not drawn again for them. */
@@ -99,7 +106,7 @@ export class LimbView {
     const { colour, lines } = app.look;
     const others = this.othersOf(app).length > 0;
     const tells = colour === 'activation' || colour === 'tension' || lines || app.touch.line !== null;
-    if (tells || others || this.othersSeen) this.lookStale = this.stale = true;
+    if (tells || others || this.othersSeen) this.repaint();
     this.othersSeen = others;
   }
 
@@ -110,7 +117,7 @@ export class LimbView {
   setHovered(key: string | null): void {
     if (key === this.hovered) return;
     this.hovered = key;
-    this.changed();
+    this.repaint();
   }
 
   /** Through a place of the page [px]. */
@@ -124,7 +131,11 @@ export class LimbView {
 
   /** Where on the page the middle of what is seen of a part is; null: nothing is seen of it. */
   placeOf(key: string): { clientX: number; clientY: number } | null {
-    const seen = this.anchors.find(this.renderer, this.camera.three, ({ part }) => this.app !== null && isSolid(part, this.app.look));
+    const seen = this.anchors.find(
+      this.renderer,
+      this.camera.three,
+      ({ part }) => this.app !== null && isSolid(part, this.app.look),
+    );
     const anchor = seen.find(({ surface }) => surface.part.key === key);
     if (anchor === undefined) return null;
     const place = new Vector3(...vertexOf(this.model, anchor.surface, anchor.vertex).place).project(this.camera.three);
@@ -157,9 +168,9 @@ export class LimbView {
     this.anchorsStale ||= turned;
     const labelled = app.look.labels && app.look.names !== 'none';
     const anchorsDue = labelled && this.anchorsStale && now_ms >= this.anchorsDue_ms;
-    const moving = turned || posed || moved.length > 0 || this.stale;
+    const moving = turned || posed || moved.length > 0;
     const finer = this.fineness.follow(moving, now_ms);
-    if (!moving && !finer && !anchorsDue) return;
+    if (!moving && !this.stale && !finer && !anchorsDue) return;
     if (finer) this.renderer.setPixelRatio(this.fineness.ratio);
     if (this.lookStale) this.applyLook(app);
     this.stale = this.lookStale = false;
@@ -179,7 +190,7 @@ export class LimbView {
 
   private findAnchors(app: App, now_ms: number): void {
     this.anchorsStale = false;
-    this.anchorsDue_ms = now_ms + ANCHORS_EVERY_MS;
+    this.anchorsDue_ms = now_ms + (this.fineness.slow ? 4 : 1) * ANCHORS_EVERY_MS;
     const anchors = this.anchors.find(this.renderer, this.camera.three, (surface) => isSolid(surface.part, app.look));
     this.labels.show(anchors, (key) => app.nameOf(key));
   }

@@ -32,7 +32,8 @@ export class ForceGauge {
     const name = (key: string): string => (this.app.look.names === 'none' ? '?' : this.app.nameOf(key));
     if (me.hand < 0) return texts.t('web.felt.no_hand');
     if (line !== null) return texts.t('feel.holds_line', name(line), tension_N);
-    if (part !== null) return texts.t(this.app.part(part)?.kind === 'bone' ? 'feel.touches_bone' : 'feel.touches', name(part));
+    if (part !== null)
+      return texts.t(this.app.part(part)?.kind === 'bone' ? 'feel.touches_bone' : 'feel.touches', name(part));
     return texts.t(`web.felt.${mode}`);
   }
 }

@@ -9,4 +9,3 @@ export function mountLive(app: App): void {
     app.mountPanel('right', 'stiffness', 'web.stiffness.title', new StiffnessView(app).element, { order: 20 });
   }
 }
-

@@ -2,6 +2,7 @@
 import uPlot from 'uplot';
 import { el } from '../app/dom';
 import type { App } from '../app/state';
+import { Throttle } from '../app/throttle';
 import type { JointReading, Readings } from '../wire/moment';
 
 const SHOWN_S = 30;
@@ -22,11 +23,15 @@ export class StiffnessView {
   private readonly joint: number;
   private plot: uPlot | null = null;
   private readonly track: { time_s: number; stiffness: number; angle_deg: number }[] = [];
-  private shown_ms = 0;
+  // The last one is shown, too: a recording may stand still after it.
+  private readonly shows = new Throttle<JointReading>(SHOW_EVERY_MS, (joint) => this.show(joint));
 
   constructor(private readonly app: App) {
     const key = app.scene.co_contraction?.joint;
-    this.joint = Math.max(0, app.scene.joints.findIndex((joint) => joint.key === key));
+    this.joint = Math.max(
+      0,
+      app.scene.joints.findIndex((joint) => joint.key === key),
+    );
     for (const part of ['K_muscle', 'K_geometry', 'K_contact', 'K_passive'] as PartKey[]) this.addPart(part);
     this.element.append(this.number, this.angle, this.chart, this.parts);
     app.on('readings', (readings) => this.take(readings));
@@ -44,10 +49,7 @@ export class StiffnessView {
     const joint = readings.joints[this.joint];
     if (joint === undefined) return;
     this.remember(readings.time_s, joint);
-    const now_ms = performance.now();
-    if (now_ms - this.shown_ms < SHOW_EVERY_MS || !this.element.isConnected) return;
-    this.shown_ms = now_ms;
-    this.show(joint);
+    this.shows.push(joint);
   }
 
   private remember(time_s: number, joint: JointReading): void {
@@ -61,7 +63,10 @@ export class StiffnessView {
 
   private show(joint: JointReading): void {
     const { texts } = this.app;
-    this.number.textContent = texts.t(joint.stiffness_Nm_rad < 0 ? 'demonstrate.K_unstable' : 'demonstrate.K', joint.stiffness_Nm_rad);
+    this.number.textContent = texts.t(
+      joint.stiffness_Nm_rad < 0 ? 'demonstrate.K_unstable' : 'demonstrate.K',
+      joint.stiffness_Nm_rad,
+    );
     this.angle.textContent = texts.t('demonstrate.torque', joint.torque_Nm, degrees(joint.angle_rad));
     const sum = (of: (muscle: JointReading['muscles'][number]) => number): number =>
       joint.muscles.reduce((total, muscle) => total + of(muscle), 0);
@@ -90,8 +95,16 @@ export class StiffnessView {
     const width = this.chart.clientWidth;
     if (width === 0) return;
     const style = getComputedStyle(this.element);
-    const [ink, line, first, second] = ['--quiet', '--line', '--plot-1', '--plot-2'].map((name) => style.getPropertyValue(name).trim());
-    const axis = { stroke: ink!, grid: { stroke: line!, width: 1 }, ticks: { show: false }, font: '11px system-ui', size: 34 };
+    const [ink, line, first, second] = ['--quiet', '--line', '--plot-1', '--plot-2'].map((name) =>
+      style.getPropertyValue(name).trim(),
+    );
+    const axis = {
+      stroke: ink!,
+      grid: { stroke: line!, width: 1 },
+      ticks: { show: false },
+      font: '11px system-ui',
+      size: 34,
+    };
     const { texts } = this.app;
     this.plot = new uPlot(
       {
@@ -99,13 +112,21 @@ export class StiffnessView {
         height: HEIGHT_PX,
         cursor: { show: false },
         legend: { show: true, live: false },
-        scales: { x: { time: false, range: () => [-SHOWN_S, 0] }, K: { range: roomy(0.2) }, angle: { range: roomy(4) } },
+        scales: {
+          x: { time: false, range: () => [-SHOWN_S, 0] },
+          K: { range: roomy(0.2) },
+          angle: { range: roomy(4) },
+        },
         series: [
           { label: 's' },
           { label: texts.t('web.stiffness.K'), scale: 'K', stroke: first!, width: 2 },
           { label: texts.t('web.stiffness.angle'), scale: 'angle', stroke: second!, width: 1.5, dash: [4, 3] },
         ],
-        axes: [{ ...axis, size: 22 }, { ...axis, scale: 'K' }, { ...axis, scale: 'angle', side: 1, grid: { show: false } }],
+        axes: [
+          { ...axis, size: 22 },
+          { ...axis, scale: 'K' },
+          { ...axis, scale: 'angle', side: 1, grid: { show: false } },
+        ],
       },
       data,
       this.chart,

@@ -1,4 +1,4 @@
-/** What of a class may go into a file that others get: the limb, but nobody's name, answer, place or key to the class. */
+/** What of a class may go into a file that others get: the limb, but nobody's name, answer or key to the class. */
 
 import { FrameType, frameBytes, parseFrame } from '../wire/frame';
 

@@ -25,6 +25,9 @@ export async function openRecording(element: Element): Promise<OpenedRecording> 
     lessons: [], // a lesson wants a hand, and a recording has none
     dictionaries: recording.dictionaries,
     source: player,
-    mount: (app) => void app.mountOver(timeBar(app, player)),
+    mount: (app) => {
+      app.mountOver(timeBar(app, player));
+      app.toast(app.texts.t('web.record.playing'));
+    },
   };
 }

@@ -34,6 +34,5 @@ export function timeBar(app: App, player: Player): HTMLElement {
   };
   player.onChange(update);
   update();
-  const note = app.texts.bind(el('p', { class: 'quiet small' }), 'web.record.playing');
-  return el('div', { class: 'time-bar' }, note, el('div', { class: 'row' }, toggle, slider, time));
+  return el('div', { class: 'time-bar row' }, toggle, slider, time);
 }

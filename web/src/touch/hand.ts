@@ -85,7 +85,7 @@ export class Hand {
   hoverAt(hit: Hit | null): void {
     this.hover_m = hit && add(hit.point_m, scale(hit.normal, RADIUS_M + HOVER_M));
     if (!this.busy) this.view.tools.setOwn(this.hover_m && ownAt(this.hover_m, this.hover_m));
-    this.view.changed();
+    this.view.repaint();
   }
 
   letGo(): void {
@@ -134,7 +134,10 @@ export class Hand {
   private tickPull(pull: Pull): void {
     const { readings, parts } = this.page;
     const held_m = pointOnLine(readings?.lines_m[pull.muscle] ?? [], pull.fraction);
-    const force_N = scale([held_m[0] - pull.hand[0], held_m[1] - pull.hand[1], held_m[2] - pull.hand[2]], LINE_STIFFNESS_N_M);
+    const force_N = scale(
+      [held_m[0] - pull.hand[0], held_m[1] - pull.hand[1], held_m[2] - pull.hand[2]],
+      LINE_STIFFNESS_N_M,
+    );
     this.sendState({ ...this.state(pull.hand), proxy_m: held_m, force_N, grip: pull.grip(), buttons: GRAB_LINE });
     this.view.tools.setOwn({ proxy_m: held_m, hand_m: pull.hand, radius_m: RADIUS_M });
     this.page.setTouch({

@@ -64,7 +64,8 @@ export function pointOnLine(line_m: ArrayLike<number>, fraction: number): Point 
   const sizes = points.slice(1).map((point, i) => distance(point, points[i]!));
   let left_m = fraction * sizes.reduce((sum, size) => sum + size, 0);
   for (let i = 0; i < sizes.length; ++i) {
-    if (left_m <= sizes[i]! || i === sizes.length - 1) return mix(points[i]!, points[i + 1]!, left_m / (sizes[i]! || 1));
+    if (left_m <= sizes[i]! || i === sizes.length - 1)
+      return mix(points[i]!, points[i + 1]!, left_m / (sizes[i]! || 1));
     left_m -= sizes[i]!;
   }
   return points[0] ?? [0, 0, 0];

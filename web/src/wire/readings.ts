@@ -48,7 +48,7 @@ function tool(reader: ByteReader): ToolReading {
   };
   reader.doubles(3 * FORCE_PARTS);
   const line_tension_N = reader.f64();
-  reader.doubles(3);  // scales of force and motion, age of what is felt
+  reader.doubles(3); // scales of force and motion, age of what is felt
   return { ...held, line_tension_N };
 }
 

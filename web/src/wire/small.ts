@@ -103,7 +103,11 @@ export function decodeWelcome(bytes: Uint8Array): Welcome {
 }
 
 export function encodeForce(force: Force): Uint8Array {
-  return payload().u64(force.tool_sequence).u64(force.step).f64(...force.force_N).written();
+  return payload()
+    .u64(force.tool_sequence)
+    .u64(force.step)
+    .f64(...force.force_N)
+    .written();
 }
 
 export function decodeForce(bytes: Uint8Array): Force {
@@ -114,7 +118,9 @@ export function decodeForce(bytes: Uint8Array): Force {
 }
 
 export function encodeEvent(event: Event): Uint8Array {
-  const writer = payload().u8(events.indexOf(event.code) + 1).i32(event.value);
+  const writer = payload()
+    .u8(events.indexOf(event.code) + 1)
+    .i32(event.value);
   return writer.bytes(utf8Bytes(event.text, MOST_TEXT_BYTES)).written();
 }
 

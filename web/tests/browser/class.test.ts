@@ -122,6 +122,17 @@ test('the link for students stands beside its code; one of this computer alone i
   await teacher.click('.invite >> text=Close');
 });
 
+test('another language is shown at once, everywhere', async () => {
+  await student.selectOption('select[aria-label="language"]', 'de');
+  await student.waitForSelector('.bar-tools >> text=Melden');
+  await student.waitForSelector('.panel-title:text-is("Lernen")');
+  await student.waitForSelector('.lesson >> text=Beginnen >> nth=0');
+  await student.waitForSelector('summary:has-text("Knochen")');
+  assert.equal(await student.getAttribute('html', 'lang'), 'de');
+  await student.selectOption('select[aria-label="Sprache"]', 'en');
+  await student.waitForSelector('.panel-title:text-is("Learn")');
+});
+
 test('after a break the class goes on', async () => {
   pages.server.drop();
   await student.waitForSelector('.status-link[data-state="broken"]');

@@ -1,5 +1,5 @@
 import assert from 'node:assert/strict';
-import { readFileSync, writeFileSync } from 'node:fs';
+import { readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
@@ -15,6 +15,7 @@ before(async () => {
 });
 
 after(async () => {
+  rmSync(file, { force: true });
   await pages.close();
   assert.deepEqual(pages.errors, []);
 });

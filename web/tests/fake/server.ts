@@ -189,8 +189,9 @@ export class FakeServer {
 
 /** As the server sends it. */
 function policy({ headers }: IncomingMessage): string {
-  const own = `script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self' ws://${headers.host ?? ''}`;
-  return `default-src 'none'; ${own}; base-uri 'none'; form-action 'none'; frame-ancestors 'none'`;
+  const sources = `script-src 'self'; style-src 'self'; img-src 'self' data: blob:`;
+  const connections = `connect-src 'self' ws://${headers.host ?? ''}`;
+  return `default-src 'none'; ${sources}; ${connections}; base-uri 'none'; form-action 'none'; frame-ancestors 'none'`;
 }
 
 function send(

@@ -1,4 +1,4 @@
-/** A scene that answers hands at once: touched muscles push back, pulled lines turn the elbow, co-contraction stiffens. */
+/** A scene that answers at once: touched muscles push back, pulled lines turn the elbow, co-contraction stiffens. */
 
 import { ByteWriter } from '../../src/wire/cursor';
 import { encodeWhole } from '../../src/wire/picture';
