@@ -20,6 +20,7 @@ if [ "${1:-}" = "--quick" ]; then
 fi
 phase "release, build" build bundled
 phase "release, tests" run_tests bundled -LE 'bench|soak'
+phase "page of a class" "$project/tools/test_web.sh" "$project/build/bundled/src/app/myotact"
 phase "address sanitizer, build" build asan
 # The slow tests and the validation cases ran above, and what these call is tested here too.
 phase "address sanitizer, tests" run_tests asan -LE "bench|$release_only"
