@@ -124,11 +124,12 @@ Json co_contraction_json(const scene::Scene& scene) {
   return {{"joint", scene.specimen.joints[joint].key}, {"presets", presets}};
 }
 
-std::string facts_json(const scene::Scene& scene, const view::LimbShade& shade) {
+/// `version`: of page and program; a page that was opened before another one was served sees that by it.
+std::string facts_json(const scene::Scene& scene, const view::LimbShade& shade, const std::string& version) {
   const anatomy::FactsByKey facts = anatomy::load_part_facts(data_folder() / "assets" / "canine" / "names.json");
   Json joints = Json::array();
   for (const anatomy::Joint& joint : scene.specimen.joints) joints.push_back({{"key", joint.key}});
-  return Json{{"version", MYOTACT_VERSION},
+  return Json{{"version", version},
               {"name", scene.name},
               {"title", scene.title},
               {"note", scene.note},
@@ -172,7 +173,7 @@ net::WebFiles class_page(const scene::Scene& scene) {
   net::WebFiles files;
   add_page(files);
   const view::LimbShade shade = view::shade_limb(scene.specimen);
-  files["/scene.json"] = net::web_file(kJson, facts_json(scene, shade));
+  files["/scene.json"] = net::web_file(kJson, facts_json(scene, shade, MYOTACT_VERSION + files["/app.js"].tag));
   files["/shade.bin"] = net::web_file("application/octet-stream", shade_bytes(shade));
   files["/lessons.json"] = net::web_file(kJson, lessons_json(scene));
   for (const std::string& language : view::ui::languages()) {

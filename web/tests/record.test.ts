@@ -43,7 +43,7 @@ test('a recording comes out of its text as it went in, and no markup is left in 
     },
     { at_ms: 17, bytes: frame(FrameType.Picture) },
   ];
-  const recording: Recording = { scene, dictionaries: { en: { a: '<!-- x' } }, frames };
+  const recording: Recording = { scene, dictionaries: { en: { a: '<!-- x' } }, shade: new Uint8Array([1, 255]), frames };
   const text = recordingText(recording);
   assert.ok(!text.includes('<'));
   assert.deepEqual(parseRecording(text), recording);
@@ -103,7 +103,7 @@ test('a jump in pictures begins with the last whole one', () => {
     bytes,
   }));
   const given: number[] = [];
-  const player = new Player({ scene, dictionaries: {}, frames }, { now_ms: () => 0, every: () => () => {} });
+  const player = new Player({ scene, dictionaries: {}, shade: new Uint8Array([1, 255]), frames }, { now_ms: () => 0, every: () => () => {} });
   player.start((bytes) => given.push(bytes[24] ?? 0));
   given.length = 0;
   player.seek(0.0035);
@@ -135,7 +135,7 @@ function played() {
     tick = wanted;
     return () => (tick = null);
   };
-  const player = new Player({ scene, dictionaries: {}, frames }, { now_ms: () => clock_ms, every });
+  const player = new Player({ scene, dictionaries: {}, shade: new Uint8Array([1, 255]), frames }, { now_ms: () => clock_ms, every });
   const given: string[] = [];
   const pass = (ms: number) => {
     clock_ms += ms;
@@ -177,7 +177,7 @@ test('a jump gives what the moment is made of and nothing twice', () => {
 });
 
 test('an empty recording plays nothing', () => {
-  const player = new Player({ scene, dictionaries: {}, frames: [] });
+  const player = new Player({ scene, dictionaries: {}, shade: new Uint8Array([1, 255]), frames: [] });
   player.start(() => assert.fail());
   assert.deepEqual([player.playing, player.length_s], [false, 0]);
 });

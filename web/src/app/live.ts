@@ -11,6 +11,7 @@ import { takeInvitation } from './invitation';
 import { askName, wasLoadedAgain } from './joining';
 import { kept } from './storage';
 import type { SceneFacts } from './facts';
+import { fetchShade } from './shade';
 import type { Texts } from './state';
 
 export async function joinClass(texts: Texts, scene: SceneFacts, lessons: unknown[]): Promise<void> {
@@ -78,10 +79,4 @@ function listenerOf({ page, view, hand }: Assembly, seen: (sequence: number) => 
     event: ({ code, text }) => page.toast(code === 'stop' ? page.texts.t('web.net.stopped') : text),
     control: (message) => page.takeControl(message),
   };
-}
-
-/** Of a server that knows none: the limb is drawn without. */
-async function fetchShade(): Promise<Uint8Array | null> {
-  const answer = await fetch('/shade.bin');
-  return answer.ok ? new Uint8Array(await answer.arrayBuffer()) : null;
 }

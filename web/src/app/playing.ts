@@ -6,17 +6,20 @@ import { assemble } from './assembly';
 import { Feed } from './feed';
 
 export function playRecording(recording: OpenedRecording): void {
-  const { dictionaries, facts, lessons, source } = recording;
+  const { dictionaries, facts, lessons, shade, source } = recording;
   const texts = createTexts(dictionaries);
   const assembly = assemble(texts, facts, lessons);
   const { page, view } = assembly;
   page.setConnection({ state: 'playing' });
+  let shaded = false;
   const feed = new Feed({
     welcome: () => undefined,
     mesh: (mesh) => view.takeMesh(mesh),
     picture: (picture) => {
       view.takePicture(picture);
       page.takePicture(picture);
+      if (!shaded) view.takeShade(shade);
+      shaded = true;
     },
     force: () => undefined,
     event: () => undefined,

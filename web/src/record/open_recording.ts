@@ -11,6 +11,7 @@ export interface OpenedRecording {
   facts: SceneFacts;
   lessons: unknown[];
   dictionaries: Record<string, Dictionary>;
+  shade: Uint8Array;
   source: FrameSource;
   /** Adds the time bar. */
   mount(app: App): void;
@@ -24,6 +25,7 @@ export async function openRecording(element: Element): Promise<OpenedRecording> 
     facts: recording.scene,
     lessons: [], // a lesson wants a hand, and a recording has none
     dictionaries: recording.dictionaries,
+    shade: recording.shade,
     source: player,
     mount: (app) => {
       app.mountOver(timeBar(app, player));

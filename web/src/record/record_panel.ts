@@ -1,6 +1,7 @@
 /** Record and export: for instructors. */
 
 import { button, el } from '../app/dom';
+import { fetchShade } from '../app/shade';
 import type { App } from '../app/state';
 import type { Dictionary } from '../text/texts';
 import { inlinePage } from './export_page';
@@ -24,7 +25,8 @@ async function exportedPage(app: App, recorder: Recorder): Promise<string> {
     Dictionary
   >;
   const [page, style, script] = await Promise.all(['/', '/app.css', '/app.js'].map(textOf));
-  const recording = recordingText({ scene: app.scene, dictionaries, frames: [...recorder.frames] });
+  const shade = (await fetchShade()) ?? new Uint8Array();
+  const recording = recordingText({ scene: app.scene, dictionaries, shade, frames: [...recorder.frames] });
   return inlinePage(page ?? '', style ?? '', script ?? '', recording);
 }
 

@@ -15,27 +15,38 @@ export interface TimedFrame {
 export interface Recording {
   scene: SceneFacts;
   dictionaries: Record<string, Dictionary>;
+  shade: Uint8Array; // as `/shade.bin`; empty: none
   frames: TimedFrame[]; // rising in time
+}
+
+/** As it lies in the page; bytes as base64. */
+interface PackedRecording {
+  schema: number;
+  scene: SceneFacts;
+  dictionaries: Record<string, Dictionary>;
+  shade: string;
+  frames: [number, string][];
 }
 
 const SCHEMA = 1;
 export const RECORDING_ID = 'recording';
 
 /** As text for a <script> element: no "<" is left in it, so that nothing in a name ends the element. */
-export function recordingText({ scene, dictionaries, frames }: Recording): string {
-  const packed = frames.map(({ at_ms, bytes }) => [Math.round(at_ms), toBase64(bytes)]);
-  return JSON.stringify({ schema: SCHEMA, scene, dictionaries, frames: packed }).replace(/</g, '\\u003c');
+export function recordingText({ scene, dictionaries, shade, frames }: Recording): string {
+  const packed = frames.map(({ at_ms, bytes }): [number, string] => [Math.round(at_ms), toBase64(bytes)]);
+  const content: PackedRecording = { schema: SCHEMA, scene, dictionaries, shade: toBase64(shade), frames: packed };
+  return JSON.stringify(content).replace(/</g, '\\u003c');
 }
 
 /** Throws where the text is no recording of this version. */
 export function parseRecording(text: string): Recording {
-  const packed = JSON.parse(text) as Recording & { schema: number; frames: unknown };
+  const packed = JSON.parse(text) as PackedRecording;
   if (packed.schema !== SCHEMA) throw new Error(`a recording of version ${packed.schema}; this page plays ${SCHEMA}`);
-  const frames = packed.frames as unknown as [number, string][];
   return {
     scene: packed.scene,
     dictionaries: packed.dictionaries,
-    frames: frames.map(([at_ms, base64]) => ({ at_ms, bytes: fromBase64(base64) })),
+    shade: fromBase64(packed.shade),
+    frames: packed.frames.map(([at_ms, base64]) => ({ at_ms, bytes: fromBase64(base64) })),
   };
 }
 
