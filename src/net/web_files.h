@@ -9,7 +9,7 @@ namespace myotact::net {
 struct WebFile {
   std::string content_type;  // "text/html; charset=utf-8"
   std::string body;
-  std::string gzip;  // the same, compressed (RFC 1952); for browsers that take it
+  std::string gzip;  // the same, by gzip; for browsers that take it
   std::string tag;   // of these bytes, in quotes: a browser that has them is told so
 };
 

@@ -7,6 +7,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "core/error.h"
 #include "geometry/mesh_files.h"
@@ -78,7 +79,7 @@ class PartFiles : public ::testing::Test {
     geometry::write_ply(rod, folder_ / name);
   }
 
-  fs::path folder_ = fs::path(::testing::TempDir()) / "part_files_test";
+  fs::path folder_ = fs::path(::testing::TempDir()) / ("part_files_test" + std::to_string(::getpid()));
   const KnownParts known_ = {{"femur", "Os femoris", "Femur", true, {}}, {"gracilis", "", "Gracilis", false, {}}};
 };
 

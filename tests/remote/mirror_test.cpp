@@ -41,7 +41,7 @@ TEST(FrameFit, AFrameOfTheSpecimenFitsAndABrokenOneIsNamed) {
       {[nan](auto& f) { f.tools[0].force_world_N[2] = nan; }, "tool"},
       {[](auto& f) { f.tools[0].touched_muscle = 2; }, "touched muscle 2"},
       {[](auto& f) { f.tools[0].grabbed_body = -2; }, "grabbed body -2"},
-      {[](auto& f) { f.tools.resize(9); }, "9 tools"},
+      {[](auto& f) { f.tools.resize(kMostHands + 1); }, "33 tools"},
       {[nan](auto& f) {
          f.springs_world_m.push_back({{{0, 0, nan}, {0, 0, 0}}});
        },
