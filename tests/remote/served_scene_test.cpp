@@ -172,8 +172,9 @@ struct Member {
 
 TEST(ServedScene, AClassHearsItsInstructorAndAStudentChangesNothing) {
   Host host("particle");
-  Member student(host, net::Role::Student), instructor(host, net::Role::Instructor);
-  EXPECT_TRUE(student.hears(host, R"("students":1)"));
+  Member student(host, net::Role::Student);
+  EXPECT_TRUE(student.hears(host, R"("students":1)")) << "and is number 1";
+  Member instructor(host, net::Role::Instructor);
   instructor.stream.write_text(R"({"do": "class_freeze", "on": true})", 0);
   EXPECT_TRUE(student.hears(host, R"("frozen":true)"));
   student.stream.write_text(R"({"do": "class_hand_up", "on": true})", 0);
