@@ -157,17 +157,19 @@ CLI::App* add_serve(CLI::App& program, Options& options) {
   serve->add_option("--port", options.port, "TCP port; 0: a free one")->capture_default_str();
   auto* websocket = serve->add_option("--websocket-port", options.websocket_port, "for browsers; 0: a free one");
   websocket->capture_default_str();
-  serve->add_flag("--no-websocket", options.no_websocket, "TCP alone")->excludes(websocket);
+  auto* without_websocket = serve->add_flag("--no-websocket", options.no_websocket, "TCP alone")->excludes(websocket);
   serve
       ->add_flag(
           "--web", options.web,
           "also serve a page for a class: students touch the limb in their browsers; prints its link and QR code")
-      ->excludes("--no-websocket");
+      ->excludes(without_websocket);
   serve->add_option("--allow-origin", options.origins, "web pages of this origin may connect, as https://lab.example");
   serve->add_option("--hands", options.hands, "how many hands the scene has; without: those of the scene")
       ->check(CLI::Range(std::size_t{1}, myotact::remote::kMostHands));
-  serve->add_flag("--lockstep", options.lockstep,
-                  "virtual clock, one client at a time: a step whenever its hand has sent its state; for tests");
+  serve
+      ->add_flag("--lockstep", options.lockstep,
+                 "virtual clock, one client at a time: a step whenever its hand has sent its state; for tests")
+      ->excludes("--web");
   return serve;
 }
 

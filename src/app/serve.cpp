@@ -49,8 +49,15 @@ void invite_class(const net::Endpoint& page, const net::AccessPolicy& access_pol
   const std::string link = class_link(page, access_policy.token, "student");
   served.invite(link);
   std::cout << "page " << link << '\n'
-            << "instructor_page " << class_link(page, access_policy.instructor_token, "instructor") << '\n';
-  if (isatty(STDOUT_FILENO) != 0) std::cout << '\n' << qr_for_terminal(link);
+            << "instructor_page "
+            << class_link(page, access_policy.instructor_token ? access_policy.instructor_token : access_policy.token,
+                          "instructor")
+            << '\n';
+  if (net::is_loopback(page.host)) {
+    spdlog::info("The page is for browsers on this machine; --bind 0.0.0.0 lets those on others in.");
+  } else if (isatty(STDOUT_FILENO) != 0) {
+    std::cout << '\n' << qr_for_terminal(link);
+  }
   std::cout.flush();
 }
 

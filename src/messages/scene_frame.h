@@ -26,6 +26,7 @@ struct ForceParts {
 
 /// One tool as the view draws it.
 struct ToolFrame {
+  int hand = 0;  // index of the scene's tool; hands that nobody has are left out of lists
   std::array<double, 3> tool_world_m{};
   std::array<double, 3> proxy_world_m{};
   std::array<double, 3> force_world_N{};

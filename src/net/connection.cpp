@@ -15,6 +15,8 @@ namespace myotact::net {
 
 namespace {
 
+constexpr std::size_t kMostStudentControl = 1024;  // bytes of what is not an instructor's
+
 /// The same hand, which touches and holds nothing.
 messages::ToolState without_touch(const messages::ToolState& state) {
   messages::ToolState free;
@@ -65,7 +67,9 @@ void Connection::serve() {
   reader_.set_most_payload(kSmallPayload);  // a stranger is not worth more memory
   set_patience(socket_, server_.settings.hello_wait);
   if (!admit()) return;
-  reader_.set_most_payload(kMostControl);
+  const bool leads = role_ == Role::Instructor;
+  reader_.set_most_payload(leads ? kMostControl : kMostStudentControl);
+  if (!leads) controls_ = TokenBucket(server_.settings.most_student_controls_per_s);
   set_patience(socket_, server_.settings.silence);
   sender_ = std::thread([this] { send_all(); });
   for (std::optional<Frame> frame = next_frame(); frame && obey(*frame);) frame = next_frame();
@@ -261,15 +265,16 @@ bool Connection::take_control(const Frame& frame) {
   const auto wait = controls_.take(std::chrono::steady_clock::now());
   if (wait.count() > 0) std::this_thread::sleep_for(wait);
   if (!server_.ask({id_, role_, text}))
-    return write(encode(Event{EventCode::Refused, 0, "too much is asked for at once"}));
+    return write(encode(
+        Event{EventCode::Refused, static_cast<std::int32_t>(Refusal::TooMuch), "too much is asked for at once"}));
   return true;
 }
 
-void Connection::refuse_wish(const std::string& why) {
+void Connection::refuse_wish(const std::string& why, Refusal kind) {
   constexpr std::size_t kMost = 8;  // of answers that a slow reader has not taken
   {
     const std::lock_guard lock(refusing_);
-    if (refusals_.size() < kMost) refusals_.push_back(why);
+    if (refusals_.size() < kMost) refusals_.push_back({EventCode::Refused, static_cast<std::int32_t>(kind), why});
   }
   server_.bell.ring();
 }

@@ -37,7 +37,7 @@ class Connection {
   std::uint32_t id() const { return id_; }
   ClientFacts facts() const { return {id_, role_, hand_, name_}; }  // once it no longer waits
   /// Sends the client, soon, why something that it asked for is not done.
-  void refuse_wish(const std::string& why);
+  void refuse_wish(const std::string& why, Refusal kind);
   /// The last word of a server that has no more time for it.
   void dismiss(ByeReason reason, const std::string& why);
   void shut_down() const { net::shut_down(socket_); }
@@ -83,12 +83,12 @@ class Connection {
   std::uint64_t first_step_ = 0;  // whose force is of this client's hand
   std::uint32_t stops_ = 0;       // sent so far
   std::mutex refusing_;
-  std::deque<std::string> refusals_;  // of wishes, to be sent
+  std::deque<Event> refusals_;  // of wishes, to be sent
   Bytes model_bytes_;
   std::shared_ptr<const EncodedScene> shown_;                 // sent last
   std::shared_ptr<const ScenePicture> pictured_;              // sent last
   std::deque<std::pair<std::uint64_t, std::size_t>> unseen_;  // pictures on their way, with their bytes
-  std::atomic<std::uint64_t> seen_{0};                        // the newest picture that the client has drawn
+  std::atomic<std::uint64_t> seen_{0};                        // the newest picture that the client has taken in
   std::shared_ptr<const Announcement> heard_;                 // sent last
   std::mutex writing_;
   std::uint32_t sequence_ = 0;         // of the next frame, under writing_

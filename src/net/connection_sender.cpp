@@ -42,13 +42,13 @@ bool Connection::send_events() {
     stops_ = now;
     if (!write(encode(Event{EventCode::Stop, 0, "somebody stopped all forces"}))) return false;
   }
-  std::deque<std::string> refusals;
+  std::deque<Event> refusals;
   {
     const std::lock_guard lock(refusing_);
     refusals.swap(refusals_);
   }
-  for (const std::string& why : refusals) {
-    if (!write(encode(Event{EventCode::Refused, 0, why}))) return false;
+  for (const Event& refusal : refusals) {
+    if (!write(encode(refusal))) return false;
   }
   return true;
 }
@@ -71,7 +71,7 @@ bool Connection::send_model() {
 }
 
 bool Connection::send_scene() {
-  if (!wants_.frames) return true;
+  if (!wants_.frames || wants_.pictures) return true;
   const std::shared_ptr<const EncodedScene> scene = server_.scene();
   if (!scene || scene == shown_) return true;
   const std::vector<const EncodedFrame*> frames = frames_to_send(*scene, shown_.get(), wants_);
@@ -112,9 +112,13 @@ bool Connection::write(FrameType type, std::uint8_t flags, std::span<const std::
 }
 
 void Connection::dismiss(ByeReason reason, const std::string& why) {
-  const std::unique_lock lock(writing_, std::try_to_lock);  // who is still taking a frame has no ear for it
-  const SmallFrame bye = encode(Bye{reason, why});
-  if (lock) write_locked(bye.type, bye.flags, bye.payload(), true);
+  if (closing_) return;
+  {
+    const std::unique_lock lock(writing_, std::try_to_lock);  // who is still taking a frame has no ear for it
+    const SmallFrame bye = encode(Bye{reason, why});
+    if (lock) write_locked(bye.type, bye.flags, bye.payload(), true);
+  }
+  closing_ = true;  // nothing comes after its last word
 }
 
 bool Connection::write_locked(FrameType type, std::uint8_t flags, std::span<const std::uint8_t> payload,

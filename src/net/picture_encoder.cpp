@@ -46,6 +46,17 @@ void coarsen(std::array<double, N>& numbers) {
   for (double& number : numbers) number = coarse(number);
 }
 
+/// One for each hand up to the last in use, so that its place in the list is its number; unused ones are all zero.
+std::vector<messages::ToolFrame> by_hand(const std::vector<messages::ToolFrame>& tools) {
+  std::vector<messages::ToolFrame> hands;
+  for (const messages::ToolFrame& tool : tools) {
+    const auto place = static_cast<std::size_t>(std::max(tool.hand, 0));
+    if (hands.size() <= place) hands.resize(place + 1);
+    hands[place] = tool;
+  }
+  return hands;
+}
+
 messages::SceneFrame coarse_readings(const messages::SceneFrame& frame) {
   messages::SceneFrame out;
   out.sequence = frame.sequence;
@@ -53,7 +64,7 @@ messages::SceneFrame coarse_readings(const messages::SceneFrame& frame) {
   out.residual_share = coarse(frame.residual_share);
   out.rates = frame.rates;
   out.notice = frame.notice;
-  out.tools = frame.tools;
+  out.tools = by_hand(frame.tools);
   using Numbers = std::vector<double> messages::SceneFrame::*;
   for (const Numbers list :
        {&messages::SceneFrame::activations, &messages::SceneFrame::tensions_N, &messages::SceneFrame::stretches,

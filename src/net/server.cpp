@@ -75,10 +75,10 @@ void Server::make_room() {
   }
 }
 
-void Server::refuse(std::uint32_t client, const std::string& why) {
+void Server::refuse(std::uint32_t client, const std::string& why, Refusal kind) {
   const std::lock_guard lock(mutex_);
   for (const auto& connection : connections_) {
-    if (connection->id() == client && !connection->finished()) connection->refuse_wish(why);
+    if (connection->id() == client && !connection->finished()) connection->refuse_wish(why, kind);
   }
 }
 

@@ -33,7 +33,7 @@ class Server {
   void ring() { state_.bell.ring(); }
   std::optional<ControlRequest> take_request() { return state_.take_request(); }
   /// Sends a client why what it asked for is not done.
-  void refuse(std::uint32_t client, const std::string& why);
+  void refuse(std::uint32_t client, const std::string& why, Refusal kind = Refusal::Other);
   std::uint32_t stops() const { return state_.stops; }  // emergency stops that clients asked for so far
   void stop_forces();                                   // of all hands, asked for by this machine's person
   std::size_t client_count() const { return state_.admitted; }

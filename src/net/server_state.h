@@ -27,12 +27,13 @@ struct ServerSettings {
   std::uint64_t step_ns = 0;  // of the simulation
   AccessPolicy access_policy;
   std::size_t most_connections = 64;  // a class, its instructors and some mirrors
-  std::size_t most_waiting = 16;      // that have not said Hello yet; a new one takes the place of the oldest
+  std::size_t most_waiting = 40;      // that have not said Hello yet; a new one takes the place of the oldest
   std::chrono::milliseconds hello_wait{3000};
   std::chrono::milliseconds silence{3000};    // clients ping ten times a second; one that is silent so long is gone
   std::chrono::milliseconds slow_wait{2000};  // a reader that takes nothing for so long is closed
   double most_frames_per_s = 100e3;           // of one client; what comes faster waits in its own socket
-  double most_controls_per_s = 50.0;
+  double most_controls_per_s = 50.0;          // of an instructor
+  double most_student_controls_per_s = 20.0;  // who raises a hand, answers, is through with a step
 };
 
 /// What a client asked for by a Control frame.

@@ -55,15 +55,17 @@ struct ForceAnswer {
   std::array<double, 3> force_world_N{};
 };
 
-/// What a viewer has drawn: of what is on its way to it, pictures are no longer.
+/// What a viewer has taken in: this picture and those before it are no longer on their way.
 struct PictureSeen {
   std::uint64_t sequence = 0;  // of the picture
 };
 
 enum class EventCode : std::uint8_t { Stop = 1, Refused = 2 };
+/// Why a wish is refused, for clients that say it in another language.
+enum class Refusal : std::int32_t { Other = 0, NotInstructor = 1, QuestionClosed = 2, TooMuch = 3, NotUnderstood = 4 };
 struct Event {
   EventCode code = EventCode::Stop;
-  std::int32_t value = 0;
+  std::int32_t value = 0;  // of a refusal: which one
   std::string text;
 };
 

@@ -42,7 +42,8 @@ using Failure = boost::system::error_code;
 
 constexpr std::size_t kMostMessage = kHeaderBytes + kMostControl;  // that a client sends
 constexpr std::size_t kMostRequest = 8192;                         // of the HTTP request
-constexpr std::size_t kMostGuests = 128;                           // under way at once
+constexpr std::size_t kMostGuests = 512;                           // under way at once
+constexpr std::size_t kCrowd = 256;                                // from here on a connection is for one request
 constexpr std::size_t kMostOrigin = 128;                           // of it in a log
 constexpr std::chrono::seconds kRequestWait(3);
 constexpr std::chrono::seconds kFileWait(60);  // for all of one file on the slowest line
@@ -146,7 +147,7 @@ class Guest : public std::enable_shared_from_this<Guest> {
     const std::string& body = is_packed ? file.gzip : file.body;
     response_->content_length(body.size());
     if (request_->get().method() != http::verb::head) response_->body() = body;
-    response_->keep_alive(request_->get().keep_alive());
+    response_->keep_alive(request_->get().keep_alive() && house_.guests < kCrowd);
     beast::get_lowest_layer(socket_).expires_after(kFileWait);
     http::async_write(socket_.next_layer(), *response_, [self = shared_from_this()](Failure failure, std::size_t) {
       if (!failure && self->response_->keep_alive()) self->read_request();
@@ -160,11 +161,8 @@ class Guest : public std::enable_shared_from_this<Guest> {
         spdlog::warn("a WebSocket of a page from \"{}\" was refused; --allow-origin lets it in (reported once)",
                      origin);
       }
-      http::response<http::empty_body> refusal(http::status::forbidden, request_->get().version());
-      refusal.prepare_payload();
-      Failure failure;
-      http::write(socket_.next_layer(), refusal, failure);
-      return;
+      return send_file(http::status::forbidden,
+                       web_file(kPlain, "Only a page of this server may join here, by the machine's address."));
     }
     beast::get_lowest_layer(socket_).expires_never();
     auto timeouts = websocket::stream_base::timeout::suggested(beast::role_type::server);

@@ -17,9 +17,11 @@ using Json = nlohmann::json;
 constexpr const char* kWhere = "class";
 constexpr const char* kPrefix = "class_";
 
-constexpr std::size_t kMostResults = 100;   // said again and again; a page that is there keeps older ones
-constexpr std::size_t kMostLook = 4096;     // bytes, as JSON
-constexpr std::size_t kMostQuestion = 400;  // bytes of UTF-8, as all below
+// Said again and again, as many of the newest as fit; a page that is there keeps older ones.
+constexpr std::size_t kMostResults = 1000;
+constexpr std::size_t kMostOwnResults = 60;  // of one member, who cannot push out those of others
+constexpr std::size_t kMostLook = 4096;      // bytes, as JSON
+constexpr std::size_t kMostQuestion = 400;   // bytes of UTF-8, as all below
 constexpr std::size_t kMostOption = 100;
 constexpr std::size_t kFewestOptions = 2, kMostOptions = 6;
 constexpr std::size_t kMostId = 64;
@@ -76,6 +78,22 @@ Json result_of(JsonObject& fields) {
           {"of", fields.at("of").number_between(0.0, kMostPoints)}};
 }
 
+Json led_of(const std::string& wish, JsonObject& fields) {
+  if (wish == "class_freeze") return fields.at("on").boolean();
+  if (wish == "class_look") return look_of(fields.at("look"));
+  return wish == "class_ask" ? question_of(fields.at("question")) : lesson_of(fields.at("lesson"));
+}
+
+/// In their order. `room`: bytes of JSON.
+Json newest_that_fit(const std::deque<Json>& results, std::size_t room) {
+  auto first = results.end();
+  for (std::size_t used = 0; first != results.begin(); --first) {
+    used += std::prev(first)->dump().size() + 1;
+    if (used > room) break;
+  }
+  return Json(std::vector<Json>(first, results.end()));
+}
+
 }  // namespace
 
 bool Classroom::is_for_class(const std::string& control) {
@@ -94,39 +112,53 @@ void Classroom::obey(const net::ControlRequest& request) {
   const std::string wish = fields.at("do").one_of(
       {"class_hand_up", "class_answer", "class_result", "class_freeze", "class_look", "class_ask", "class_lesson"});
   if (wish == "class_hand_up") {
-    raise_hand(request.client, fields.at("on").boolean());
+    const bool up = fields.at("on").boolean();
+    fields.finish();
+    raise_hand(request.client, up);
   } else if (wish == "class_answer") {
-    answer(request.client, fields.at("question").string(), fields.at("answer").string());
+    const std::string question = fields.at("question").string(), text = fields.at("answer").string();
+    fields.finish();
+    answer(request.client, question, text);
   } else if (wish == "class_result") {
-    add_result(request.client, result_of(fields));
-  } else if (request.role != net::Role::Instructor) {
-    throw Error(ExitStatus::Usage, "only an instructor leads the class");
-  } else if (wish == "class_freeze") {
-    frozen_ = fields.at("on").boolean();
-  } else if (wish == "class_look") {
-    look_ = look_of(fields.at("look"));
-  } else if (wish == "class_ask") {
-    ask(question_of(fields.at("question")));
+    Json result = result_of(fields);
+    fields.finish();
+    add_result(request.client, std::move(result));
   } else {
-    lesson_ = lesson_of(fields.at("lesson"));
+    if (request.role != net::Role::Instructor) {
+      throw RefusedWish(net::Refusal::NotInstructor, "only an instructor leads the class");
+    }
+    Json what = led_of(wish, fields);
+    fields.finish();
+    lead(wish, std::move(what));
   }
-  fields.finish();
+}
+
+void Classroom::lead(const std::string& wish, Json what) {
+  if (wish == "class_freeze") {
+    frozen_ = what.get<bool>();
+  } else if (wish == "class_look") {
+    look_ = std::move(what);
+  } else if (wish == "class_ask") {
+    ask(std::move(what));
+  } else {
+    lesson_ = std::move(what);
+  }
   has_news_ = true;
 }
 
 void Classroom::raise_hand(std::uint32_t client, bool up) {
-  said_[client].hand_up = up;
+  if (std::exchange(said_[client].hand_up, up) != up) has_news_ = true;
 }
 
 void Classroom::answer(std::uint32_t client, const std::string& question, const std::string& answer) {
   if (question_.is_null() || question_.at("id") != question) {
-    throw Error(ExitStatus::Usage, "this question is no longer asked");
+    throw RefusedWish(net::Refusal::QuestionClosed, "this question is no longer asked");
   }
   const Json& options = question_.at("options");
   if (std::find(options.begin(), options.end(), answer) == options.end()) {
-    throw Error(ExitStatus::Usage, "this is none of the answers to choose from");
+    throw RefusedWish(net::Refusal::NotUnderstood, "this is none of the answers to choose from");
   }
-  said_[client].answer = answer;
+  if (std::exchange(said_[client].answer, answer) != answer) has_news_ = true;
 }
 
 void Classroom::add_result(std::uint32_t client, Json result) {
@@ -135,8 +167,17 @@ void Classroom::add_result(std::uint32_t client, Json result) {
   result["client"] = client;
   result["name"] = member == members_.end() ? "" : plain(member->name);
   result["number"] = ++result_count_;
+  const auto is_same = [&](const Json& other) {
+    return other["client"] == client && other["lesson"] == result["lesson"] && other["step"] == result["step"];
+  };
+  std::erase_if(results_, is_same);
+  const auto is_own = [&](const Json& other) { return other["client"] == client; };
+  if (static_cast<std::size_t>(std::count_if(results_.begin(), results_.end(), is_own)) >= kMostOwnResults) {
+    results_.erase(std::find_if(results_.begin(), results_.end(), is_own));
+  }
   results_.push_back(std::move(result));
   if (results_.size() > kMostResults) results_.pop_front();
+  has_news_ = true;
 }
 
 void Classroom::ask(Json question) {
@@ -199,11 +240,9 @@ net::Announcement Classroom::announcement() {
   said.to_all = Json{{"class", body}}.dump();
   body["members"] = members_json();
   if (!join_.empty()) body["join"] = join_;
-  do {
-    body["results"] = results_;
-    said.to_instructors = Json{{"class", body}}.dump();
-    if (said.to_instructors.size() > net::kMostControl) results_.pop_front();
-  } while (said.to_instructors.size() > net::kMostControl && !results_.empty());
+  const std::size_t room = net::kMostControl - std::min(net::kMostControl, Json{{"class", body}}.dump().size() + 32);
+  body["results"] = newest_that_fit(results_, room);
+  said.to_instructors = Json{{"class", body}}.dump();
   return said;
 }
 

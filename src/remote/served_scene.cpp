@@ -108,11 +108,17 @@ void ServedScene::encode_frames() {
 }
 
 void ServedScene::obey() {
-  while (const auto request = server_->take_request()) {
+  constexpr int kMostAtOnce = 64;  // that nobody's flood keeps the rest from being done
+  for (int i = 0; i < kMostAtOnce; ++i) {
+    const auto request = server_->take_request();
+    if (!request) break;
     try {
       obey(*request);
+    } catch (const RefusedWish& refusal) {
+      server_->refuse(request->client, refusal.what(), refusal.kind());
     } catch (const Error& failure) {
-      server_->refuse(request->client, failure.what());
+      const bool leads = request->role == net::Role::Instructor;
+      server_->refuse(request->client, failure.what(), leads ? net::Refusal::Other : net::Refusal::NotUnderstood);
     }
   }
   tell_class();
@@ -121,7 +127,7 @@ void ServedScene::obey() {
 void ServedScene::obey(const net::ControlRequest& request) {
   if (Classroom::is_for_class(request.text)) return class_.obey(request);
   if (request.role != net::Role::Instructor) {
-    throw Error(ExitStatus::Usage, "only an instructor may change the scene");
+    throw RefusedWish(net::Refusal::NotInstructor, "only an instructor may change the scene");
   }
   const std::optional<messages::Order> order = order_of(request.text);
   if (!order) return server_->stop_forces();

@@ -9,6 +9,7 @@ messages::ToolFrame tool_frame(const messages::FeltTool& felt, const Scene& scen
   const messages::ToolState& tool = felt.tool;
   const ToolSettings& settings = scene.tools[index];
   messages::ToolFrame frame;
+  frame.hand = static_cast<int>(index);
   frame.tool_world_m = tool.tool_position_world_m;
   frame.proxy_world_m = tool.proxy_position_world_m;
   frame.force_world_N = tool.force_world_N;

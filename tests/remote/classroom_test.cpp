@@ -110,6 +110,29 @@ TEST(Classroom, AClassWithoutAnInstructorIsFreeAfterAWhile) {
   EXPECT_TRUE(heard(room, false).at("look").is_null());
 }
 
+TEST(Classroom, OneMembersResultsPushNobodyElsesOut) {
+  Classroom room = class_of_two();
+  const auto result = [](int step, double points) {
+    return Json{{"do", "class_result"}, {"lesson", "l"}, {"step", step}, {"answer", ""}, {"points", points}, {"of", 1}};
+  };
+  say(room, kBen, result(1, 0.5));
+  for (int i = 0; i < 200; ++i) say(room, kAnna, result(i, 0));
+  say(room, kAnna, result(199, 1));
+  const Json results = heard(room, true).at("results");
+  EXPECT_EQ(results.front().at("name"), "<b>Ben</b> ");
+  EXPECT_EQ(results.size(), 61u);
+  EXPECT_EQ(results.back().at("points"), 1) << "in the place of the one before";
+}
+
+TEST(Classroom, WhatChangesNothingIsNoNews) {
+  Classroom room = class_of_two();
+  room.announcement();
+  say(room, kAnna, {{"do", "class_hand_up"}, {"on", false}});
+  EXPECT_FALSE(room.has_news());
+  EXPECT_NE(refusal(room, kTeacher, {{"do", "class_freeze"}, {"on", true}, {"for", 3}}), "");
+  EXPECT_FALSE(room.frozen()) << "what is refused is not done";
+}
+
 TEST(Classroom, WhatIsWrongIsRefusedAndChangesNothing) {
   Classroom room = class_of_two();
   room.announcement();
@@ -136,10 +159,10 @@ TEST(Classroom, WhatIsSaidFitsIntoAFrameWhateverMembersWrite) {
   for (std::uint32_t id = 2; id < 66; ++id) members.push_back({id, net::Role::Student, -1, std::string(48, '"')});
   room.set_members(members, kStart);
   for (int i = 0; i < 200; ++i) {
-    room.obey({2u, net::Role::Student,
+    room.obey({2u + static_cast<std::uint32_t>(i) % 8u, net::Role::Student,
                Json{{"do", "class_result"},
                     {"lesson", std::string(48, '"')},
-                    {"step", 1},
+                    {"step", i},
                     {"answer", std::string(100, '"')},
                     {"points", 1},
                     {"of", 1}}
