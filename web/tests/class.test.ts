@@ -1,9 +1,11 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { plainLook, type CameraPose } from '../src/app/look';
+import { sentenceOf } from '../src/app/refusals';
 import type { ClassResult, Member } from '../src/app/state';
+import { Answers } from '../src/class/answers';
 import { csvField, csvTable } from '../src/class/csv';
-import { readClassState } from '../src/class/class_state';
+import { MOST_RESULTS, readClassState } from '../src/class/class_state';
 import { countAnswers, makeQuestion, MOST_OPTIONS } from '../src/class/question';
 import { linesOf, resultsCsv } from '../src/class/results';
 import { packLook, unpackLook } from '../src/class/shared_look';
@@ -14,15 +16,19 @@ test('fields are quoted where they must be, and are no formulas', () => {
   assert.equal(csvField('plain'), 'plain');
   assert.equal(csvField('a,b "c"\n'), '"a,b ""c""\n"');
   assert.equal(csvField(-1.5), '-1.5');
-  for (const formula of ['=1+1', '+1', '-1', '@SUM(A1)', '\t=1']) assert.ok(csvField(formula).startsWith("'"), formula);
+  for (const formula of ['=1+1', '+1', '-1', '@SUM(A1)', '\t=1', '  =1'])
+    assert.ok(csvField(formula).startsWith("'"), formula);
   assert.equal(csvField('\r=1'), '"\'\r=1"');
+  assert.equal(csvField('a;=1'), "a;'=1");
+  assert.equal(csvField('a\t-1;b - 2'), "a\t'-1;b - 2");
+  assert.equal(csvField('a\n @1'), '"a\n\' @1"');
   assert.equal(csvField('=HYPERLINK("http://x","y")'), '"\'=HYPERLINK(""http://x"",""y"")"');
   assert.equal(
     csvTable([
       ['a', 1],
       ['b', 2],
     ]),
-    'a,1\r\nb,2\r\n',
+    '\uFEFFa,1\r\nb,2\r\n',
   );
 });
 
@@ -38,12 +44,83 @@ test('a step that came twice counts once, as it came last', () => {
     { client: 2, name: 'Zoë', lesson: 'l', steps: 2, points: 3, of: 4 },
   ]);
   const lines = resultsCsv(results).split('\r\n');
-  assert.deepEqual(lines.slice(0, 2), ['client,name,lesson,step,answer,points,of', '2,Zoë,l,2,ulna,1,2']);
+  const head = '\uFEFFclient,name,lesson,step,answer,points,of,question';
+  assert.deepEqual(lines.slice(0, 2), [head, '2,Zoë,l,2,ulna,1,2,']);
   assert.equal(lines.length, 5);
 });
 
-test('two of the same name are two', () => {
-  assert.equal(linesOf([result(1, 'Ann', 1, 1), result(2, 'Ann', 1, 2)]).length, 2);
+test('who comes back under another number is the same; two of one name that answer by turns are two', () => {
+  const back = [result(1, 'Ann', 1, 1), result(1, 'Ann', 2, 0), result(2, 'Ann', 2, 2), result(5, 'Ann', 3, 2)];
+  assert.deepEqual(linesOf(back), [{ client: 1, name: 'Ann', lesson: 'l', steps: 3, points: 5, of: 6 }]);
+  const two = [result(1, 'Ann', 1, 1), result(2, 'Ann', 1, 2), result(1, 'Ann', 2, 1), result(2, 'Ann', 2, 2)];
+  assert.deepEqual(
+    linesOf(two).map(({ client, steps, points }) => [client, steps, points]),
+    [
+      [1, 2, 2],
+      [2, 2, 4],
+    ],
+  );
+  assert.equal(linesOf([result(1, '', 1, 1), result(2, '', 1, 1)]).length, 2, 'no name is nobody');
+});
+
+test("students' answers to questions are kept as results, the last of each", () => {
+  const answers = new Answers();
+  const ask = (id: string, said: [number, Member['role'], string | null][], results: ClassResult[] = []) => {
+    const members = said.map(([client, role, answer]): Member => {
+      return { id: client, name: `n${client}`, role, hand: -1, hand_up: false, answer };
+    });
+    const question = id === '' ? null : { id, text: `=${id}?`, options: ['a', 'b'] };
+    answers.take({
+      frozen: false,
+      look: null,
+      question,
+      lesson: null,
+      students: 2,
+      you: { hand_up: false },
+      members,
+      results,
+    });
+  };
+  ask('q', [
+    [1, 'student', 'a'],
+    [2, 'student', null],
+    [3, 'instructor', 'a'],
+  ]);
+  const before = answers.newest;
+  ask('q', [[1, 'student', 'a']]);
+  assert.equal(answers.newest, before);
+  ask('q', [
+    [1, 'student', 'b'],
+    [2, 'student', 'a'],
+  ]);
+  ask('', [
+    [1, 'student', null],
+    [2, 'student', null],
+  ]);
+  ask(
+    'r',
+    [
+      [1, 'student', 'b'],
+      [2, 'student', null],
+    ],
+    [result(1, 'n1', 1, 1)],
+  );
+  const rows = resultsCsv(answers.among([])).split('\r\n').slice(1, -1);
+  assert.deepEqual(rows, ["1,n1,question,0,b,0,0,'=q?", "2,n2,question,0,a,0,0,'=q?", "1,n1,question,0,b,0,0,'=r?"]);
+});
+
+test('only so many results are kept', () => {
+  const results = Array.from({ length: MOST_RESULTS + 7 }, (_, i) => ({ number: i + 1 }));
+  const kept = readClassState({ results }, 1, null).results ?? [];
+  assert.deepEqual([kept.length, kept[0]?.number], [MOST_RESULTS, 8]);
+});
+
+test('a refusal is told in own words where its kind is known', () => {
+  const refused = { code: 'refused', text: 'no such thing' } as const;
+  assert.deepEqual(sentenceOf({ ...refused, value: 0 }), ['web.refused', 'no such thing']);
+  assert.deepEqual(sentenceOf({ ...refused, value: 9 }), ['web.refused', 'no such thing']);
+  assert.deepEqual(sentenceOf({ ...refused, value: 2 }), ['web.refused.question']);
+  assert.deepEqual(sentenceOf({ code: 'stop', value: 0, text: '' }), ['web.net.stopped']);
 });
 
 const POSE: CameraPose = { eye: [0.123456, -1, 2], target: [0, 0, 0.3] };

@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { controlsOf, lookOfStep } from '../src/learn/lesson_look';
 import { readLesson } from '../src/learn/read_lesson';
-import type { InForce } from '../src/wire/picture';
+import type { InForce } from '../src/wire/moment';
 import { elbow, lessonOf } from './elbow';
 
 function lookOf(members: object) {

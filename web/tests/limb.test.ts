@@ -6,7 +6,9 @@ import { Beat, Glide } from '../src/limb/glide';
 import { placeLabels, spread } from '../src/limb/label_layout';
 import { LimbModel } from '../src/limb/model';
 import { closestOnTriangle, nearest, raycast, weighted } from '../src/limb/picking';
+import { isAtWork } from '../src/limb/tools_drawing';
 import { isSolid, solidity } from '../src/limb/visibility';
+import type { ToolReading } from '../src/wire/moment';
 import { Press, RADIUS_M, STIFFNESS_N_M } from '../src/touch/press';
 import { nearestOnLine, pointOnLine } from '../src/touch/pull';
 import { distance, type Point } from '../src/limb/vectors';
@@ -21,13 +23,14 @@ function square(height: number): Float32Array {
 
 const twoTriangles = Uint32Array.of(0, 1, 2, 0, 2, 3);
 
+/** The bone a decimetre below the skin. */
+const poses = [Float32Array.of(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, -0.1)];
+
 function limb(): LimbModel {
   const model = new LimbModel([muscle, bone]);
   const mesh = { positions_m: square(0), triangles: twoTriangles };
   model.takeMesh({ kind: 'skin', index: 0, body: -1, ...mesh });
   model.takeMesh({ kind: 'bone', index: 0, body: 0, ...mesh });
-  // The bone a decimetre below the skin.
-  const poses = [Float32Array.of(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, -0.1)];
   const moment = { sequence: 1, time_s: 0, readings: null, inForce: null };
   model.takePicture({ ...moment, skins: new Map([[0, square(0.05)]]), poses }, 0);
   return model;
@@ -81,7 +84,7 @@ test('the beat of pictures is learnt and does not stretch over a pause', () => {
 test('a skin is drawn where its first picture has it, then on its way to the next', () => {
   const model = limb();
   assert.equal(model.surfaces[0]!.drawn_m[2], Math.fround(0.05));
-  const next = { sequence: 2, time_s: 0, poses: null, readings: null, inForce: null };
+  const next = { sequence: 2, time_s: 0, poses, readings: null, inForce: null };
   model.takePicture({ ...next, skins: new Map([[0, square(0.06)]]) }, 33);
   const { moved } = model.advance(33);
   assert.equal(moved.length, 1);
@@ -161,7 +164,7 @@ test('a stroke keeps its depth below the limb as it was, and ends beside it', ()
   const ray = (x: number) => ({ origin_m: [x, 0, 1] as Point, direction: [0, 0, -1] as Point });
   const press = new Press(model, raycast(model, ray(0), all)!, all);
   for (let i = 0; i < 10; ++i) press.advance(0.004, 0.1);
-  const dented = { sequence: 2, time_s: 0, poses: null, readings: null, inForce: null };
+  const dented = { sequence: 2, time_s: 0, poses, readings: null, inForce: null };
   model.takePicture({ ...dented, skins: new Map([[0, square(0.048)]]) }, 33);
   press.strokeTo(ray(0.03));
   const felt = press.feel();
@@ -205,4 +208,11 @@ test('the look says how solid a part is', () => {
   assert.equal(solidity(muscle, { ...look, layers: { ...look.layers, deep: 0.4 } }), 0.4);
   assert.equal(isSolid(muscle, { ...look, parts: { m: 'faded' } }), false);
   assert.equal(isSolid(bone, { ...look, only: ['b'] }), true);
+});
+
+test('a hand that nobody has, or that does nothing, is not drawn', () => {
+  const tool = { in_contact: false, line: -1 } as ToolReading;
+  assert.ok(!isAtWork(tool));
+  assert.ok(isAtWork({ ...tool, in_contact: true }));
+  assert.ok(isAtWork({ ...tool, line: 0 }));
 });

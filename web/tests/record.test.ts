@@ -1,6 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import type { SceneFacts } from '../src/app/facts';
+import { fromElement } from '../src/app/licences';
 import { inlinePage } from '../src/record/export_page';
 import { Player } from '../src/record/player';
 import { LONGEST_S, MOST_BYTES, Recorder } from '../src/record/recorder';
@@ -18,11 +19,6 @@ function control(message: object): Uint8Array {
   return frame(FrameType.Control, utf8.encode(JSON.stringify(message)));
 }
 
-/** Of a skin: number of the key, skin, skins, vertices. */
-function skinFrame(type: number, key: number, skin: number): Uint8Array {
-  return frame(type, Uint8Array.of(key, 0, 0, 0, skin, 0, 2, 0, 0, 0, 0, 0));
-}
-
 /** Its sequence, and that of the picture that it builds on. */
 function picture(sequence: number, since: number): Uint8Array {
   return frame(FrameType.Picture, Uint8Array.of(sequence, 0, 0, 0, 0, 0, 0, 0, since, 0, 0, 0, 0, 0, 0, 0));
@@ -31,6 +27,10 @@ function picture(sequence: number, since: number): Uint8Array {
 const noWhole = () => null;
 
 const scene = { name: '</script><b>"quoted"' } as SceneFacts;
+
+function recordingOf(frames: Recording['frames']): Recording {
+  return { scene, dictionaries: {}, shade: Uint8Array.of(1, 255), frames };
+}
 
 test('a recording comes out of its text as it went in, and no markup is left in the text', () => {
   const frames = [
@@ -43,7 +43,12 @@ test('a recording comes out of its text as it went in, and no markup is left in 
     },
     { at_ms: 17, bytes: frame(FrameType.Picture) },
   ];
-  const recording: Recording = { scene, dictionaries: { en: { a: '<!-- x' } }, shade: new Uint8Array([1, 255]), frames };
+  const recording: Recording = {
+    scene,
+    dictionaries: { en: { a: '<!-- x' } },
+    shade: new Uint8Array([1, 255]),
+    frames,
+  };
   const text = recordingText(recording);
   assert.ok(!text.includes('<'));
   assert.deepEqual(parseRecording(text), recording);
@@ -52,7 +57,7 @@ test('a recording comes out of its text as it went in, and no markup is left in 
 
 test("nobody's name, answer or key to the class is recorded", () => {
   const welcome = new Uint8Array(31).fill(1);
-  const kept = [skinFrame(FrameType.SceneKey, 1, 0), picture(1, 0), control({ scene: {} })];
+  const kept = [frame(FrameType.Mesh), picture(1, 0), control({ scene: {} })];
   const dropped = [control({ class: { members: [{ name: 'Zoë' }] } }), frame(FrameType.Force), frame(FrameType.Pong)];
   const recorder = new Recorder();
   recorder.start([frame(FrameType.Welcome, welcome), ...kept], 0);
@@ -67,12 +72,12 @@ test('a recorder ends by itself after a minute and when it is full', () => {
   const recorder = new Recorder();
   assert.ok(!recorder.take(picture(1, 0), 0, noWhole), 'not started');
   recorder.start([], 1000);
-  assert.ok(recorder.take(frame(FrameType.Readings), 1000 + 1000 * LONGEST_S, noWhole));
-  assert.ok(!recorder.take(frame(FrameType.Readings), 1001 + 1000 * LONGEST_S, noWhole));
+  assert.ok(recorder.take(frame(FrameType.Mesh), 1000 + 1000 * LONGEST_S, noWhole));
+  assert.ok(!recorder.take(frame(FrameType.Mesh), 1001 + 1000 * LONGEST_S, noWhole));
   assert.deepEqual([recorder.recording, recorder.frames.length, recorder.length_s], [false, 1, LONGEST_S]);
 
   recorder.start([], 0);
-  const large = frame(FrameType.Readings, new Uint8Array(1 << 20));
+  const large = frame(FrameType.Mesh, new Uint8Array(1 << 20));
   let taken = 0;
   while (recorder.take(large, taken, noWhole)) ++taken;
   assert.equal(taken, Math.floor(MOST_BYTES / large.length));
@@ -103,31 +108,27 @@ test('a jump in pictures begins with the last whole one', () => {
     bytes,
   }));
   const given: number[] = [];
-  const player = new Player({ scene, dictionaries: {}, shade: new Uint8Array([1, 255]), frames }, { now_ms: () => 0, every: () => () => {} });
+  const player = new Player(recordingOf(frames), { now_ms: () => 0, every: () => () => {} });
   player.start((bytes) => given.push(bytes[24] ?? 0));
   given.length = 0;
   player.seek(0.0035);
   assert.deepEqual(given, [2, 3]);
 });
 
-/** Two skins with keys at 0 and a new key of skin 0 at 20, deltas, and readings at each time. */
+/** A whole picture at 0 and one at 20, a change of either. */
 function played() {
   const names = new Map<Uint8Array, string>();
   const timed = (at_ms: number, name: string, bytes: Uint8Array) => {
     names.set(bytes, name);
     return { at_ms, bytes };
   };
-  const { Welcome, SceneKey, SceneDelta, Readings } = FrameType;
   const frames = [
-    timed(0, 'welcome', frame(Welcome, new Uint8Array(31))),
-    timed(0, 'key 0', skinFrame(SceneKey, 1, 0)),
-    timed(0, 'key 1', skinFrame(SceneKey, 1, 1)),
-    timed(10, 'delta 0', skinFrame(SceneDelta, 1, 0)),
-    timed(10, 'delta 1', skinFrame(SceneDelta, 1, 1)),
-    timed(10, 'readings a', frame(Readings)),
-    timed(20, 'new key 0', skinFrame(SceneKey, 2, 0)),
-    timed(30, 'new delta 0', skinFrame(SceneDelta, 2, 0)),
-    timed(30, 'readings b', frame(Readings)),
+    timed(0, 'welcome', frame(FrameType.Welcome, new Uint8Array(31))),
+    timed(0, 'mesh', frame(FrameType.Mesh)),
+    timed(0, 'whole a', picture(1, 0)),
+    timed(10, 'change a', picture(2, 1)),
+    timed(20, 'whole b', picture(2, 0)),
+    timed(30, 'change b', picture(3, 2)),
   ];
   let clock_ms = 0;
   let tick: (() => void) | null = null;
@@ -135,7 +136,7 @@ function played() {
     tick = wanted;
     return () => (tick = null);
   };
-  const player = new Player({ scene, dictionaries: {}, shade: new Uint8Array([1, 255]), frames }, { now_ms: () => clock_ms, every });
+  const player = new Player(recordingOf(frames), { now_ms: () => clock_ms, every });
   const given: string[] = [];
   const pass = (ms: number) => {
     clock_ms += ms;
@@ -148,19 +149,18 @@ function played() {
 
 test('a player gives every frame at its time and stops at the end', () => {
   const { player, pass, since } = played();
-  assert.deepEqual(since(), ['welcome', 'key 0', 'key 1']);
+  assert.deepEqual(since(), ['welcome', 'mesh', 'whole a']);
   pass(16);
-  assert.deepEqual(since(), ['delta 0', 'delta 1', 'readings a']);
+  assert.deepEqual(since(), ['change a']);
   player.pause();
   pass(16);
   assert.deepEqual(since(), []);
   player.play();
   pass(16);
-  assert.deepEqual(since(), ['new key 0', 'new delta 0', 'readings b']);
+  assert.deepEqual(since(), ['whole b', 'change b']);
   assert.deepEqual([player.playing, player.time_s], [false, 0.03]);
   player.play();
   assert.equal(player.time_s, 0);
-  player.close();
 });
 
 test('a jump gives what the moment is made of and nothing twice', () => {
@@ -168,16 +168,15 @@ test('a jump gives what the moment is made of and nothing twice', () => {
   player.pause();
   since();
   player.seek(0.015);
-  assert.deepEqual(since(), ['key 0', 'key 1', 'delta 0', 'delta 1', 'readings a']);
+  assert.deepEqual(since(), ['whole a', 'change a']);
   player.seek(0.025);
-  assert.deepEqual(since(), ['key 1', 'delta 1', 'readings a', 'new key 0'], 'no delta of a key that is gone');
+  assert.deepEqual(since(), ['whole b']);
   player.seek(99);
-  assert.deepEqual(since(), ['key 1', 'delta 1', 'new key 0', 'new delta 0', 'readings b']);
-  player.close();
+  assert.deepEqual(since(), ['whole b', 'change b']);
 });
 
 test('an empty recording plays nothing', () => {
-  const player = new Player({ scene, dictionaries: {}, shade: new Uint8Array([1, 255]), frames: [] });
+  const player = new Player(recordingOf([]));
   player.start(() => assert.fail());
   assert.deepEqual([player.playing, player.length_s], [false, 0]);
 });
@@ -187,11 +186,14 @@ const PAGE = `<!doctype html><html><head><meta charset="utf-8" /><link rel="styl
 
 test('the exported page holds everything and asks for nothing', () => {
   const script = "const a = '</script>$&'; const b = '$1';";
-  const whole = inlinePage(PAGE, 'a { color: red }', script, '{"schema":1}');
+  const licences = 'Licence of <a@b.c> &lt; </script>';
+  const whole = inlinePage(PAGE, { style: 'a { color: red }', script, licences, recording: '{"schema":1}' });
   assert.ok(whole.includes('<style>a { color: red }</style>'));
   assert.ok(whole.includes("const a = '<\\/script>$&'; const b = '$1';"), whole);
   assert.ok(whole.includes('<script type="application/json" id="recording">{"schema":1}</script>'));
   assert.ok(!/\b(src|href)=/.test(whole));
   assert.ok(whole.indexOf('Content-Security-Policy') < whole.indexOf('<style>'));
-  assert.throws(() => inlinePage('<html></html>', '', '', ''), /has no/);
+  const held = /<script type="text\/plain" id="licences">([^<]*)<\/script>/.exec(whole)?.[1] ?? '';
+  assert.equal(fromElement(held), licences);
+  assert.throws(() => inlinePage('<html></html>', { style: '', script: '', licences: '', recording: '' }), /has no/);
 });

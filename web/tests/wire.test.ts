@@ -4,7 +4,6 @@ import { crc32 } from '../src/wire/crc32';
 import { WireError } from '../src/wire/cursor';
 import { frameBytes, FrameType, parseFrame } from '../src/wire/frame';
 import { decodeInForce } from '../src/wire/readings';
-import { SceneDecoder } from '../src/wire/scene';
 import * as small from '../src/wire/small';
 import {
   decodeToolContact,
@@ -101,26 +100,6 @@ test('a tool state without touch is one frame without flags', () => {
     parts.map(({ type, flags }) => [type, flags]),
     [[FrameType.ToolState, 0]],
   );
-});
-
-test('a scene frame is whole with its poses', () => {
-  const decoder = new SceneDecoder();
-  assert.equal(decoder.take(vector('scene_key').frame), null);
-  assert.equal(decoder.take(vector('scene_delta').frame), null);
-  const moment = decoder.take(vector('bone_poses').frame);
-  assert.equal(moment?.time_s, 1.25);
-  assert.equal(moment?.sequence, 5);
-  const grid = [10000, 19999, 30064, 95, -8192, 4];
-  assert.deepEqual(
-    [...moment!.skins.get(0)!],
-    grid.map((steps) => Math.fround(1e-5 * steps)),
-  );
-  const pose = [1, 0, 0, 0.1, 0, 1, 0, 0.2, 0, 0, 1, 0.3].map(Math.fround);
-  assert.deepEqual([...moment!.poses![0]!], pose);
-});
-
-test('a delta of an unknown key is refused', () => {
-  assert.throws(() => new SceneDecoder().take(vector('scene_delta').frame), WireError);
 });
 
 test('what is in force', () => {

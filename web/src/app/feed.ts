@@ -1,11 +1,9 @@
 /** Frames in, what they say out: the same for a live class and for a recording. */
-import type { ReceivedFrame } from '../net/frame_stream';
 import { WireError } from '../wire/cursor';
-import { FrameType, frameBytes, parseFrame } from '../wire/frame';
+import { FrameType, frameBytes, parseFrame, type Frame } from '../wire/frame';
 import { decodeMesh, type Mesh } from '../wire/mesh';
 import type { Picture } from '../wire/moment';
 import { PictureDecoder } from '../wire/picture';
-import { SceneDecoder } from '../wire/scene';
 import { decodeEvent, decodeForce, decodeWelcome, type Event, type Force, type Welcome } from '../wire/small';
 
 export interface FeedListener {
@@ -20,28 +18,22 @@ export interface FeedListener {
 const utf8 = new TextDecoder();
 
 export class Feed {
-  private scene = new SceneDecoder();
   private pictures = new PictureDecoder();
 
   constructor(private readonly listener: FeedListener) {}
 
   /** Header and all. Throws a WireError. */
   takeRaw(raw: Uint8Array): void {
-    this.take({ ...parseFrame(raw), raw });
+    this.take(parseFrame(raw));
   }
 
-  take(frame: ReceivedFrame): void {
-    const { type, payload } = frame;
+  take({ type, payload }: Frame): void {
     if (type === FrameType.Welcome) this.begin(decodeWelcome(payload));
     else if (type === FrameType.Mesh) this.listener.mesh(decodeMesh(payload));
     else if (type === FrameType.Picture) this.listener.picture(this.pictures.take(payload));
     else if (type === FrameType.Force) this.listener.force(decodeForce(payload));
     else if (type === FrameType.Event) this.listener.event(decodeEvent(payload));
     else if (type === FrameType.Control) this.listener.control(parseControl(payload));
-    else {
-      const moment = this.scene.take(frame);
-      if (moment !== null) this.listener.picture(moment);
-    }
   }
 
   /** The newest picture as a frame that needs none before it; null before the first. */
@@ -52,7 +44,6 @@ export class Feed {
 
   /** A connection's pictures refer to nothing of the one before. */
   private begin(welcome: Welcome): void {
-    this.scene = new SceneDecoder();
     this.pictures = new PictureDecoder();
     this.listener.welcome(welcome);
   }

@@ -3,6 +3,7 @@ import type { Hand } from '../touch/hand';
 import type { Side } from './look';
 import type { Page } from './page';
 import type { Mode } from './state';
+import { isTyping } from './typing';
 
 const sides: Record<string, Side> = {
   '1': 'lateral',
@@ -30,21 +31,12 @@ export class Keys {
     else if (mode !== undefined && (mode === 'look' || this.page.me.hand >= 0)) this.page.setMode(mode);
     else if (key === 'l') this.page.setLook({ labels: !this.page.look.labels });
     else if (key === 'f') this.page.camera.frame(this.page.selection);
-    else if (key === 'home') this.page.camera.frame(null);
+    else if (key === 'home' && !isSlider(event.target)) this.page.camera.frame(null);
     else if (key === 'escape') this.hand.letGo();
   }
 }
 
-function isTyping(target: EventTarget | null): boolean {
-  if (!(target instanceof HTMLElement)) return false;
-  return (
-    target instanceof HTMLTextAreaElement ||
-    target instanceof HTMLSelectElement ||
-    target.isContentEditable ||
-    isTextInput(target)
-  );
-}
-
-function isTextInput(target: HTMLElement): boolean {
-  return target instanceof HTMLInputElement && !['button', 'checkbox', 'radio'].includes(target.type);
+/** Home moves a slider to its beginning. */
+function isSlider(target: EventTarget | null): boolean {
+  return target instanceof HTMLInputElement && target.type === 'range';
 }

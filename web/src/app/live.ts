@@ -1,5 +1,5 @@
 /** A page that has joined a class. */
-import { Session } from '../net/session';
+import { idToResume, Session } from '../net/session';
 import { Priming } from '../net/priming';
 import { FrameType } from '../wire/frame';
 import { encodePictureSeen } from '../wire/picture';
@@ -11,6 +11,7 @@ import { takeInvitation } from './invitation';
 import { askName, wasLoadedAgain } from './joining';
 import { kept } from './storage';
 import type { SceneFacts } from './facts';
+import { sentenceOf } from './refusals';
 import { fetchShade } from './shade';
 import type { Texts } from './state';
 
@@ -31,7 +32,10 @@ export async function joinClass(texts: Texts, scene: SceneFacts, lessons: unknow
     role: invitation.role,
     name,
     resume_id,
-    onWelcome: (welcome) => void welcomed(assembly, welcome),
+    onWelcome: (welcome) => {
+      welcomed(assembly, welcome);
+      void showsAnother(scene).then((another) => another && session.end('web.net.reload'));
+    },
     onFrame: (frame) => {
       priming.take(frame);
       page.tapped(frame.raw);
@@ -53,13 +57,21 @@ function sendState(session: Session, state: ToolState): void {
   for (const { type, flags, payload } of toolStateParts(state)) session.send(type, payload, flags);
 }
 
-async function welcomed({ page }: Assembly, welcome: Welcome): Promise<void> {
-  kept.ofTab.set('resume', welcome.resume_id.toString());
+function welcomed({ page }: Assembly, welcome: Welcome): void {
+  kept.ofTab.set('resume', idToResume(welcome).toString());
   page.setMe({ ...page.me, client: welcome.client, role: welcome.role, hand: welcome.hand });
   if (welcome.hand < 0 && welcome.role !== 'viewer') page.toast(page.texts.t('web.net.watching'));
-  const now = await fetch('/scene.json').then((answer) => answer.json() as Promise<SceneFacts>);
-  if (now.version !== page.scene.version || now.name !== page.scene.name) {
-    page.setConnection({ state: 'ended', key: 'web.net.reload' });
+}
+
+/** Whether the server has begun anew with another scene or version than this page is of. */
+async function showsAnother({ version, name }: SceneFacts): Promise<boolean> {
+  try {
+    const answer = await fetch('/scene.json');
+    if (!answer.ok) return false;
+    const now = (await answer.json()) as SceneFacts;
+    return now.version !== version || now.name !== name;
+  } catch {
+    return false; // the link broke again: the next Welcome asks anew
   }
 }
 
@@ -76,7 +88,7 @@ function listenerOf({ page, view, hand }: Assembly, seen: (sequence: number) => 
       shaded = true;
     },
     force: (force) => hand.takeForce(force),
-    event: ({ code, text }) => page.toast(code === 'stop' ? page.texts.t('web.net.stopped') : text),
+    event: (event) => page.toast(page.texts.t(...sentenceOf(event))),
     control: (message) => page.takeControl(message),
   };
 }

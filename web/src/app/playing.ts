@@ -1,13 +1,12 @@
 /** A page that plays a recording: nobody hears what it sends, and there is no hand. */
 import type { OpenedRecording } from '../record/open_recording';
-import { createTexts } from '../text/texts';
 import { WireError } from '../wire/cursor';
 import { assemble } from './assembly';
 import { Feed } from './feed';
+import type { Texts } from './state';
 
-export function playRecording(recording: OpenedRecording): void {
-  const { dictionaries, facts, lessons, shade, source } = recording;
-  const texts = createTexts(dictionaries);
+export function playRecording(texts: Texts, recording: OpenedRecording): void {
+  const { facts, lessons, shade, player } = recording;
   const assembly = assemble(texts, facts, lessons);
   const { page, view } = assembly;
   page.setConnection({ state: 'playing' });
@@ -25,10 +24,10 @@ export function playRecording(recording: OpenedRecording): void {
     event: () => undefined,
     control: (message) => page.takeControl(message),
   });
-  page.line = { send: (control) => source.send(control), primingFrames: () => [], wholePicture: () => null };
+  page.line = { send: () => undefined, primingFrames: () => [], wholePicture: () => null };
   assembly.start(() => undefined);
   recording.mount(page);
-  source.start((raw) => take(feed, raw));
+  player.start((raw) => take(feed, raw));
 }
 
 function take(feed: Feed, raw: Uint8Array): void {

@@ -46,6 +46,8 @@ export interface ClassResult {
   answer: string;
   points: number;
   of: number;
+  /** That this is an answer to; a lesson's step has none. */
+  question?: Question;
 }
 
 export interface Question {
@@ -93,7 +95,7 @@ export interface AppEvents {
   readings: Readings;
   inForce: InForce;
   class: ClassState;
-  /** Any Control of the server, parsed; `class` and `scene` come by their own events, too. */
+  /** Any Control of the server, parsed; `class` comes by its own event, too. */
   control: Record<string, unknown>;
   connection: Connection;
   me: Me;
@@ -109,15 +111,6 @@ export type PanelSide = 'left' | 'right';
 
 /** Sees every frame of the server as it came, header and all. */
 export type FrameTap = (frame: Uint8Array, at_ms: number) => void;
-
-/** Where frames come from: a WebSocket's session, or a recording. */
-export interface FrameSource {
-  /** Calls `take` with every frame, header and all, from now on. */
-  start(take: (frame: Uint8Array) => void): void;
-  /** A Control; a recording drops it. */
-  send(control: object): void;
-  close(): void;
-}
 
 /** Made by `createTexts` of text/texts.ts. */
 export interface Texts {

@@ -1,5 +1,6 @@
 /** The line below: whether the page is in, who it is, how fast the simulation runs; a broken link over the limb. */
 import { el } from './dom';
+import { licencesLink } from './licences';
 import type { Page } from './page';
 
 const RATES_EVERY_MS = 1000;
@@ -9,16 +10,13 @@ export class StatusLine {
   private readonly link = el('span', { class: 'status-link' });
   private readonly rates = el('span', { class: 'status-rates' });
   private readonly banner = el('div', { class: 'banner', role: 'alert' });
+  private said: string | null = null;
   private shown_ms = 0;
 
   constructor(private readonly page: Page) {
     const { texts } = page;
-    const licences = texts.bind(
-      el('a', { href: '/licences.txt', target: '_blank', rel: 'noopener' }),
-      'web.status.licences',
-    );
     const note = texts.bind(el('span', { class: 'status-note' }), 'status.not_medical');
-    this.element.append(this.link, this.rates, note, licences);
+    this.element.append(this.link, this.rates, note, licencesLink(texts));
     for (const event of ['connection', 'class', 'me', 'language'] as const) page.on(event, () => this.show());
     page.on('readings', () => this.showRates());
     this.show();
@@ -32,6 +30,8 @@ export class StatusLine {
     this.link.textContent =
       connection.state === 'joined' ? joined.join(' · ') : texts.t(`web.status.${connection.state}`);
     const sentence = 'key' in connection ? connection.key : frozen(classState?.frozen, me.role);
+    if (sentence === this.said) return; // a screen reader would say it again with every word of the class
+    this.said = sentence;
     this.banner.remove();
     if (sentence === null) return;
     texts.bind(this.banner, sentence);

@@ -2,6 +2,7 @@
 
 import { button, el } from '../app/dom';
 import type { App } from '../app/state';
+import { isTyping } from '../app/typing';
 import { textButton } from '../learn/widgets';
 
 interface Balance {
@@ -117,9 +118,7 @@ export class BenchPanel {
   /** A and B, wherever one is not typing. */
   private key(event: KeyboardEvent): void {
     const slot = SLOTS.find((letter) => letter === event.key.toLowerCase());
-    const typing =
-      event.target instanceof Element && event.target.closest('input:not([type=range]), textarea, select, dialog');
-    if (!slot || typing || event.ctrlKey || event.altKey || event.metaKey) return;
+    if (!slot || isTyping(event.target) || event.ctrlKey || event.altKey || event.metaKey) return;
     this.ask(this.kept[slot]);
   }
 
@@ -137,8 +136,8 @@ export class BenchPanel {
       texts.bind(this.feel[slot], `web.bench.feel_${slot}`, 100 * common);
       this.feel[slot].setAttribute('aria-pressed', String(felt === true));
     }
-    const led = inForce?.drive === 'script' ? 'web.bench.script' : '';
-    this.note.textContent = led ? texts.t(led) : '';
+    const led = inForce?.drive === 'script' ? texts.t('web.bench.script') : '';
+    if (this.note.textContent !== led) this.note.textContent = led;
   }
 }
 

@@ -43,8 +43,13 @@ export class ClassPanel {
     this.update();
   }
 
+  /** Whoever began it. */
+  private get looking(): boolean {
+    return this.lead.leading || this.app.classState?.look != null;
+  }
+
   private toggleLook(): void {
-    if (this.lead.leading) this.lead.stop();
+    if (this.looking) this.lead.stop();
     else this.lead.start();
     this.update();
   }
@@ -60,7 +65,7 @@ export class ClassPanel {
       texts.bind(made, on ? onKey : offKey);
       made.setAttribute('aria-pressed', String(on));
     };
-    press(this.look, this.lead.leading, 'web.class.look_end', 'web.class.look');
+    press(this.look, this.looking, 'web.class.look_end', 'web.class.look');
     press(this.freeze, classState?.frozen === true, 'web.class.unfreeze', 'web.class.freeze');
     press(this.ask, classState?.question != null, 'web.question.close', 'web.question.new');
     texts.bindAttribute(this.look, 'title', 'web.class.look.tip');

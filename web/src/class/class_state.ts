@@ -54,12 +54,15 @@ function resultOf(value: unknown): ClassResult {
   };
 }
 
+/** What a class of an afternoon comes to, and a page can draw at once. */
+export const MOST_RESULTS = 5000;
+
 /** The server says only the newest results again: the older ones are kept here, unless it has begun to count anew. */
 function allResults(newest: ClassResult[], before: readonly ClassResult[]): ClassResult[] {
   const last = newest.at(-1)?.number ?? 0;
   const known = (before.at(-1)?.number ?? 0) > last ? [] : before;
   const first = newest[0]?.number ?? 0;
-  return [...known.filter(({ number }) => number < first), ...newest];
+  return [...known.filter(({ number }) => number < first), ...newest].slice(-MOST_RESULTS);
 }
 
 /** `client`: this page's own number; `before`: what was known until now. */

@@ -28,9 +28,10 @@ export interface Count {
   share: number; // of those who answered
 }
 
+/** Of students only: others may answer to try it out. */
 export function countAnswers(question: Question, members: readonly Member[]): Count[] {
-  const answers = members.map((member) => member.answer).filter((answer) => answer !== null);
-  const valid = answers.filter((answer) => question.options.includes(answer));
+  const answers = members.filter(({ role }) => role === 'student').map(({ answer }) => answer);
+  const valid = answers.filter((answer) => answer !== null && question.options.includes(answer));
   return question.options.map((option) => {
     const students = valid.filter((answer) => answer === option).length;
     return { option, students, share: valid.length === 0 ? 0 : students / valid.length };

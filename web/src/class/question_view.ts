@@ -1,4 +1,7 @@
-/** The question to a student: big buttons over the limb. An answer may be changed until the question is closed. */
+/**
+ * The question to a student: big buttons over the limb. An answer may be changed until the question is closed; after a
+ * break it is sent again, since the server has forgotten it.
+ */
 
 import { el, refill } from '../app/dom';
 import type { App, Question } from '../app/state';
@@ -8,9 +11,11 @@ export class QuestionView {
   private readonly box = el('section', { class: 'question', role: 'group' });
   private shown: Question | null = null;
   private answer: string | null = null;
+  private owed = false; // the new connection's server has not heard the answer
   private hide: (() => void) | null = null;
 
   constructor(private readonly app: App) {
+    app.on('connection', () => (this.owed = true));
     app.on('class', ({ question }) => this.take(question));
     app.on('language', () => this.draw());
     this.take(app.classState?.question ?? null);
@@ -21,6 +26,13 @@ export class QuestionView {
     const changed = JSON.stringify(question) !== JSON.stringify(this.shown);
     this.shown = question;
     if (changed) this.draw();
+    if (this.owed && this.app.connection.state === 'joined') this.send();
+  }
+
+  private send(): void {
+    const { app, shown, answer } = this;
+    this.owed = app.connection.state !== 'joined';
+    if (shown && answer !== null) app.send({ do: 'class_answer', question: shown.id, answer });
   }
 
   private draw(): void {
@@ -32,17 +44,17 @@ export class QuestionView {
     }
     const title = el('h2', { text: shown.text });
     this.box.setAttribute('aria-label', shown.text);
-    const options = shown.options.map((option) => this.option(shown, option));
+    const options = shown.options.map((option) => this.option(option));
     const said =
       this.answer === null ? app.texts.t('web.question.choose') : app.texts.t('web.question.sent', this.answer);
     refill(this.box, title, el('div', { class: 'answers' }, ...options), el('p', { role: 'status', text: said }));
     this.hide ??= app.mountOver(this.box);
   }
 
-  private option(question: Question, option: string): HTMLButtonElement {
+  private option(option: string): HTMLButtonElement {
     const made = textButton(option, 'answer', () => {
       this.answer = option;
-      this.app.send({ do: 'class_answer', question: question.id, answer: option });
+      this.send();
       this.draw();
       this.focus(option);
     });

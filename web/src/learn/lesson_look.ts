@@ -1,7 +1,7 @@
 /** What a step wants shown and set, in the page's terms. */
 
 import type { Colouring, Look } from '../app/look';
-import type { InForce } from '../wire/picture';
+import type { InForce } from '../wire/moment';
 import { hidesNames, keyOf, markedPart, type Anatomy, type Setting, type Step } from './lesson';
 
 /** The page colours by fewer things than the window; what it does not know leaves the muscles as they are. */

@@ -1,10 +1,13 @@
-/** A student's way through a lesson: which step, what was answered, how many points. Fed once a picture. */
+/**
+ * A student's way through a lesson: which step, what was answered, how many points. Fed with the readings, five times a
+ * second.
+ */
 
 import { keyOf, samePart, type Anatomy, type Lesson, type Motion, type Part, type Step } from './lesson';
 import { namesPart } from './names_part';
 import { countAnswer, freshState, watch, type Observation, type TaskState } from './task_state';
 
-const LONGEST_PICTURE_S = 5; // longer ones are a machine that slept
+const LONGEST_PAUSE_S = 5; // between readings; a longer one is a machine that slept
 
 /**
  * Points of a step: all of them for a right answer without help; each hint takes a quarter, each wrong answer half,
@@ -57,7 +60,7 @@ export class LessonRun {
     const passed_s = this.clock_s === null ? 0 : seen.clock_s - this.clock_s;
     this.clock_s = seen.clock_s;
     if (this.answered) return;
-    this.state.seconds += Math.min(LONGEST_PICTURE_S, Math.max(0, passed_s));
+    this.state.seconds += Math.min(LONGEST_PAUSE_S, Math.max(0, passed_s));
     watch(this.step.task, seen, this.anatomy, this.state);
   }
 

@@ -16,7 +16,7 @@ export function anatomyOf({ scene }: App): Anatomy {
 function observationOf(app: App, anatomy: Anatomy): Observation | null {
   const { readings, selection, me } = app;
   if (!readings) return null;
-  const own = readings.tools.slice(me.hand, me.hand + 1);
+  const own = readings.tools.slice(me.hand, me.hand + 1); // hands that nobody has keep their places in the list
   return {
     time_s: readings.time_s,
     clock_s: performance.now() / 1000,

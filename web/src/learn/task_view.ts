@@ -1,4 +1,7 @@
-/** What a student sees and does of a task. What changes with every picture is kept up by the returned functions. */
+/**
+ * What a student sees and does of a task. What changes with the readings, five times a second, is kept up by the
+ * returned functions.
+ */
 
 import { el } from '../app/dom';
 import type { App } from '../app/state';

@@ -2,7 +2,7 @@
 
 import { button, el } from '../app/dom';
 
-/** An element with what keeps it up to date, called with every picture. */
+/** An element with what keeps it up to date, called with the readings, five times a second. */
 export interface Live {
   element: HTMLElement;
   update(): void;

@@ -37,7 +37,7 @@ export class LimbModel {
     this.beat.come(now_ms);
     for (const glide of [...this.skinGlides.values(), ...this.poseGlides]) glide.begin();
     for (const [index, skin] of picture.skins) this.takeSkin(index, skin);
-    if (picture.poses !== null) this.takePoses(picture.poses);
+    this.takePoses(picture.poses);
   }
 
   /** Goes on towards the newest picture. Gives the surfaces that moved; `posed`: bodies did. */

@@ -31,6 +31,11 @@ void main() {
 const OWN = 0x0b7f86;
 const OTHERS = 0x5a6b8c;
 
+/** The server tells of hands that nobody has, too: they touch and hold nothing. */
+export function isAtWork({ in_contact, line }: ToolReading): boolean {
+  return in_contact || line >= 0;
+}
+
 export class ToolsDrawing {
   readonly group = new Object3D();
   private readonly ball = new SphereGeometry(1, 20, 14);

@@ -1,5 +1,5 @@
 /** Draws the limb, only when something changed, and says what lies under a pointer. */
-import { Object3D, Raycaster, Scene, Vector2, Vector3, WebGLRenderer } from 'three';
+import { Color, LinearSRGBColorSpace, Object3D, Raycaster, Scene, Vector2, Vector3, WebGLRenderer } from 'three';
 import { el } from '../app/dom';
 import type { App } from '../app/state';
 import type { Mesh } from '../wire/mesh';
@@ -13,14 +13,11 @@ import { LinesDrawing } from './lines_drawing';
 import { LimbModel } from './model';
 import { raycast, type Hit, type Ray } from './picking';
 import type { Surface } from './surface';
-import { ToolsDrawing } from './tools_drawing';
+import { isAtWork, ToolsDrawing } from './tools_drawing';
 import { isSolid } from './visibility';
 
 const ANCHORS_EVERY_MS = 250;
 const ACCENT: [number, number, number] = [0.05, 0.62, 0.74];
-
-/** The sky's share of each vertex, skins before bones, as `/shade.bin` has it. */
-export type Shade = Uint8Array | null;
 
 export class LimbView {
   readonly element = el('div', { class: 'limb' });
@@ -46,7 +43,9 @@ export class LimbView {
   private readonly caster = new Raycaster();
 
   constructor(parts: App['parts']) {
-    this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: !this.fineness.slow, alpha: true });
+    const { slow } = this.fineness;
+    this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: !slow, alpha: !slow });
+    if (slow) this.fillBackground();
     this.model = new LimbModel(parts);
     this.drawing = new LimbDrawing(this.model);
     this.anchors = new Anchors(this.model, this.drawing);
@@ -56,6 +55,18 @@ export class LimbView {
     const limb = new Object3D().add(this.drawing.group, this.lines.group, this.tools.group);
     this.scene.add(limb);
     new ResizeObserver(() => this.resize()).observe(this.element);
+  }
+
+  /** A canvas that is seen through costs a software renderer a third of its frame: it gets the paper's colour. */
+  private fillBackground(): void {
+    const dark = matchMedia('(prefers-color-scheme: dark)');
+    const fill = (): void => {
+      const paper = getComputedStyle(document.documentElement).getPropertyValue('--paper').trim();
+      this.scene.background = new Color().setStyle(paper, LinearSRGBColorSpace);
+      this.repaint();
+    };
+    dark.addEventListener('change', fill);
+    fill();
   }
 
   start(app: App): void {
@@ -77,7 +88,7 @@ export class LimbView {
     this.camera.begin();
   }
 
-  /** After all meshes came. */
+  /** The sky's share of each vertex, skins before bones, as `/shade.bin` has it; after all meshes came. */
   takeShade(shade: Uint8Array): void {
     let at = 0;
     for (const surface of this.model.surfaces) {
@@ -101,7 +112,7 @@ export class LimbView {
     this.anchorsStale = true;
   }
 
-  /** They come with every picture; a limb at rest in its own colours is not drawn again for them. */
+  /** They come five times a second; a limb at rest in its own colours is not drawn again for them. */
   private followReadings(app: App): void {
     const { colour, lines } = app.look;
     const others = this.othersOf(app).length > 0;
@@ -111,7 +122,7 @@ export class LimbView {
   }
 
   private othersOf({ me, readings }: App): ToolReading[] {
-    return (readings?.tools ?? []).filter((tool, i) => i !== me.hand && (tool.in_contact || tool.line >= 0));
+    return (readings?.tools ?? []).filter((tool, hand) => hand !== me.hand && isAtWork(tool));
   }
 
   setHovered(key: string | null): void {

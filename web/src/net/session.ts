@@ -1,9 +1,9 @@
 /**
  * One membership in a class over a WebSocket. It connects again by itself after a break, with the resume id that keeps
- * its hand, until the server says that it is for good.
+ * its hand where it has one, until the server or the page says that it is for good.
  *
- *   connecting --Welcome--> joined --break--> waiting (0.5 .. 5 s) --> connecting ...
- *                                  --Bye for good, close()--> ended
+ *   connecting --Welcome--> joined --break--> waiting (about 0.5 .. 5 s) --> connecting ...
+ *        any of these --Bye for good, end()--> ended
  */
 import type { Connection, Role } from '../app/state';
 import { WireError } from '../wire/cursor';
@@ -23,7 +23,7 @@ export interface SessionOptions {
   token: Uint8Array;
   role: Role;
   name: string;
-  /** Of a page that was loaded again; 0n: a new member. */
+  /** Of a page that had a hand and was loaded again; 0n: a new member. */
   resume_id: bigint;
   onWelcome(welcome: Welcome): void;
   onFrame(frame: ReceivedFrame): void;
@@ -65,11 +65,13 @@ export class Session {
     this.lost();
   }
 
-  /** Tries at once, for a person who does not want to wait. */
-  retry(): void {
-    if (this.ended || this.socket !== null) return;
-    clearTimeout(this.retryTimer);
-    this.connect();
+  /** Closes for good; `key` of the sentence that says why. */
+  end(key: string): void {
+    if (this.ended) return;
+    this.ended = true;
+    clearInterval(this.pingTimer);
+    this.lost();
+    this.options.onConnection({ state: 'ended', key });
   }
 
   private connect(): void {
@@ -79,7 +81,9 @@ export class Session {
     socket.binaryType = 'arraybuffer';
     this.socket = socket;
     this.heard_ms = performance.now();
-    socket.addEventListener('open', () => this.hello());
+    socket.addEventListener('open', () => {
+      if (socket === this.socket) this.hello();
+    });
     socket.addEventListener('message', (message) => {
       if (socket === this.socket) this.take(new Uint8Array(message.data as ArrayBuffer));
     });
@@ -112,12 +116,13 @@ export class Session {
     if (frame.type === FrameType.Welcome) this.welcome(decodeWelcome(frame.payload));
     if (frame.type === FrameType.Bye) this.bye(decodeBye(frame.payload));
     else this.options.onFrame(frame);
+    // Only now does the link carry what it is for: one that breaks before gets longer and longer pauses.
+    if (frame.type === FrameType.Picture) this.wait_ms = FIRST_WAIT_MS;
   }
 
   private welcome(welcome: Welcome): void {
-    this.resume_id = welcome.resume_id;
+    this.resume_id = idToResume(welcome);
     this.joined = true;
-    this.wait_ms = FIRST_WAIT_MS;
     this.reason = 'web.net.broken';
     this.options.onWelcome(welcome);
     this.options.onConnection({ state: 'joined' });
@@ -127,6 +132,7 @@ export class Session {
     if (bye.reason === 'token') this.end('web.net.token');
     else if (bye.reason === 'version') this.end('web.net.version');
     else {
+      if (bye.reason === 'no hand') this.resume_id = 0n; // what it asked for is gone: it joins anew, to watch
       this.reason = byeSentences[bye.reason] ?? 'web.net.broken';
       this.lost();
     }
@@ -134,21 +140,15 @@ export class Session {
 
   private lost(): void {
     this.joined = false;
+    clearTimeout(this.retryTimer);
     const socket = this.socket;
     this.socket = null;
     socket?.close();
     if (this.ended) return;
     this.options.onConnection({ state: 'broken', key: this.reason });
-    this.retryTimer = setTimeout(() => this.connect(), this.wait_ms);
+    // Not all of a class at the same moment.
+    this.retryTimer = setTimeout(() => this.connect(), (0.5 + Math.random()) * this.wait_ms);
     this.wait_ms = Math.min(2 * this.wait_ms, LONGEST_WAIT_MS);
-  }
-
-  private end(key: string): void {
-    this.ended = true;
-    clearInterval(this.pingTimer);
-    clearTimeout(this.retryTimer);
-    this.lost();
-    this.options.onConnection({ state: 'ended', key });
   }
 
   private tick(): void {
@@ -176,6 +176,11 @@ const byeSentences: Partial<Record<Bye['reason'], string>> = {
   'no hand': 'web.net.no_hand',
   closing: 'web.net.closing',
 };
+
+/** Of a member that watches there is nothing to keep; its id would only ask for a hand. */
+export function idToResume({ hand, resume_id }: Welcome): bigint {
+  return hand >= 0 ? resume_id : 0n;
+}
 
 function clock_ns(): number {
   return Math.round(performance.now() * 1e6);

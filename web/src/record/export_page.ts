@@ -1,5 +1,6 @@
 /** One file that plays a recording without a server: the page with its style, script and the frames inside. */
 
+import { LICENCES_ID, toElement } from '../app/licences';
 import { RECORDING_ID } from './recording';
 
 /** What the exported page may do: nothing but run what it holds. */
@@ -17,12 +18,19 @@ function replaceOnce(page: string, pattern: RegExp, replacement: string): string
   return page.replace(pattern, () => replacement);
 }
 
-/**
- * `page` names its style and script by one <link rel="stylesheet"> and one <script src>; `recording` is
- * recordingText().
- */
-export function inlinePage(page: string, style: string, script: string, recording: string): string {
-  const data = `<script type="application/json" id="${RECORDING_ID}">${recording}</script>`;
+/** What goes into the page; `recording` is recordingText(). */
+export interface Inlay {
+  style: string;
+  script: string;
+  licences: string;
+  recording: string;
+}
+
+/** `page` names its style and script by one <link rel="stylesheet"> and one <script src>. */
+export function inlinePage(page: string, { style, script, licences, recording }: Inlay): string {
+  const data =
+    `<script type="text/plain" id="${LICENCES_ID}">${toElement(licences)}</script>` +
+    `<script type="application/json" id="${RECORDING_ID}">${recording}</script>`;
   const policy = `<meta http-equiv="Content-Security-Policy" content="${POLICY}">`;
   let whole = replaceOnce(page, /<link\b[^>]*\brel="?stylesheet"?[^>]*>/i, `<style>${inElement(style)}</style>`);
   whole = replaceOnce(whole, /<script\b[^>]*\bsrc=[^>]*>\s*<\/script>/i, '');

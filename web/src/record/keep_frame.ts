@@ -2,15 +2,7 @@
 
 import { FrameType, frameBytes, parseFrame } from '../wire/frame';
 
-const LIMB: readonly number[] = [
-  FrameType.SceneKey,
-  FrameType.SceneDelta,
-  FrameType.BonePoses,
-  FrameType.Readings,
-  FrameType.InForce,
-  FrameType.Mesh,
-  FrameType.Picture,
-];
+const LIMB: readonly number[] = [FrameType.Mesh, FrameType.Picture];
 const SCENE_START = '{"scene"';
 const VIEWER = 0;
 

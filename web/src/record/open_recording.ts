@@ -1,7 +1,7 @@
 /** What a page needs to begin with a recording in place of a server. */
 
 import type { SceneFacts } from '../app/facts';
-import type { App, FrameSource } from '../app/state';
+import type { App } from '../app/state';
 import type { Dictionary } from '../text/texts';
 import { Player } from './player';
 import { parseRecording } from './recording';
@@ -12,7 +12,7 @@ export interface OpenedRecording {
   lessons: unknown[];
   dictionaries: Record<string, Dictionary>;
   shade: Uint8Array;
-  source: FrameSource;
+  player: Player;
   /** Adds the time bar. */
   mount(app: App): void;
 }
@@ -26,7 +26,7 @@ export async function openRecording(element: Element): Promise<OpenedRecording> 
     lessons: [], // a lesson wants a hand, and a recording has none
     dictionaries: recording.dictionaries,
     shade: recording.shade,
-    source: player,
+    player,
     mount: (app) => {
       app.mountOver(timeBar(app, player));
       app.toast(app.texts.t('web.record.playing'));

@@ -1,8 +1,7 @@
 /**
  * Plays a recording as the server would send it. Forwards it gives every frame; for a jump only those that the moment
- * is made of: the pictures since the last whole one, and of everything else the newest.
+ * is made of, the pictures since the last whole one.
  */
-import type { FrameSource } from '../app/state';
 import { FrameType, HEADER_BYTES, parseHeader } from '../wire/frame';
 import { isWhole } from '../wire/picture';
 import type { Recording, TimedFrame } from './recording';
@@ -23,9 +22,8 @@ const browserClock: Clock = {
 };
 
 const TICK_MS = 16;
-const LASTING: readonly number[] = [FrameType.Welcome, FrameType.Mesh, FrameType.Control];
 
-export class Player implements FrameSource {
+export class Player {
   readonly length_s: number;
   private readonly frames: readonly TimedFrame[];
   private take: (frame: Uint8Array) => void = () => {};
@@ -51,18 +49,11 @@ export class Player implements FrameSource {
     return this.stop !== null;
   }
 
+  /** Gives frames, header and all, from now on. */
   start(take: (frame: Uint8Array) => void): void {
     this.take = take;
     this.giveUntil(0);
     this.play();
-  }
-
-  /** Nobody hears it. */
-  send(): void {}
-
-  close(): void {
-    this.pause();
-    this.listeners.clear();
   }
 
   /** From the beginning where it had come to the end. */
@@ -120,30 +111,12 @@ export class Player implements FrameSource {
 
   /** The frames before `until` that make its moment, in their order. */
   private momentBefore(until: number): number[] {
-    const newest = new Map<string, number>();
     let pictures: number[] = [];
-    for (let index = 0; index < until; ++index) {
-      const bytes = this.frames[index]?.bytes;
-      if (!bytes) continue;
-      const { type } = parseHeader(bytes);
-      const payload = bytes.subarray(HEADER_BYTES);
-      if (LASTING.includes(type)) continue;
-      if (type === FrameType.Picture) {
-        if (isWhole(payload)) pictures = [];
-        pictures.push(index);
-        continue;
-      }
-      if (type === FrameType.SceneKey) newest.delete(`${FrameType.SceneDelta} ${skinOf(payload)}`);
-      newest.set(isOfSkin(type) ? `${type} ${skinOf(payload)}` : `${type}`, index);
-    }
-    return [...newest.values(), ...pictures].sort((a, b) => a - b);
+    this.frames.slice(0, until).forEach(({ bytes }, index) => {
+      if (parseHeader(bytes).type !== FrameType.Picture) return;
+      if (isWhole(bytes.subarray(HEADER_BYTES))) pictures = [];
+      pictures.push(index);
+    });
+    return pictures;
   }
-}
-
-function isOfSkin(type: number): boolean {
-  return type === FrameType.SceneKey || type === FrameType.SceneDelta;
-}
-
-function skinOf(payload: Uint8Array): number {
-  return (payload[4] ?? 0) | ((payload[5] ?? 0) << 8);
 }

@@ -24,10 +24,11 @@ async function exportedPage(app: App, recorder: Recorder): Promise<string> {
     string,
     Dictionary
   >;
-  const [page, style, script] = await Promise.all(['/', '/app.css', '/app.js'].map(textOf));
+  const files = ['/', '/app.css', '/app.js', '/licences.txt'];
+  const [page = '', style = '', script = '', licences = ''] = await Promise.all(files.map(textOf));
   const shade = (await fetchShade()) ?? new Uint8Array();
   const recording = recordingText({ scene: app.scene, dictionaries, shade, frames: [...recorder.frames] });
-  return inlinePage(page ?? '', style ?? '', script ?? '', recording);
+  return inlinePage(page, { style, script, licences, recording });
 }
 
 export class RecordPanel {

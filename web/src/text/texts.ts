@@ -103,8 +103,8 @@ class PageTexts implements Texts {
   private show(element: Element, bound: Bound): void {
     for (const [slot, { key, values }] of bound) {
       const text = this.t(key, ...values);
-      if (slot === '') element.textContent = text;
-      else element.setAttribute(slot, text);
+      if (slot !== '') element.setAttribute(slot, text);
+      else if (element.textContent !== text) element.textContent = text; // a screen reader would say it again
     }
   }
 }

@@ -1,5 +1,5 @@
 /**
- * The page's hand: what it does, what it sends 60 times a second while it does something and 10 times otherwise, and
+ * The page's hand: what it does, what it sends 60 times a second while it does something and 20 times otherwise, and
  * what it feels.
  *
  *   rest --press on the limb--> Press --let go, frozen--> rest
@@ -16,7 +16,7 @@ import { Press, RADIUS_M, type Felt } from './press';
 import { LINE_STIFFNESS_N_M, nearestOnLine, pointOnLine, Pull } from './pull';
 
 const BUSY_EVERY_MS = 1000 / 60;
-const REST_EVERY_MS = 100;
+const REST_EVERY_MS = 50;
 const GRAB_LINE = 1;
 /** Of the low pass over the felt force: what a number on a screen can follow. */
 const SMOOTH_S = 0.08;
@@ -109,7 +109,7 @@ export class Hand {
   private tick(): void {
     const now_ms = performance.now();
     const since_ms = now_ms - this.sent_ms;
-    if (!this.able || since_ms < (this.busy ? 0.9 * BUSY_EVERY_MS : REST_EVERY_MS)) return;
+    if (!this.able || since_ms < 0.9 * (this.busy ? BUSY_EVERY_MS : REST_EVERY_MS)) return;
     this.sent_ms = now_ms;
     if (this.press !== null) this.tickPress(this.press, Math.min(since_ms / 1000, 0.05));
     else if (this.pull !== null) this.tickPull(this.pull);

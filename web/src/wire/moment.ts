@@ -85,7 +85,7 @@ export interface Picture {
   /** Of the muscles whose skin changed: x, y, z of each vertex in turn [m, world]. */
   skins: Map<number, Float32Array>;
   /** Of each body, 3x4 by rows: from the specimen's files to the world. */
-  poses: Float32Array[] | null;
+  poses: Float32Array[];
   readings: Readings | null;
   inForce: InForce | null;
 }

@@ -7,8 +7,6 @@ import { ByteReader, ByteWriter, WireError } from './cursor';
 import type { Picture } from './moment';
 import { decodeInForce, decodeReadings } from './readings';
 
-export type { InForce, JointReading, MuscleJoint, Picture, Readings, ToolReading, ToolShape } from './moment';
-
 export const GRID_M = 5e-5;
 const HEAD_BYTES = 16;
 const LONGEST_VARINT = 5;
@@ -39,7 +37,10 @@ export class PictureDecoder {
     const readings = packed.readings && decodeReadings(packed.readings);
     const inForce = packed.inForce && decodeInForce(packed.inForce);
     Object.assign(this, { sequence, time_s, poses });
-    this.numbers = { readings: packed.readings ?? this.numbers.readings, inForce: packed.inForce ?? this.numbers.inForce };
+    this.numbers = {
+      readings: packed.readings ?? this.numbers.readings,
+      inForce: packed.inForce ?? this.numbers.inForce,
+    };
     return { sequence, time_s, skins, poses, readings, inForce };
   }
 

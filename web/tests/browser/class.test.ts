@@ -101,7 +101,9 @@ test('a lesson is opened for all, and its results come as a table and as a file'
   await teacher.waitForSelector('.results td:text-is("0 of 1")');
   const [download] = await Promise.all([teacher.waitForEvent('download'), teacher.click('text=Save table (CSV)')]);
   const csv = readFileSync(await download.path(), 'utf8');
-  assert.match(csv, /^client,name,lesson,step,answer,points,of\r\n\d+,'=Zoë <b>,1_find_and_touch,2,,0,1\r\n$/);
+  assert.match(csv, /^\uFEFFclient,name,lesson,step,answer,points,of,question\r\n/);
+  assert.match(csv, /\d+,'=Zoë <b>,1_find_and_touch,2,,0,1,\r\n/);
+  assert.match(csv, /\d+,'=Zoë <b>,question,0,second,0,0,Which <i>one<\/i>\?\r\n/);
   await teacher.selectOption('.class select', '');
 });
 
@@ -133,10 +135,57 @@ test('another language is shown at once, everywhere', async () => {
   await student.waitForSelector('.panel-title:text-is("Learn")');
 });
 
-test('after a break the class goes on', async () => {
+test('after a break the class goes on, a raised hand and an answer are told again', async () => {
+  await student.click('text=Hand up');
+  await teacher.waitForSelector('.members .up');
+  await teacher.click('button:text-is("Ask a question")');
+  await teacher.click('text=Ask the class');
+  await student.click('.answer:text-is("first")');
+  await teacher.waitForSelector('.counts:has-text("1 of 2 students")');
+  const told = () => pages.server.heard.filter(({ do: wish }) => wish === 'class_hand_up' || wish === 'class_answer');
+  const before = told().length;
   pages.server.drop();
   await student.waitForSelector('.status-link[data-state="broken"]');
   await student.waitForSelector('.status-link[data-state="joined"]');
-  await student.click('text=Hand up');
+  await teacher.waitForSelector('.status-link[data-state="joined"]', { state: 'attached' });
   await teacher.waitForSelector('.members .up');
+  await teacher.waitForSelector('.counts:has-text("first: 1")');
+  assert.equal(told().length, before + 2);
+  await teacher.click('text=Close the question');
+  await student.click('text=Hand down');
+  await teacher.waitForSelector('.members .up', { state: 'detached' });
+});
+
+test('a browser without WebGL 2 is told so in its language', async () => {
+  const page = await pages.page({ locale: 'de-DE' });
+  await page.addInitScript(() => {
+    HTMLCanvasElement.prototype.getContext = () => null;
+  });
+  await page.goto(pages.url);
+  await page.waitForSelector('.fatal:has-text("WebGL 2 ist aus")');
+});
+
+test('a look that a page before has begun is ended; an end during a break is told after it', async () => {
+  await teacher.click('text=All look here');
+  await student.waitForSelector('.banner:has-text("teacher looks")');
+  await teacher.reload();
+  await pressed(teacher, 'button:text-is("Let them look freely")');
+  await teacher.click('text=Let them look freely');
+  await student.waitForSelector('.banner', { state: 'detached' });
+  await teacher.click('text=All look here');
+  await student.waitForSelector('.banner:has-text("teacher looks")');
+  pages.server.drop();
+  await teacher.waitForSelector('.status-link[data-state="broken"]', { state: 'attached' });
+  await teacher.click('text=Let them look freely');
+  await teacher.waitForSelector('.class .toggle:text-is("All look here")');
+  await student.waitForSelector('.banner', { state: 'detached' });
+});
+
+test('a page of another version than the server is now ends, and says that it must be loaded again', async () => {
+  await phone.route('**/scene.json', (route) => route.fulfill({ json: { version: '9.9.9', name: 'elbow' } }));
+  pages.server.drop();
+  await phone.waitForSelector('.banner:has-text("Laden Sie diese Seite neu")');
+  await teacher.waitForSelector('.status-link[data-state="joined"]', { state: 'attached' });
+  await phone.waitForSelector('.status-link[data-state="ended"]', { state: 'attached' });
+  await teacher.waitForSelector('.class p:has-text("Students: 1.")');
 });

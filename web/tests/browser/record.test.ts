@@ -53,6 +53,9 @@ test('the file plays by itself, without a server, to any moment', async () => {
   assert.match(await page.innerText('.time'), /^0:00/);
   await seek('3');
   await stiffness('8.00');
+  await page.click('.status-line >> text=Lizenzen');
+  assert.match(await page.innerText('dialog .licences'), /three 0\.\d+[\s\S]*Copyright/);
+  await page.click('dialog >> text=Schließen');
   await page.click('.part:text-is("Brachialis")');
   await page.waitForSelector('.card .now:has-text("100 %")');
   assert.deepEqual(

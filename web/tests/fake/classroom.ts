@@ -14,6 +14,14 @@ interface Said {
 
 type Control = Record<string, unknown>;
 
+export interface Refusal {
+  value: number; // of its Event
+  text: string;
+}
+
+export const NOT_INSTRUCTOR: Refusal = { value: 1, text: 'only an instructor leads the class' };
+const CLOSED: Refusal = { value: 2, text: 'this question is no longer asked' };
+
 export class Classroom {
   pupils: Pupil[] = [];
   frozen = false;
@@ -24,17 +32,17 @@ export class Classroom {
   private readonly said = new Map<number, Said>();
   private readonly results: Control[] = [];
 
-  /** A sentence where it is refused. */
-  obey(pupil: Pupil, { do: wish, ...fields }: Control): string | null {
+  /** Gives back why it is refused, where it is. */
+  obey(pupil: Pupil, { do: wish, ...fields }: Control): Refusal | null {
     const said = this.said.get(pupil.id) ?? { hand_up: false, answer: null };
     this.said.set(pupil.id, said);
     if (wish === 'class_hand_up') said.hand_up = fields['on'] === true;
     else if (wish === 'class_answer') {
-      if (fields['question'] !== this.question?.id) return 'this question is no longer asked';
+      if (fields['question'] !== this.question?.id) return CLOSED;
       said.answer = String(fields['answer']);
     } else if (wish === 'class_result') {
       this.results.push({ ...fields, client: pupil.id, name: pupil.name, number: this.results.length + 1 });
-    } else if (pupil.role !== 'instructor') return 'only an instructor leads the class';
+    } else if (pupil.role !== 'instructor') return NOT_INSTRUCTOR;
     else if (wish === 'class_freeze') this.frozen = fields['on'] === true;
     else if (wish === 'class_look') this.look = fields['look'];
     else if (wish === 'class_ask') this.ask(fields['question']);

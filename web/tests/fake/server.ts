@@ -9,7 +9,7 @@ import { FrameType, frameBytes } from '../../src/wire/frame';
 import { decodeHello, decodePing, encodeEvent, encodeForce, encodePong, encodeWelcome } from '../../src/wire/small';
 import { decodeToolContact, decodeToolGrip, decodeToolState } from '../../src/wire/tool_state';
 import { REPOSITORY } from '../elbow';
-import { Classroom, type Pupil } from './classroom';
+import { Classroom, NOT_INSTRUCTOR, type Pupil, type Refusal } from './classroom';
 import { meshes, sceneFacts } from './limb';
 import { accept, type Line } from './websocket';
 import { HANDS, World } from './world';
@@ -80,7 +80,7 @@ class Seat {
   private control(control: Record<string, unknown>): void {
     if (!this.pupil) return;
     const refused = this.fake.obey(this.pupil, control);
-    if (refused !== null) this.send(FrameType.Event, encodeEvent({ code: 'refused', value: 0, text: refused }));
+    if (refused !== null) this.send(FrameType.Event, encodeEvent({ code: 'refused', ...refused }));
   }
 }
 
@@ -130,7 +130,7 @@ export class FakeServer {
     return { id: ++this.members, hand: wantsHand ? (free ?? -1) : -1 };
   }
 
-  obey(pupil: Pupil, control: Record<string, unknown>): string | null {
+  obey(pupil: Pupil, control: Record<string, unknown>): Refusal | null {
     this.heard.push(control);
     const wish = String(control['do']);
     const refused = wish.startsWith('class_') ? this.classroom.obey(pupil, control) : this.lead(pupil, wish, control);
@@ -145,9 +145,9 @@ export class FakeServer {
     }
   }
 
-  private lead({ role }: Pupil, wish: string, { common, difference, on }: Record<string, unknown>): string | null {
+  private lead({ role }: Pupil, wish: string, { common, difference, on }: Record<string, unknown>): Refusal | null {
     const { world } = this;
-    if (role !== 'instructor') return 'only an instructor may do this';
+    if (role !== 'instructor') return NOT_INSTRUCTOR;
     if (wish === 'co_contract') Object.assign(world, { common, difference });
     else if (wish === 'hold_posture' || wish === 'gravity') Object.assign(world, { [wish]: on });
     else if (wish === 'pause') world.paused = on === true;

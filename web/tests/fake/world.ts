@@ -75,6 +75,7 @@ export class World {
     writer.u16(0).u16(elbow.joints.length);
     elbow.joints.forEach((_, joint) => this.joint(writer, joint === ELBOW ? this.angle_rad : 0));
     writer.f64(100, 1000).u64(0).f64(1).u16(0).u16(HANDS);
+    // All of them, used or not: a tool's place in the list is the number of its hand.
     for (let hand = 0; hand < HANDS; ++hand) this.tool(writer, hand);
     return writer.written();
   }
@@ -90,7 +91,7 @@ export class World {
     const muscle = state?.contact && state.contact.surface < elbow.muscles.length ? state.contact.surface : -1;
     const body =
       state?.contact && muscle < 0 ? ([0, 1, 2, 2, 3][state.contact.surface - elbow.muscles.length] ?? -1) : -1;
-    writer.f64(...(state?.tool_m ?? NONE), ...(state?.proxy_m ?? NONE), ...this.force(hand), 0.003);
+    writer.f64(...(state?.tool_m ?? NONE), ...(state?.proxy_m ?? NONE), ...this.force(hand), state ? 0.003 : 0);
     writer
       .u8(0)
       .u8(0)
