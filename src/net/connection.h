@@ -94,6 +94,7 @@ class Connection {
   std::uint32_t sequence_ = 0;         // of the next frame, under writing_
   std::atomic<bool> is_stuck_{false};  // it did not take a frame: nothing after it would make sense to it
   std::atomic<bool> admitted_{false};
+  std::atomic<bool> dismissed_{false};  // its last word is said; who passes it on may still need the connection
   std::atomic<bool> closing_{false};
   std::atomic<bool> finished_{false};
   std::thread sender_;

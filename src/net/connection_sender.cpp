@@ -20,7 +20,7 @@ void Connection::send_all() {
   try {
     while (!closing_) {
       heard = server_.bell.wait(heard, kLook);
-      if (closing_ || (send_news() && !is_stuck_) || closing_) continue;
+      if (closing_ || dismissed_ || (send_news() && !is_stuck_) || closing_ || dismissed_) continue;
       server_.count(&ServerCounters::closed_slow);
       complain("it takes nothing of what is sent to it");
       break;
@@ -112,18 +112,16 @@ bool Connection::write(FrameType type, std::uint8_t flags, std::span<const std::
 }
 
 void Connection::dismiss(ByeReason reason, const std::string& why) {
-  if (closing_) return;
-  {
-    const std::unique_lock lock(writing_, std::try_to_lock);  // who is still taking a frame has no ear for it
-    const SmallFrame bye = encode(Bye{reason, why});
-    if (lock) write_locked(bye.type, bye.flags, bye.payload(), true);
-  }
-  closing_ = true;  // nothing comes after its last word
+  if (closing_ || dismissed_) return;
+  const std::unique_lock lock(writing_, std::try_to_lock);  // who is still taking a frame has no ear for it
+  const SmallFrame bye = encode(Bye{reason, why});
+  if (lock) write_locked(bye.type, bye.flags, bye.payload(), true);
+  dismissed_ = true;
 }
 
 bool Connection::write_locked(FrameType type, std::uint8_t flags, std::span<const std::uint8_t> payload,
                               bool may_drop) {
-  if (is_stuck_) return false;
+  if (is_stuck_ || dismissed_) return false;
   FrameHeader header;
   header.type = type;
   header.flags = flags;
