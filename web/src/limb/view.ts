@@ -1,5 +1,5 @@
 /** Draws the limb, only when something changed, and says what lies under a pointer. */
-import { Color, LinearSRGBColorSpace, Object3D, Raycaster, Scene, Vector2, Vector3, WebGLRenderer } from 'three';
+import { Color, Object3D, Raycaster, Scene, Vector2, Vector3, WebGLRenderer } from 'three';
 import { el } from '../app/dom';
 import type { App } from '../app/state';
 import type { Mesh } from '../wire/mesh';
@@ -62,7 +62,7 @@ export class LimbView {
     const dark = matchMedia('(prefers-color-scheme: dark)');
     const fill = (): void => {
       const paper = getComputedStyle(document.documentElement).getPropertyValue('--paper').trim();
-      this.scene.background = new Color().setStyle(paper, LinearSRGBColorSpace);
+      this.scene.background = new Color(paper);
       this.repaint();
     };
     dark.addEventListener('change', fill);
