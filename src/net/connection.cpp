@@ -17,14 +17,12 @@ namespace {
 
 constexpr std::size_t kMostStudentControl = 1024;  // bytes of what is not an instructor's
 
-/// The same hand, which touches and holds nothing.
+/// The same hand, which touches and holds nothing, and yet is somebody's.
 messages::ToolState without_touch(const messages::ToolState& state) {
-  messages::ToolState free;
-  free.sequence = state.sequence;
-  free.time_ns = state.time_ns;
-  free.model_sequence = state.model_sequence;
-  free.tool_position_world_m = free.proxy_position_world_m = state.tool_position_world_m;
-  return free;
+  messages::ToolState resting = messages::let_go(state);
+  resting.sequence = state.sequence;
+  resting.proxy_position_world_m = state.tool_position_world_m;  // nothing holds it back
+  return resting;
 }
 
 /// As hard to guess as a token: who knows it takes over the hand.
