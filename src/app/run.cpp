@@ -228,7 +228,7 @@ int run(const Options& options) {
   }
   const Equipment equipment(options);
   leave_hands_to_people(scene, scene.tools.size());
-  const std::vector<double> levels = levels_of(options);
+  const std::vector<double> levels = options.levels == "none" ? std::vector<double>{} : levels_of(options);
   check_picture(scene, picture_of(options));
   make_writable_folder(options.out);
   if (!scene.note.empty()) spdlog::info("{}: {}", scene.name, scene.note);
@@ -244,7 +244,9 @@ int run(const Options& options) {
   nlohmann::json report = summary_json(scene, summary);
   if (options.realtime) report["realtime"] = summary.realtime;
   if (summary.shove.joint >= 0) report["shove"] = shove_json(summary.shove);
-  if (scene.co_contraction && interruption() == 0) report["stiffness"] = measure_stiffness(options, scene, levels);
+  if (scene.co_contraction && !levels.empty() && interruption() == 0) {
+    report["stiffness"] = measure_stiffness(options, scene, levels);
+  }
   write_file(options.out / "summary.json", report.dump(2) + "\n");
   if (options.json) {
     std::cout << report.dump(2) << std::endl;

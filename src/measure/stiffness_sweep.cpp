@@ -5,6 +5,7 @@
 #include <memory>
 #include <mutex>
 
+#include "core/at.h"
 #include "core/error.h"
 #include "measure/stiffness_cell.h"
 #include "simulation/worker_pool.h"
@@ -18,7 +19,7 @@ class Crew {
  public:
   Crew(const scene::Scene& scene, int workers, int all, const SweepWatch& watch)
       : scene_(scene), settings_(scene.settings), pool_(workers), watch_(watch), all_(all) {
-    settings_.workers = 1;
+    settings_.workers = std::max(1, scene.settings.workers / workers);  // whose number no row depends on
     settings_.shapes = false;
     simulations_.resize(static_cast<std::size_t>(workers));
   }
@@ -83,7 +84,7 @@ std::vector<StiffnessRow> sweep_stiffness(const scene::Scene& scene, const Sweep
   const LineLimb lines = line_limb(scene);
   Crew crew(scene, std::clamp(scene.settings.workers, 1, count), angles + count, watch);
   std::vector<scene::TorqueTable> tables(static_cast<std::size_t>(angles));
-  const auto angle_rad = [&](int angle) { return grid.angles_rad[static_cast<std::size_t>(first_angle + angle)]; };
+  const auto angle_rad = [&](int angle) { return grid.angles_rad[at(first_angle + angle)]; };
   crew.run(angles, [&](simulation::Simulation& simulation, int angle) {
     tables[static_cast<std::size_t>(angle)] = torques_at(scene, simulation, angle_rad(angle));
   });

@@ -39,7 +39,7 @@ TEST(Fidelity, ARecordingIsFeltAgainAndOneCutShortIsUsedToItsLastWholeChunk) {
   const TemporaryFolder folder;
   const std::filesystem::path whole = folder.path() / "whole.rec", cut = folder.path() / "cut.rec";
   const std::string out = " --log-level error --json --out " + folder.path().string();
-  ASSERT_EQ(run_program("run elbow --seconds 1.2 --levels 0 --record " + whole.string() + out).status, 0);
+  ASSERT_EQ(run_program("run elbow --seconds 1.2 --levels none --record " + whole.string() + out).status, 0);
   const Outcome felt = run_program("fidelity --recording " + whole.string() + out);
   ASSERT_LE(felt.status, 1) << felt.output;  // 1: felt, and judged poor: the gate opens while the hand touches
   const std::string bytes = read_file(whole);
