@@ -88,11 +88,13 @@ struct WholeStep {
     if (rows == 0) return Eigen::VectorXd(0);
     Eigen::VectorXd right = Eigen::VectorXd::Zero(rows);
     for (std::size_t m = 0; m < nodes.size(); ++m) {
-      if (is_solved(limb.muscles[m])) right -= limb.muscles[m].borders.transpose() * nodes[m].col(0);
+      const LimbMuscle& muscle = limb.muscles[m];
+      if (is_solved(muscle)) right(muscle.unknowns) -= muscle.borders.transpose() * nodes[m].col(0);
     }
     Eigen::VectorXd rest = small.solve(right);
     for (std::size_t m = 0; m < nodes.size(); ++m) {
-      if (is_solved(limb.muscles[m])) nodes[m].col(0) -= limb.muscles[m].border_solution * rest;
+      const LimbMuscle& muscle = limb.muscles[m];
+      if (is_solved(muscle)) nodes[m].col(0) -= muscle.border_solution * rest(muscle.unknowns);
     }
     return rest;
   }
@@ -189,7 +191,7 @@ void couple_step(Limb& limb, const Eigen::PartialPivLU<Eigen::MatrixXd>& small, 
   Columns start = zeros(limb, 1), residual = start, change = start, nodes = start, along = start;
   for (std::size_t m = 0; m < start.size(); ++m) {
     const LimbMuscle& muscle = limb.muscles[m];
-    if (is_solved(muscle)) start[m].col(0) = -muscle.free_solution - muscle.border_solution * solution;
+    if (is_solved(muscle)) start[m].col(0) = -muscle.free_solution - muscle.border_solution * solution(muscle.unknowns);
   }
   add_all_coupling(limb, start, residual);
   for (Eigen::MatrixXd& r : residual) r = -r;

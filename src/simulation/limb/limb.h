@@ -67,33 +67,34 @@ struct Sleep {
 
 /// One muscle: model, state, and what a solve leaves behind. Owned by one task at a time.
 struct LimbMuscle {
-  MuscleTissue tissue;                // what does not change
-  bool rigid = false;                 // its shape follows the bones: no nodes to solve for
-  std::optional<Follower> follower;   // of a rigid muscle: how
-  std::optional<LineTissue> line;     // of a Line muscle, which is rigid, too
-  TissueState state;                  // the iterate and two instants before it
-  TissueSystem system;                // of the last pass
-  Eigen::VectorXd mean_solution;      // factor^-1 mean gradient
-  double mean_share_Nm = 0.0;         // by which the mean term changes a solution, see solve()
-  Eigen::VectorXd free_solution;      // matrix^-1 residual
-  Eigen::MatrixXd borders;            // free dofs x unknowns of the small system
-  Eigen::MatrixXd border_solution;    // matrix^-1 borders
-  Eigen::MatrixXd reduced;            // borders^T matrix^-1 borders
-  Eigen::VectorXd reduced_residual;   // borders^T matrix^-1 residual
-  Eigen::VectorXd start_m, change_m;  // of the Newton step: nodes where it starts, change of the free ones
-  Eigen::VectorXd coupled_m;          // what contact with neighbours adds to that change; empty: none
-  Eigen::MatrixXd follow_m_rad;       // matrix^-1 coupling, in the last stiffness: free nodes follow by minus this
-  bool follows = false;               // the last refresh of the stiffness came to such a solution
-  double energy_slope = 0.0;          // along that change
-  double residual_share = 0.0;        // out-of-balance force over the size of the forces, springs included
-  bool balanced = false;              // within this step: needs no new tangent
-  bool strained = false;              // one Newton step of this step was not enough
-  std::optional<TimeRule> kept_rule;  // of the step whose factored tangent serves the next one, too; none: it does not
-  bool made_definite = false;         // the last tangent had to be
-  bool sound = true;                  // the last factorisation and state were finite
-  std::optional<Sleep> sleep;         // none: awake
-  MuscleReadout readout;              // of the last step or settle
-  Eigen::VectorXd stiffness_Nm_rad;   // quasi-static, one a joint, of the last refresh
+  MuscleTissue tissue;                 // what does not change
+  bool rigid = false;                  // its shape follows the bones: no nodes to solve for
+  std::optional<Follower> follower;    // of a rigid muscle: how
+  std::optional<LineTissue> line;      // of a Line muscle, which is rigid, too
+  TissueState state;                   // the iterate and two instants before it
+  TissueSystem system;                 // of the last pass
+  Eigen::VectorXd mean_solution;       // factor^-1 mean gradient
+  double mean_share_Nm = 0.0;          // by which the mean term changes a solution, see solve()
+  Eigen::VectorXd free_solution;       // matrix^-1 residual
+  std::vector<Eigen::Index> unknowns;  // of the small system that enter its equations: joints, then its own springs
+  Eigen::MatrixXd borders;             // free dofs x unknowns: how
+  Eigen::MatrixXd border_solution;     // matrix^-1 borders
+  Eigen::MatrixXd reduced;             // borders^T matrix^-1 borders
+  Eigen::VectorXd reduced_residual;    // borders^T matrix^-1 residual
+  Eigen::VectorXd start_m, change_m;   // of the Newton step: nodes where it starts, change of the free ones
+  Eigen::VectorXd coupled_m;           // what contact with neighbours adds to that change; empty: none
+  Eigen::MatrixXd follow_m_rad;        // matrix^-1 coupling, in the last stiffness: free nodes follow by minus this
+  bool follows = false;                // the last refresh of the stiffness came to such a solution
+  double energy_slope = 0.0;           // along that change
+  double residual_share = 0.0;         // out-of-balance force over the size of the forces, springs included
+  bool balanced = false;               // within this step: needs no new tangent
+  bool strained = false;               // one Newton step of this step was not enough
+  std::optional<TimeRule> kept_rule;   // of the step whose factored tangent serves the next one, too; none: it does not
+  bool made_definite = false;          // the last tangent had to be
+  bool sound = true;                   // the last factorisation and state were finite
+  std::optional<Sleep> sleep;          // none: awake
+  MuscleReadout readout;               // of the last step or settle
+  Eigen::VectorXd stiffness_Nm_rad;    // quasi-static, one a joint, of the last refresh
   Eigen::VectorXd contact_stiffness_Nm_rad;  // what contact adds to it, of the last such refresh
 };
 

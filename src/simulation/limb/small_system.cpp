@@ -11,39 +11,44 @@
 namespace myotact::simulation {
 namespace {
 
-/// Columns by which the small unknowns enter a muscle's equations. Returns how many of them may differ from zero: the
-/// springs' come last, and most muscles have none.
-Eigen::Index fill_borders(const Limb& limb, const SmallSystem& small, int index, LimbMuscle& muscle) {
-  muscle.borders.setZero(muscle.system.residual_N.size(), small.size());
-  auto used = static_cast<Eigen::Index>(small.joints.size());
+/// The unknowns that enter a muscle's equations, and the columns by which they do: of many hands' springs few pull at
+/// it, and each column is one more solve.
+void fill_borders(const Limb& limb, const SmallSystem& small, int index, LimbMuscle& muscle) {
+  const auto joints = static_cast<Eigen::Index>(small.joints.size());
+  muscle.unknowns.clear();
+  for (Eigen::Index k = 0; k < joints; ++k) muscle.unknowns.push_back(k);
+  std::vector<std::size_t> own;
+  for (std::size_t s = 0; s < limb.springs.size(); ++s) {
+    if (limb.springs[s].muscle != index || limb.springs[s].open) continue;
+    own.push_back(s);
+    for (Eigen::Index i = 0; i < 3; ++i) muscle.unknowns.push_back(small.spring_row(s) + i);
+  }
+  muscle.borders.setZero(muscle.system.residual_N.size(), static_cast<Eigen::Index>(muscle.unknowns.size()));
   for (std::size_t k = 0; k < small.joints.size(); ++k) {
     muscle.borders.col(static_cast<Eigen::Index>(k)) = muscle.system.coupling_N_rad.col(small.joints[k]);
   }
-  for (std::size_t s = 0; s < limb.springs.size(); ++s) {
-    const ToolSpring& spring = limb.springs[s];
-    if (spring.muscle != index || spring.open) continue;
-    used = small.spring_row(s) + 3;
-    for (std::size_t k = 0; k < at(spring.point.count); ++k) {
-      const int f = muscle.tissue.free_index[at(spring.point.nodes[k])];
+  for (std::size_t o = 0; o < own.size(); ++o) {
+    const MaterialPoint& point = limb.springs[own[o]].point;
+    const Eigen::Index column = joints + 3 * static_cast<Eigen::Index>(o);
+    for (std::size_t k = 0; k < at(point.count); ++k) {
+      const int f = muscle.tissue.free_index[at(point.nodes[k])];
       if (f < 0) continue;
-      for (int i = 0; i < 3; ++i) muscle.borders(3 * f + i, small.spring_row(s) + i) = -spring.point.weights[k];
+      for (int i = 0; i < 3; ++i) muscle.borders(3 * f + i, column + i) = -point.weights[k];
     }
   }
-  return used;
 }
 
-/// What a muscle is solved for: its residual, then the borders that differ from zero.
+/// What a muscle is solved for: its residual, then its borders.
 Eigen::MatrixXd right_sides(const Limb& limb, const SmallSystem& small, int index, LimbMuscle& muscle) {
-  const Eigen::Index used = fill_borders(limb, small, index, muscle);
-  Eigen::MatrixXd sides(muscle.borders.rows(), 1 + used);
-  sides << muscle.system.residual_N, muscle.borders.leftCols(used);
+  fill_borders(limb, small, index, muscle);
+  Eigen::MatrixXd sides(muscle.borders.rows(), 1 + muscle.borders.cols());
+  sides << muscle.system.residual_N, muscle.borders;
   return sides;
 }
 
 void take_solution(const Eigen::MatrixXd& solution, LimbMuscle& muscle) {
   muscle.free_solution = solution.col(0);
-  muscle.border_solution.setZero(muscle.borders.rows(), muscle.borders.cols());
-  muscle.border_solution.leftCols(solution.cols() - 1) = solution.rightCols(solution.cols() - 1);
+  muscle.border_solution = solution.rightCols(solution.cols() - 1);
   muscle.reduced.noalias() = muscle.borders.transpose() * muscle.border_solution;
 }
 
@@ -93,8 +98,8 @@ void add_joint_part(const LimbMuscle& muscle, SmallSystem& small) {
 
 /// What a muscle adds to the small system once its nodes are eliminated.
 void add_muscle(const LimbMuscle& muscle, SmallSystem& small) {
-  small.matrix -= muscle.reduced;
-  small.right += muscle.reduced_residual;
+  small.matrix(muscle.unknowns, muscle.unknowns) -= muscle.reduced;
+  small.right(muscle.unknowns) += muscle.reduced_residual;
   add_joint_part(muscle, small);
 }
 
@@ -140,47 +145,74 @@ std::vector<std::size_t> points_of_sphere(const Limb& limb, std::size_t contact)
   return points;
 }
 
-/// Rows of all that may move while a sphere is pressed: joints and the springs of other tools.
-std::vector<Eigen::Index> rows_beside(const Limb& limb, const SmallSystem& small, int tool) {
-  std::vector<Eigen::Index> rows;
-  for (std::size_t a = 0; a < small.joints.size(); ++a) rows.push_back(static_cast<Eigen::Index>(a));
+/// Where an unknown of the small system stands among those of a muscle.
+Eigen::Index place_of(Eigen::Index unknown, const LimbMuscle& muscle) {
+  return std::lower_bound(muscle.unknowns.begin(), muscle.unknowns.end(), unknown) - muscle.unknowns.begin();
+}
+
+/// Of the muscle that a spring pulls at, everything else held. Zero for a bone or a shape.
+Mat3 own_compliance(const Limb& limb, const SmallSystem& small, std::size_t spring) {
+  const int muscle = limb.springs[spring].muscle;
+  if (muscle < 0 || !is_solved(limb.muscles[at(muscle)])) return Mat3::Zero();
+  const LimbMuscle& own = limb.muscles[at(muscle)];
+  const Eigen::Index first = place_of(small.spring_row(spring), own);
+  return own.reduced.block<3, 3>(first, first);
+}
+
+/// Inverse of the small system without the springs ahead, which hold nothing.
+struct Bearing {
+  std::vector<Eigen::Index> rows;    // of the small system
+  std::vector<Eigen::Index> spring;  // first row in `inverse` of each spring of the limb's; -1: ahead
+  Eigen::MatrixXd inverse;
+};
+
+Bearing make_bearing(const Limb& limb, const SmallSystem& small) {
+  Bearing bearing;
+  for (std::size_t a = 0; a < small.joints.size(); ++a) bearing.rows.push_back(static_cast<Eigen::Index>(a));
   for (std::size_t s = 0; s < limb.springs.size(); ++s) {
-    if (limb.springs[s].tool == tool) continue;
-    for (Eigen::Index k = 0; k < 3; ++k) rows.push_back(small.spring_row(s) + k);
+    bearing.spring.push_back(limb.springs[s].ahead ? -1 : static_cast<Eigen::Index>(bearing.rows.size()));
+    if (limb.springs[s].ahead) continue;
+    for (Eigen::Index k = 0; k < 3; ++k) bearing.rows.push_back(small.spring_row(s) + k);
   }
-  return rows;
+  bearing.inverse = Eigen::MatrixXd(small.matrix(bearing.rows, bearing.rows)).inverse();
+  return bearing;
+}
+
+/// Compliance between some springs of one tool (`own`, of the limb's, none ahead): their own and their seats included,
+/// all else eliminated but the tool's other springs.
+Eigen::MatrixXd compliance_between(const Limb& limb, const Bearing& bearing, const std::vector<std::size_t>& own) {
+  std::vector<Eigen::Index> of_tool, wanted;
+  for (std::size_t s = 0; s < limb.springs.size(); ++s) {
+    if (limb.springs[s].tool != limb.springs[own.front()].tool) continue;
+    const bool is_wanted = std::find(own.begin(), own.end(), s) != own.end();
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      if (is_wanted) wanted.push_back(static_cast<Eigen::Index>(of_tool.size()));
+      of_tool.push_back(bearing.spring[s] + k);
+    }
+  }
+  const Eigen::MatrixXd left = Eigen::MatrixXd(bearing.inverse(of_tool, of_tool)).inverse();
+  return -left(wanted, wanted);
 }
 
 /// Compliance of a sphere that several points hold, its coupling left out: each point's own, its seat, and what joints
 /// and other tools' springs add between them, in parallel. `own`: the sphere's springs, of the limb's.
-Mat3 compliance_of_sphere(const Limb& limb, const SmallSystem& small, const std::vector<std::size_t>& own) {
-  const std::vector<Eigen::Index> kept = rows_beside(limb, small, limb.springs[own.front()].tool);
-  std::vector<Eigen::Index> rows;
-  for (const std::size_t s : own) {
-    for (Eigen::Index k = 0; k < 3; ++k) rows.push_back(small.spring_row(s) + k);
-  }
-  const Eigen::MatrixXd inner = small.matrix(kept, kept), border = small.matrix(kept, rows);
-  // What the small system holds of the points themselves is minus their compliance and the coupling's and seats'.
-  Eigen::MatrixXd points = -small.matrix(rows, rows);
-  if (!kept.empty()) points += border.transpose() * inner.partialPivLu().solve(border);
+Mat3 compliance_of_sphere(const Limb& limb, const Bearing& bearing, const std::vector<std::size_t>& own) {
+  Eigen::MatrixXd points = compliance_between(limb, bearing, own);
   const double coupling_m_N = 1.0 / limb.springs[own.front()].stiffness_N_m;
   const Eigen::MatrixX3d all = Mat3::Identity().replicate(static_cast<Eigen::Index>(own.size()), 1);
   points -= coupling_m_N * all * all.transpose();
   return (all.transpose() * points.partialPivLu().solve(all)).inverse();
 }
 
-/// What the springs of the other tools take from a compliance: the joints and those springs' forces eliminated
-/// together. `own`: the spring, of the limb's.
-Mat3 compliance_beside(const Limb& limb, const SmallSystem& small, std::size_t own) {
-  const std::vector<Eigen::Index> kept = rows_beside(limb, small, limb.springs[own].tool);
-  const auto count = static_cast<Eigen::Index>(kept.size());
-  Eigen::MatrixXd inner(count, count), border(count, 3);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const Eigen::Index row = kept[static_cast<std::size_t>(i)];
-    border.row(i) = small.matrix.block<1, 3>(row, small.spring_row(own));
-    for (Eigen::Index j = 0; j < count; ++j) inner(i, j) = small.matrix(row, kept[static_cast<std::size_t>(j)]);
-  }
-  return border.transpose() * inner.partialPivLu().solve(border);  // indefinite: the springs' block is negative
+/// What one spring pulls at, beside other tools that hold the limb or press on the same muscle.
+Mat3 compliance_beside_tools(const Limb& limb, const SmallSystem& small, const Bearing& bearing, std::size_t own) {
+  const ToolSpring& spring = limb.springs[own];
+  const Mat3 alone = (1.0 / spring.stiffness_N_m + seat_m_N(limb, spring)) * Mat3::Identity();
+  if (!spring.ahead) return Mat3(compliance_between(limb, bearing, {own})) - alone;
+  const std::vector<Eigen::Index> rows = {small.spring_row(own), small.spring_row(own) + 1, small.spring_row(own) + 2};
+  const Eigen::MatrixXd border = small.matrix(bearing.rows, rows);
+  const Mat3 compliance = border.transpose() * bearing.inverse * border;
+  return compliance + own_compliance(limb, small, own);
 }
 
 bool of_several_tools(const Limb& limb) {
@@ -188,32 +220,41 @@ bool of_several_tools(const Limb& limb) {
                      [&](const ToolSpring& spring) { return spring.tool != limb.springs.front().tool; });
 }
 
-/// Compliance of what each spring pulls at, its tool's springs left out: U^T matrix^-1 U of its muscle, and what the
-/// joints add, P^T joints^-1 P, which other tools that hold the limb or press on the same muscle lessen.
-void read_compliance(Limb& limb, const SmallSystem& small) {
+/// Of a joint's rotation under each spring alone.
+void read_compliance_of_one_tool(Limb& limb, const SmallSystem& small) {
   const auto joints = static_cast<Eigen::Index>(small.joints.size());
   const Eigen::MatrixXd columns = small.matrix.topRightCorner(joints, small.size() - joints);
   const Eigen::MatrixXd rotations =
       joints > 0 && columns.cols() > 0
           ? Eigen::MatrixXd(small.matrix.topLeftCorner(joints, joints).ldlt().solve(columns))
           : columns;
-  const bool several = of_several_tools(limb);
   for (std::size_t s = 0; s < limb.springs.size(); ++s) {
-    const int muscle = limb.springs[s].muscle;
+    if (limb.springs[s].open) continue;
     const auto first = static_cast<Eigen::Index>(3 * s);
     Mat3& compliance = limb.spring_compliance_m_N[s];
-    compliance.setZero();
-    if (limb.springs[s].open) continue;
-    if (const std::vector<std::size_t> own = points_of_sphere(limb, s); own.size() > 1) {
-      compliance = compliance_of_sphere(limb, small, own);
-      continue;
-    }
-    if (muscle >= 0 && !limb.muscles[at(muscle)].rigid)
-      compliance = limb.muscles[at(muscle)].reduced.block<3, 3>(small.spring_row(s), small.spring_row(s));
-    if (several) {
-      compliance += compliance_beside(limb, small, s);
-    } else if (joints > 0) {
-      compliance += columns.middleCols<3>(first).transpose() * rotations.middleCols<3>(first);
+    compliance = own_compliance(limb, small, s);
+    if (joints > 0) compliance += columns.middleCols<3>(first).transpose() * rotations.middleCols<3>(first);
+  }
+}
+
+/// Compliance of what each spring pulls at, its tool's springs left out: U^T matrix^-1 U of its muscle, and what the
+/// joints add, P^T joints^-1 P, which other tools that hold the limb or press on the same muscle lessen.
+void read_compliance(Limb& limb, const SmallSystem& small) {
+  const bool several = of_several_tools(limb);
+  std::optional<Bearing> bearing;
+  const auto borne = [&]() -> const Bearing& {
+    if (!bearing) bearing = make_bearing(limb, small);
+    return *bearing;
+  };
+  if (!several) read_compliance_of_one_tool(limb, small);
+  for (std::size_t s = 0; s < limb.springs.size(); ++s) {
+    Mat3& compliance = limb.spring_compliance_m_N[s];
+    if (limb.springs[s].open) {
+      compliance.setZero();
+    } else if (const std::vector<std::size_t> own = points_of_sphere(limb, s); own.size() > 1) {
+      compliance = compliance_of_sphere(limb, borne(), own);
+    } else if (several) {
+      compliance = compliance_beside_tools(limb, small, borne(), s);
     }
   }
 }
@@ -260,8 +301,10 @@ bool open_pulling(Limb& limb, const Eigen::VectorXd& solution, const SmallSystem
   limb.springs[*hardest].open = true;
   const int muscle = limb.springs[*hardest].muscle;
   if (muscle < 0 || limb.muscles[at(muscle)].rigid) return true;
-  limb.muscles[at(muscle)].borders.middleCols<3>(small.spring_row(*hardest)).setZero();
-  limb.muscles[at(muscle)].border_solution.middleCols<3>(small.spring_row(*hardest)).setZero();
+  LimbMuscle& pulled = limb.muscles[at(muscle)];
+  const Eigen::Index first = place_of(small.spring_row(*hardest), pulled);
+  pulled.borders.middleCols<3>(first).setZero();
+  pulled.border_solution.middleCols<3>(first).setZero();
   return true;
 }
 

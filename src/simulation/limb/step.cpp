@@ -80,7 +80,7 @@ void weigh(const Limb& limb, int index, LimbMuscle& muscle) {
 void start_way(const Limb& limb, const Solutions& solutions, int index, LimbMuscle& muscle) {
   muscle.start_m = muscle.state.now.position_m;
   muscle.change_m = -muscle.free_solution;
-  muscle.change_m.noalias() -= muscle.border_solution * solutions.uncoupled;
+  muscle.change_m.noalias() -= muscle.border_solution * solutions.uncoupled(muscle.unknowns);
   if (muscle.coupled_m.size() > 0) muscle.change_m += muscle.coupled_m;
   weigh(limb, index, muscle);
 }
