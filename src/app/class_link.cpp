@@ -1,14 +1,15 @@
 #include "app/class_link.h"
 
 #include <array>
-#include <memory>
+#include <optional>
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
 #include <ifaddrs.h>
 #include <net/if.h>
-#include <qrencode.h>
 #include <sys/socket.h>
+
+#include "view/ui/qr_code.h"
 
 namespace myotact::app {
 
@@ -38,19 +39,14 @@ std::string reachable_address(const std::string& bind) {
 
 std::string qr_for_terminal(const std::string& text) {
   constexpr int kQuiet = 2;  // cells of margin; the standard asks for 4, and readers make do with 2
-  const std::unique_ptr<QRcode, decltype(&QRcode_free)> code(QRcode_encodeString8bit(text.c_str(), 0, QR_ECLEVEL_L),
-                                                             &QRcode_free);
+  const std::optional<view::QrCode> code = view::qr_code(text);
   if (!code) return "";
-  const auto is_light = [&](int row, int column) {
-    const bool inside = row >= 0 && column >= 0 && row < code->width && column < code->width;
-    return !inside || (code->data[row * code->width + column] & 1) == 0;
-  };
   // Half blocks: upper, lower, both.
   constexpr std::array<const char*, 4> kBlocks = {" ", "\u2580", "\u2584", "\u2588"};
   std::string lines;
   for (int row = -kQuiet; row < code->width + kQuiet; row += 2) {
     for (int column = -kQuiet; column < code->width + kQuiet; ++column) {
-      lines += kBlocks[(is_light(row, column) ? 1u : 0u) | (is_light(row + 1, column) ? 2u : 0u)];
+      lines += kBlocks[(code->is_dark(row, column) ? 0u : 1u) | (code->is_dark(row + 1, column) ? 0u : 2u)];
     }
     lines += '\n';
   }

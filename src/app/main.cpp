@@ -46,9 +46,32 @@ CLI::App* add_scene_command(CLI::App& program, Options& options, const char* nam
   return command;
 }
 
-void add_levels(CLI::App& command, Options& options) {
-  command.add_option("--levels", options.levels, "co-contraction levels 0 .. 1 of the stiffness table: 0,1 or 0:0.1:1")
+void add_levels(CLI::App& command, Options& options, const std::string& or_else = "") {
+  command
+      .add_option("--levels", options.levels,
+                  "co-contraction levels 0 .. 1 of the stiffness table: 0,1 or 0:0.1:1" + or_else)
       ->capture_default_str();
+}
+
+CLI::App* add_view(CLI::App& program, Options& options) {
+  CLI::App* view = add_scene_command(program, options, "view", "the window (default)");
+  view->add_option("--session", options.session, "begin with this saved work: its scene, view, settings, notes")
+      ->excludes(view->get_option("scene"));
+  view->add_option("--report-state", options.report_state,
+                   "keep this JSON file up to date with what the window shows and where its controls are, for programs "
+                   "that assist a person");
+  view->add_option("--camera", options.camera, "a device that rotates the view instead of moving a tool: spacemouse");
+  view->add_option("--replay", options.recording, "play this recording in the window; nothing goes to a device")
+      ->excludes(view->get_option("--device"));
+  auto* connect = view->add_option("--connect", options.connect,
+                                   "show the scene of the server at HOST:PORT; with --device mouse one of its hands is "
+                                   "here. Its token is in MYOTACT_TOKEN, an instructor's in MYOTACT_INSTRUCTOR_TOKEN");
+  connect->excludes(view->get_option("scene"))->excludes(view->get_option("--session"));
+  connect->excludes(view->get_option("--replay"))->excludes(view->get_option("--record"));
+  view->add_option("--role", options.role, "at the server: a viewer looks on, an instructor changes the scene")
+      ->check(CLI::IsMember({"viewer", "student", "instructor"}))
+      ->needs(connect);
+  return view;
 }
 
 CLI::App* add_run(CLI::App& program, Options& options) {
@@ -68,7 +91,7 @@ CLI::App* add_run(CLI::App& program, Options& options) {
                   "names=latin section=cranial:0.5 labels=on lines=off fibres=on attachments=on");
   run->add_option("--size", options.size, "of pictures [pixels]")->capture_default_str();
   run->add_option("--every", options.every, "keep every n-th tick in samples.csv")->check(CLI::Range(1, 1000000));
-  add_levels(*run, options);
+  add_levels(*run, options, "; none: no table");
   return run;
 }
 
@@ -164,7 +187,10 @@ CLI::App* add_serve(CLI::App& program, Options& options) {
           "also serve a page for a class: students touch the limb in their browsers; prints its link and QR code")
       ->excludes(without_websocket);
   serve->add_option("--allow-origin", options.origins, "web pages of this origin may connect, as https://lab.example");
-  serve->add_option("--hands", options.hands, "how many hands the scene has; without: those of the scene")
+  serve
+      ->add_option(
+          "--hands", options.hands,
+          "how many hands the scene has; without: those of the scene, and with --web as many as this machine bears")
       ->check(CLI::Range(std::size_t{1}, myotact::remote::kMostHands));
   serve
       ->add_flag("--lockstep", options.lockstep,
@@ -189,24 +215,7 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
   const auto bind = [&](CLI::App* command, int (*function)(const Options&)) {
     command->callback([&action, function] { action = function; });
   };
-  CLI::App* view = add_scene_command(program, options, "view", "the window (default)");
-  view->add_option("--session", options.session, "begin with this saved work: its scene, view, settings, notes")
-      ->excludes(view->get_option("scene"));
-  view->add_option("--report-state", options.report_state,
-                   "keep this JSON file up to date with what the window shows and where its controls are, for programs "
-                   "that assist a person");
-  view->add_option("--camera", options.camera, "a device that rotates the view instead of moving a tool: spacemouse");
-  view->add_option("--replay", options.recording, "play this recording in the window; nothing goes to a device")
-      ->excludes(view->get_option("--device"));
-  auto* connect = view->add_option("--connect", options.connect,
-                                   "show the scene of the server at HOST:PORT; with --device mouse one of its hands is "
-                                   "here. Its token is in MYOTACT_TOKEN, an instructor's in MYOTACT_INSTRUCTOR_TOKEN");
-  connect->excludes(view->get_option("scene"))->excludes(view->get_option("--session"));
-  connect->excludes(view->get_option("--replay"))->excludes(view->get_option("--record"));
-  view->add_option("--role", options.role, "at the server: a viewer looks on, an instructor changes the scene")
-      ->check(CLI::IsMember({"viewer", "student", "instructor"}))
-      ->needs(connect);
-  bind(view, myotact::app::view);
+  bind(add_view(program, options), myotact::app::view);
   bind(add_run(program, options), myotact::app::run);
   bind(add_stiffness(program, options), myotact::app::stiffness);
   CLI::App* replay = program.add_subcommand("replay", "run a recording again and compare the states");

@@ -8,6 +8,7 @@
 #include "app/network_options.h"
 #include "app/scene_facts.h"
 #include "core/error.h"
+#include "remote/class_news.h"
 #include "remote/scene_message.h"
 #include "remote/served_scene.h"
 #include "scene/conductor.h"
@@ -39,6 +40,7 @@ net::ClientSettings client_settings(const Options& options) {
   settings.hello.role = role_of(options);
   settings.hello.wants.hand = takes_a_hand(options);
   settings.hello.wants.frames = settings.hello.wants.readings = settings.hello.wants.in_force = true;
+  settings.hello.wants.announcements = settings.hello.role == net::Role::Instructor;
   settings.hello.token = token_for(settings.hello.role);
   settings.hello.name = "view";
   return settings;
@@ -103,6 +105,17 @@ void MirrorStage::stop_own_hand(bool stopped) noexcept {
 void MirrorStage::stop_forces(bool stopped) noexcept {
   stop_own_hand(stopped);
   if (stopped) mirror_->ask_stop();
+}
+
+std::optional<view::ClassNews> MirrorStage::class_news() {
+  const std::string said = (hand_ ? hand_->client() : *watcher_).status().announcement;
+  if (said != heard_) {
+    heard_ = said;
+    const auto news = remote::class_news(said);
+    class_news_.reset();
+    if (news && !news->join_link.empty()) class_news_ = {news->join_link, news->students, news->hands_up};
+  }
+  return class_news_;
 }
 
 view::WindowSettings MirrorStage::window_settings(const Options&) const {

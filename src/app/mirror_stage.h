@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "app/stage.h"
@@ -31,6 +32,7 @@ class MirrorStage final : public Stage, public scene::Session {
   void lead(const view::ViewControls& controls) override;
   /// By the wall: a server's time began long ago.
   double shown_s(const messages::SceneFrame& newest) const override;
+  std::optional<view::ClassNews> class_news() override;
   bool is_outdated() const override { return mirror_->shows_another_scene(answer_.scene_json); }
 
   void start_stopped() override { stop_own_hand(true); }
@@ -51,6 +53,8 @@ class MirrorStage final : public Stage, public scene::Session {
   std::unique_ptr<remote::FreeHand> hand_;  // one of the two
   std::unique_ptr<net::Client> watcher_;
   std::unique_ptr<remote::Mirror> mirror_;
+  std::string heard_;  // what was said to the class last, and what of it is shown
+  std::optional<view::ClassNews> class_news_;
   bool stopped_ = false;  // without a hand here: remembered for the session after this one
   std::chrono::steady_clock::time_point started_;
 };

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
@@ -19,6 +20,7 @@
 #include "app/options.h"
 #include "core/error.h"
 #include "net/websocket_listener.h"
+#include "remote/capacity.h"
 #include "remote/lockstep_server.h"
 #include "remote/served_scene.h"
 
@@ -59,6 +61,26 @@ void invite_class(const net::Endpoint& page, const net::AccessPolicy& access_pol
     std::cout << '\n' << qr_for_terminal(link);
   }
   std::cout.flush();
+}
+
+/// A class gets as many hands as this machine bears, and is told how many these are. What is sent takes .05 more with
+/// 30 that look on: with all hands pressing at once, which a class hardly does, time runs at .95.
+scene::Scene with_hands_of_class(scene::Scene scene) {
+  const double allowed_s = scene.settings.dt_s;
+  const auto load = remote::measure_load(scene, allowed_s, remote::kMostHands);
+  const std::size_t borne = remote::hands_borne(load, allowed_s, remote::kMostHands);
+  const std::size_t hands = std::max(borne, scene.tools.size());
+  std::cout << "hands " << hands << '\n';
+  if (borne < hands) {
+    spdlog::warn("On this machine \"{}\" runs slower than real time while {} press.", scene.name,
+                 hands == 1 ? "one hand" : fmt::format("{} hands", hands));
+  } else {
+    spdlog::info(
+        "This machine bears about {} hands that press at once; a class gets as many. Who comes after them "
+        "watches; --hands N gives more or fewer.",
+        hands);
+  }
+  return remote::with_hands(std::move(scene), hands);
 }
 
 nlohmann::json counters_json(const net::ServerCounters& counters) {
@@ -125,7 +147,11 @@ int serve(const Options& options) {
         ExitStatus::Usage,
         fmt::format("--record: a recording is of the scene's own {} hands; leave --hands out", scene.tools.size()));
   }
-  if (options.hands) scene = remote::with_hands(std::move(scene), *options.hands);
+  if (options.hands) {
+    scene = remote::with_hands(std::move(scene), *options.hands);
+  } else if (options.web && !options.record) {  // a recording is of the scene's own hands
+    scene = with_hands_of_class(std::move(scene));
+  }
   const net::AccessPolicy access_policy = access_policy_of(options);
   watch_for_interruption();
   return options.lockstep ? serve_lockstep(options, scene, access_policy) : serve_free(options, scene, access_policy);

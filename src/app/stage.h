@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,7 @@ class Stage {
   virtual bool simulates() const { return false; }
   virtual view::JointReadings readings(const messages::SceneFrame&) { return {}; }
   virtual std::vector<view::DeviceNews> device_news() const { return {}; }
+  virtual std::optional<view::ClassNews> class_news() { return {}; }
   /// How long it has been shown, by its own clock [s].
   virtual double shown_s(const messages::SceneFrame& newest) const { return newest.time_s; }
   /// There is another scene now where this one comes from.

@@ -174,7 +174,8 @@ class WindowApp {
     if (last) window_.save_next_picture(options_.out / "window.png");
     if (shown_) {
       const double silence_s = std::chrono::duration<double>(since - heard_).count();
-      window_.set_news({next_.valid(), shown_->simulates() ? silence_s : 0.0, shown_->device_news()});
+      window_.set_news(
+          {next_.valid(), shown_->simulates() ? silence_s : 0.0, shown_->device_news(), shown_->class_news()});
       window_.set_readings(shown_->readings(frame_));
     }
     if (camera_) follow_camera();

@@ -1,6 +1,8 @@
 #include "net/client.h"
 
 #include <algorithm>
+#include <span>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -19,6 +21,12 @@ constexpr std::chrono::milliseconds kFirstRetry(100), kLongestRetry(1000);
 
 std::span<const std::uint8_t> bytes_of(const std::string& text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+/// A Control of a server is the scene, or what it says to a class.
+bool is_announcement(std::span<const std::uint8_t> payload) {
+  constexpr std::string_view kBegin = R"({"class":)";
+  return payload.size() >= kBegin.size() && std::equal(kBegin.begin(), kBegin.end(), payload.begin());
 }
 
 }  // namespace
@@ -102,6 +110,18 @@ bool Client::receive_until_break() {
   return false;
 }
 
+void Client::take_control(const Frame& frame) {
+  const std::lock_guard lock(telling_);
+  if (is_announcement(frame.payload)) {
+    status_.announcement.assign(frame.payload.begin(), frame.payload.end());
+    return;
+  }
+  status_.scene_json.assign(frame.payload.begin(), frame.payload.end());
+  status_.connected = true;
+  status_.why.clear();
+  ++status_.connections;
+}
+
 bool Client::take(const Frame& frame) {
   bool sound = true;
   switch (frame.header.type) {
@@ -114,14 +134,9 @@ bool Client::take(const Frame& frame) {
       is_welcome_ = sound;
       break;
     }
-    case FrameType::Control: {
-      const std::lock_guard lock(telling_);
-      status_.scene_json.assign(frame.payload.begin(), frame.payload.end());
-      status_.connected = true;
-      status_.why.clear();
-      ++status_.connections;
+    case FrameType::Control:
+      take_control(frame);
       break;
-    }
     case FrameType::LocalModel:
       sound = take_model(frame);
       break;

@@ -36,6 +36,7 @@ struct LinkStatus {
   double round_trip_s = 0.0;      // of the last ping
   Welcome welcome;                // of the present connection, or the last one
   std::string scene_json;         // likewise
+  std::string announcement;       // what was said to a class last; empty: nothing, or not wanted
   std::string why;                // it is not connected
   bool is_final = false;          // refused for good: trying again would not help
 };
@@ -82,6 +83,7 @@ class Client {
   void receive_all();
   bool receive_until_break();
   bool take(const Frame& frame);
+  void take_control(const Frame& frame);
   bool take_model(const Frame& frame);
   void take_bye(const Frame& frame);
   void reconnect();

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "gui/gui_program.h"
+#include "support/source_folder.h"
 
 // A window on a scene that a server simulates.
 
@@ -22,9 +23,9 @@ class MirrorWindowTest : public testing::GuiTest {};
 
 /// `myotact serve` on this machine; port 0 takes a free one.
 struct ServerProgram {
-  explicit ServerProgram(int wanted_port) {
-    program =
-        std::make_unique<testing::Child>(MYOTACT_PROGRAM " serve particle --port " + std::to_string(wanted_port), log);
+  explicit ServerProgram(int wanted_port, const std::string& options = "") {
+    program = std::make_unique<testing::Child>(
+        MYOTACT_PROGRAM " serve particle --port " + std::to_string(wanted_port) + options, log);
     for (int i = 0; i < 300 && port == 0; ++i) {
       testing::pause_s(0.1);
       std::ifstream lines(log);
@@ -74,6 +75,21 @@ TEST_F(MirrorWindowTest, AnInstructorsWindowLeadsLosesItsServerAndFindsItAgain) 
   server = std::make_unique<ServerProgram>(port);
   EXPECT_TRUE(gui.wait_until([&](const json& s) { return !says_so(s) && time_s(s) > 0.2; }));
   EXPECT_TRUE(gui.program().running());
+}
+
+TEST_F(MirrorWindowTest, BigTypeShowsAClassTheWayIn) {
+  if (!std::filesystem::exists(source_folder() + "/web/dist/index.html")) {
+    GTEST_SKIP() << "the page of a class is not built: tools/build_web.sh";
+  }
+  const ServerProgram server(0, " --web --websocket-port 0");
+  ASSERT_NE(server.port, 0);
+  GuiProgram gui("class_way_in", "--role instructor --connect 127.0.0.1:" + std::to_string(server.port));
+  ASSERT_TRUE(gui.wait_until([](const json& s) { return s["scene_name"] == "particle"; }));
+  gui.key("F9");
+  ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.shows("class.qr"); }));
+  EXPECT_EQ(gui.value_of("class.link").find("http://127.0.0.1:"), 0u) << gui.value_of("class.link");
+  EXPECT_EQ(gui.value_of("class.present"), "0 are in, 0 hands up");
+  gui.screenshot("way_in");
 }
 
 }  // namespace

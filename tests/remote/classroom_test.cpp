@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "remote/class_news.h"
 
 namespace myotact::remote {
 namespace {
@@ -52,6 +53,25 @@ TEST(Classroom, StudentsHearWhatIsForAllAndTheInstructorWhoTheyAre) {
   EXPECT_EQ(instructor.at("join"), "http://127.0.0.1:7481/#token=00");
   ASSERT_EQ(instructor.at("members").size(), 3u);
   EXPECT_EQ(instructor.at("members")[2].at("name"), "<b>Ben</b> ") << "as it was typed, but of one line";
+}
+
+TEST(Classroom, AWindowReadsWhatItShowsOutOfWhatAnInstructorHears) {
+  Classroom room = class_of_two();
+  room.invite("http://127.0.0.1:7481/#token=00");
+  say(room, kBen, {{"do", "class_hand_up"}, {"on", true}});
+  const net::Announcement said = room.announcement();
+  const auto news = class_news(said.to_instructors);
+  ASSERT_TRUE(news);
+  EXPECT_EQ(news->join_link, "http://127.0.0.1:7481/#token=00");
+  EXPECT_EQ(news->students, 2u);
+  EXPECT_EQ(news->hands_up, 1u);
+  EXPECT_EQ(class_news(said.to_all)->join_link, "") << "a student needs none";
+  for (const char* nonsense : {"", "7", "{", R"({"class":7})", R"({"name":"elbow"})"}) {
+    EXPECT_FALSE(class_news(nonsense)) << nonsense;
+  }
+  const auto odd = class_news(R"({"class":{"join":7,"students":-1,"hands_up":{}}})");
+  ASSERT_TRUE(odd);
+  EXPECT_EQ(odd->join_link + std::to_string(odd->students + odd->hands_up), "0");
 }
 
 TEST(Classroom, AnswersAreOfTheQuestionThatIsAsked) {

@@ -46,11 +46,18 @@ struct DeviceNews {
   bool clutched = false;  // its clutch is held, here or on the device
 };
 
+/// A class that joins the scene in browsers.
+struct ClassNews {
+  std::string join_link;  // that students open
+  std::size_t students = 0, hands_up = 0;
+};
+
 /// What the session is about.
 struct SessionNews {
   bool opening = false;                  // another scene is being built
   double silence_s = 0.0;                // since the simulation reported anything: a step that does not end
   std::vector<DeviceNews> devices = {};  // on the table: neither mouse nor simulated ones
+  std::optional<ClassNews> class_in = {};
 };
 
 /// A scene to be opened.
