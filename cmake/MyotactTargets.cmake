@@ -63,15 +63,17 @@ function(myotact_library folder)
   endif()
 endfunction()
 
-# myotact_test(NAME [DRAWS] [LOCKS resources...] LABELS labels... SOURCES files... LINKS targets...): one GoogleTest program,
-# each case a ctest entry. DRAWS: it starts Mesa, whose threads trip the leak check at the end now and then; our own leaks
-# show in the other tests. LOCKS: what it shares with others, one of which runs at a time.
+# myotact_test(NAME [DRAWS] [LOCKS resources...] [LONG cases] LABELS labels... SOURCES files... LINKS targets...): one
+# GoogleTest program, each case a ctest entry. DRAWS: it starts Mesa, whose threads trip the leak check at the end now and
+# then; our own leaks show in the other tests. LOCKS: what it shares with others, one of which runs at a time. LONG: a
+# pattern of GoogleTest for the cases that take about a minute: they are labelled "long", too, and tools/test.sh runs them,
+# but .ci/run, for every change, does not.
 #
 # Under a sanitizer a program is one entry, because to start it takes longer than most of its cases. What is slow there, or
 # measures time, is not built with the rest and not run. The target slow_tests is what is left out there.
 add_custom_target(slow_tests)
 function(myotact_test name)
-  cmake_parse_arguments(ARG "DRAWS" "TIMEOUT" "LABELS;LOCKS;SOURCES;LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "DRAWS" "TIMEOUT;LONG" "LABELS;LOCKS;SOURCES;LINKS" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 300)
   endif()
@@ -96,7 +98,13 @@ function(myotact_test name)
     add_dependencies(slow_tests ${name})
   endif()
   if(NOT MYOTACT_SANITIZED)
-    gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES ${properties})
+    if(ARG_LONG)
+      set(others TEST_FILTER "-${ARG_LONG}")
+      set(long_properties ${properties} LABELS "${labels}-long")
+      gtest_discover_tests(${name} TEST_LIST ${name}_long_cases TEST_FILTER "${ARG_LONG}" DISCOVERY_MODE PRE_TEST
+        PROPERTIES ${long_properties})
+    endif()
+    gtest_discover_tests(${name} ${others} DISCOVERY_MODE PRE_TEST PROPERTIES ${properties})
   elseif(labels MATCHES "slow|realtime")
     set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
   else()
