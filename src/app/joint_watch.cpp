@@ -46,14 +46,8 @@ const view::JointReadings& JointWatch::read(const messages::SceneFrame& frame, s
   for (const messages::JointFrame& joint : frame.joints) angles_rad.push_back(joint.angle_rad);
   const measure::BandPart band =
       measure::whole_band(measure::stiffness_band(*lines_, angles_rad, frame.control.common_now));
-  readings_ = {row.K_schur_Nm_rad - band.down_Nm_rad,
-               row.K_schur_Nm_rad + band.up_Nm_rad,
-               row.K_muscle_Nm_rad,
-               row.K_geometry_Nm_rad,
-               row.K_contact_Nm_rad,
-               row.K_passive_Nm_rad,
-               measure::explain_stiffness(row),
-               ""};
+  readings_ = {row.K_schur_Nm_rad - band.down_Nm_rad, row.K_schur_Nm_rad + band.up_Nm_rad,
+               measure::explain_stiffness(row), ""};
   const scene::ShoveRecord shove = session.fetch_shove();
   if (shove.joint >= 0) readings_.shove = measure::shove_text(measure::report_shove(shove));
   return readings_;

@@ -1,4 +1,8 @@
+#include <array>
+#include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <set>
 #include <string>
@@ -97,6 +101,46 @@ TEST_F(ComfortTest, TheKeyboardReachesEveryControlOfAPanel) {
     gui.tap(i / (2 * count) % 2 == 0 ? "Down" : "Up");
   }
   EXPECT_TRUE(missing.empty()) << (missing.empty() ? "" : *missing.begin());
+}
+
+/// From the window's opening to a muscle that is felt, by what the window says alone.
+TEST_F(ComfortTest, ANewcomerIsLedFromTheLimbToCoContraction) {
+  const auto fresh = std::filesystem::path(::testing::TempDir()) / "newcomer";
+  std::filesystem::remove_all(fresh);
+  GuiProgram gui("newcomer", "elbow", "XDG_CONFIG_HOME=" + fresh.string());
+  const auto opened = std::chrono::steady_clock::now();
+  ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.shows("first.press"); }));
+  gui.screenshot("first");
+  const auto place = [&] {
+    const auto box = gui.box_of("first.place");
+    return std::array{box[0] + 0.5 * box[2], box[1] + 0.5 * box[3]};
+  };
+  const auto press = [&] {
+    const auto [x, y] = place();
+    gui.move_to(x, y);
+    gui.press(1);
+  };
+  press();
+  ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.shows("first.contract"); }));
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - opened;
+  std::printf("touched %.1f s after the window had opened\n", taken.count());
+  EXPECT_LT(taken.count(), 20.0);
+  gui.release(1);
+  gui.screenshot("contract");
+  gui.click("tasks.demonstrate");
+  gui.click("demonstrate.preset.firm");
+  ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.shows("first.press_again"); }));
+  press();
+  ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.shows("first.learn"); }));
+  gui.release(1);
+  gui.screenshot("learn");
+  gui.click("first.done");
+  ASSERT_TRUE(gui.wait_until([&](const json&) { return !gui.shows("first.learn"); }));
+  EXPECT_TRUE(std::filesystem::exists(fresh / "myotact" / "settings.json")) << "and is not led again";
+  gui.key("F1");
+  gui.click("help.tour");
+  EXPECT_TRUE(gui.wait_until([&](const json&) { return gui.shows("tour.next"); }));
+  gui.click("tour.skip");
 }
 
 TEST_F(ComfortTest, BigTypeShowsTheStiffnessToAClassAndGoesAway) {

@@ -56,6 +56,8 @@ class GuiProgram {
   bool wait_until(const std::function<bool(const nlohmann::json&)>& condition, double seconds = 60.0) const;
   std::string value_of(const std::string& control) const;  // "" where it is not shown
   bool shows(const std::string& control) const;
+  /// x, y, width, height [pixels]; throws when it is not shown within half a minute.
+  std::array<double, 4> box_of(const std::string& control) const;
 
   void resize(int width, int height);  // the window
   void hide(), show();
@@ -85,7 +87,6 @@ class GuiProgram {
 
  private:
   void xdotool(const std::string& arguments) const;
-  std::array<double, 4> box_of(const std::string& control) const;
 
   std::filesystem::path folder_;
   std::string display_name_;

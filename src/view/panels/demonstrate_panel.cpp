@@ -17,7 +17,7 @@ namespace myotact::view {
 
 namespace {
 
-const ImVec4 kStiffens(0.3f, 0.55f, 0.85f, 1.0f), kSoftens(0.85f, 0.45f, 0.2f, 1.0f), kUnstable(1.0f, 0.4f, 0.3f, 1.0f);
+const ImVec4 kStiffens(0.3f, 0.55f, 0.85f, 1.0f), kSoftens(0.85f, 0.45f, 0.2f, 1.0f);
 
 void draw_sliders(SceneControls& scene) {
   messages::ControlState now = scene.state();
@@ -56,15 +56,6 @@ void draw_part(const StiffnessShare& part, double largest_Nm_rad) {
   ImGui::Text("%+7.2f %s", part.K_Nm_rad, ui::tr(part.key));
 }
 
-void draw_headline(const messages::JointFrame& joint, const JointReadings& readings) {
-  const bool unstable = joint.stiffness_Nm_rad < 0.0;
-  ImGui::PushStyleColor(ImGuiCol_Text, unstable ? kUnstable : ImGui::GetStyleColorVec4(ImGuiCol_Text));
-  ui::paragraph(ui::tr(unstable ? "demonstrate.K_unstable" : "demonstrate.K", joint.stiffness_Nm_rad));
-  ImGui::PopStyleColor();
-  if (readings.K_low_Nm_rad == 0.0 && readings.K_high_Nm_rad == 0.0) return;
-  ui::paragraph(ui::tr("demonstrate.K_band", readings.K_low_Nm_rad, readings.K_high_Nm_rad));
-}
-
 /// Its outcome, or that it runs: the limb hardly moves, and the last outcome is of another state.
 void draw_shove(PanelContext& context, std::optional<double>& began_s) {
   constexpr double kLasts_s = 4.2;  // simulated: a slow push, then a stroke
@@ -78,18 +69,29 @@ void draw_shove(PanelContext& context, std::optional<double>& began_s) {
   if (!context.readings.shove.empty()) ui::paragraph(context.readings.shove);
 }
 
-void draw_joint(PanelContext& context, std::optional<double>& shove_began_s) {
-  const auto& joint = context.frame.joints[static_cast<std::size_t>(context.facts.joint)];
-  const JointReadings& readings = context.readings;
-  draw_headline(joint, readings);
-  ui::paragraph(ui::tr("demonstrate.torque", joint.torque_Nm, joint.angle_rad * 57.29577951308232));
-  const std::array parts = {StiffnessShare{"demonstrate.K_muscle", readings.K_muscle_Nm_rad},
-                            StiffnessShare{"demonstrate.K_geometry", readings.K_geometry_Nm_rad},
-                            StiffnessShare{"demonstrate.K_contact", readings.K_contact_Nm_rad},
-                            StiffnessShare{"demonstrate.K_passive", readings.K_passive_Nm_rad}};
+/// What K is made of; the bars add up to it. Finite elements do not part their own stiffness as lines do: what they add
+/// to the lines' is one part.
+void draw_parts(const messages::JointFrame& joint) {
+  StiffnessShare muscle{"demonstrate.K_muscle", 0.0}, geometry{"demonstrate.K_geometry", 0.0};
+  for (const messages::MuscleJointFrame& part : joint.muscles) {
+    muscle.K_Nm_rad += part.line_muscle_Nm_rad;
+    geometry.K_Nm_rad += part.line_geometry_Nm_rad;
+  }
+  const StiffnessShare contact{"demonstrate.K_contact", joint.contact_Nm_rad};
+  const StiffnessShare passive{"demonstrate.K_passive", joint.passive_Nm_rad};
+  const double others_Nm_rad = muscle.K_Nm_rad + geometry.K_Nm_rad + contact.K_Nm_rad + passive.K_Nm_rad;
+  const StiffnessShare flesh{"demonstrate.K_flesh", joint.stiffness_Nm_rad - others_Nm_rad};
+  const std::array parts = {muscle, geometry, flesh, contact, passive};
   double largest_Nm_rad = 1e-3;
   for (const StiffnessShare& part : parts) largest_Nm_rad = std::max(largest_Nm_rad, std::abs(part.K_Nm_rad));
   for (const StiffnessShare& part : parts) draw_part(part, largest_Nm_rad);
+}
+
+void draw_joint(PanelContext& context, std::optional<double>& shove_began_s) {
+  const auto& joint = context.frame.joints[static_cast<std::size_t>(context.facts.joint)];
+  const JointReadings& readings = context.readings;
+  ui::paragraph(ui::tr("demonstrate.torque", joint.torque_Nm, joint.angle_rad * 57.29577951308232));
+  draw_parts(joint);
   if (joint.preview) ui::paragraph(messages::kPreviewMark);
   if (!readings.why.empty()) ui::paragraph(readings.why);
   draw_shove(context, shove_began_s);
@@ -156,19 +158,23 @@ void draw_presets(SceneControls& scene, const std::vector<Preset>& presets) {
 
 void DemonstratePanel::draw(PanelContext& context) {
   context.asks.big_type = ui::button("comfort.big_type") || context.asks.big_type;
+  const bool has_muscles = !context.specimen.muscles.empty();
+  const bool has_joint = has_muscles && context.facts.joint < static_cast<int>(context.frame.joints.size());
+  if (has_joint) {
+    const auto& joint = context.frame.joints[static_cast<std::size_t>(context.facts.joint)];
+    gauge_.draw(joint, context.readings, context.frame.time_s);
+  }
   if (context.specimen.muscles.size() > 1) {
     ui::heading("demonstrate.presets");
     draw_presets(context.scene, context.facts.presets);
     draw_stored(context.scene, stored_);
     ui::heading("demonstrate.bench");
   }
-  const bool has_muscles = !context.specimen.muscles.empty();
   if (has_muscles) draw_sliders(context.scene);
   bool gravity = context.scene.state().gravity;
   if (ui::checkbox("demonstrate.gravity", gravity)) context.scene.push(messages::SetGravity{gravity});
   ImGui::Separator();
-  if (has_muscles && context.facts.joint < static_cast<int>(context.frame.joints.size()))
-    draw_joint(context, shove_began_s_);
+  if (has_joint) draw_joint(context, shove_began_s_);
   ui::heading("demonstrate.model");
   draw_scene_choice(context);
 }

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "view/panels/panel.h"
+#include "view/panels/stiffness_gauge.h"
 
 namespace myotact::view {
 
@@ -13,6 +14,7 @@ class DemonstratePanel {
   void draw(PanelContext& context);
 
  private:
+  StiffnessGauge gauge_;
   std::array<std::optional<SceneState>, 2> stored_;  // A and B
   std::optional<double> shove_began_s_;              // simulated time, while a shove test runs
 };

@@ -28,7 +28,7 @@ void draw_row(const char* how, const char* what) {
 
 }  // namespace
 
-void draw_help(bool& open, const std::vector<KeyBinding>& bindings, MousePreset mouse) {
+bool draw_help(bool& open, const std::vector<KeyBinding>& bindings, MousePreset mouse) {
   ImGui::SetNextWindowPos(ImVec2(0.5f * ImGui::GetIO().DisplaySize.x, 0.5f * ImGui::GetIO().DisplaySize.y),
                           ImGuiCond_Appearing, ImVec2(0.5f, 0.5f));
   ImGui::Begin(fmt::format("{}###help", ui::tr("help.title")).c_str(), &open, ImGuiWindowFlags_AlwaysAutoResize);
@@ -48,7 +48,9 @@ void draw_help(bool& open, const std::vector<KeyBinding>& bindings, MousePreset 
     if (mouse == MousePreset::Blender) draw_row("mouse.number_pad", "mouse.views");
     ImGui::EndTable();
   }
+  const bool wants_tour = ui::button("help.tour");
   ImGui::End();
+  return wants_tour;
 }
 
 }  // namespace myotact::view

@@ -7,7 +7,8 @@
 
 namespace myotact::view {
 
-/// Keys and mouse, over everything; `open` becomes false when it is closed.
-void draw_help(bool& open, const std::vector<KeyBinding>& bindings, MousePreset mouse);
+/// Keys and mouse, over everything; `open` becomes false when it is closed. True when the person asks to be shown
+/// round.
+bool draw_help(bool& open, const std::vector<KeyBinding>& bindings, MousePreset mouse);
 
 }  // namespace myotact::view

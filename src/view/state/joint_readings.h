@@ -7,9 +7,8 @@ namespace myotact::view {
 /// What is known about the stiffness of the joint on show, refreshed a few times a second.
 struct JointReadings {
   double K_low_Nm_rad = 0.0, K_high_Nm_rad = 0.0;  // within what the anatomy leaves open; both 0: not known
-  double K_muscle_Nm_rad = 0.0, K_geometry_Nm_rad = 0.0, K_contact_Nm_rad = 0.0, K_passive_Nm_rad = 0.0;
-  std::string why;    // in words
-  std::string shove;  // outcome of the last shove test; empty: none yet
+  std::string why;                                 // in words
+  std::string shove;                               // outcome of the last shove test; empty: none yet
 };
 
 }  // namespace myotact::view

@@ -61,6 +61,10 @@ void note_control(const char* key, const std::string& value) {
       {key, value, low.x, low.y, size.x, size.y, ImGui::GetIO().NavVisible && ImGui::IsItemFocused()});
 }
 
+void note_place(const ControlPlace& place) {
+  places().next.push_back(place);
+}
+
 bool button(const char* key) {
   const bool pressed = ImGui::Button(label(key).c_str());
   finish(key, "");

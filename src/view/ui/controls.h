@@ -56,6 +56,8 @@ struct ControlPlace {
   bool focused = false;                                   // by the keyboard
 };                                                        // of a slider: its track
 const std::vector<ControlPlace>& controls_of_last_picture();
+/// As note_control(), for what is drawn where no control of ImGui is.
+void note_place(const ControlPlace& place);
 /// At the start of each picture.
 void begin_controls();
 

@@ -190,12 +190,23 @@ void ShownScene::draw_areas(PanelContext& context) {
   if (big_type_) draw_class_panel(context, layout_.scene);
   in_area("status", layout_.status, [&] { draw_status_bar(context); });
   news_strip_.draw(context, layout_.scene, message);
-  if (help_) draw_help(help_, keys_, settings.mouse);
-  works_.draw(context);
-  if (!settings.tour_done && !layout_.tasks.empty() && tour_.draw()) {
-    settings.tour_done = true;
-    keep(settings, message);
+  if (help_ && draw_help(help_, keys_, settings.mouse)) {
+    tour_on_ = true;
+    help_ = false;
   }
+  works_.draw(context);
+  guide(context);
+}
+
+void ShownScene::guide(PanelContext& context) {
+  if (tour_on_) {
+    tour_on_ = !layout_.tasks.empty() && !tour_.draw();
+    return;
+  }
+  if (settings.tour_done || replays() || layout_.scene.empty() || context.specimen.muscles.empty()) return;
+  if (!first_steps_.draw(context, layout_.scene, renderer_.superficial())) return;
+  settings.tour_done = true;
+  keep(settings, message);
 }
 
 PanelContext ShownScene::context_of(const messages::SceneFrame& frame, WindowAsks& asks) {

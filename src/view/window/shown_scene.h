@@ -27,6 +27,7 @@
 #include "view/session/settings.h"
 #include "view/state/history.h"
 #include "view/ui/layout.h"
+#include "view/window/first_steps.h"
 #include "view/window/glfw_window.h"
 #include "view/window/pointer.h"
 #include "view/window/window.h"
@@ -91,6 +92,7 @@ class ShownScene {
   void set_big_type(bool on);
   void hold_buttons(const GlfwWindow& window);
   void draw_areas(PanelContext& context);
+  void guide(PanelContext& context);
   void begin_or_end_recording();
   void draw_tasks(PanelContext& context);
   void lead_replay();
@@ -137,7 +139,9 @@ class ShownScene {
   Filming filming_;
   NewsStrip news_strip_;
   SettingsPanel settings_panel_;
+  FirstSteps first_steps_;
   Tour tour_;
+  bool tour_on_ = false;
   std::vector<KeyBinding> keys_;  // as the person chose them
   std::string open_task_;         // tab to be opened; empty: none
   int area_step_ = 0;             // to the area that the keyboard goes to; 0: it stays
