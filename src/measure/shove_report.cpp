@@ -59,7 +59,23 @@ JointResponse response_before(const scene::ShoveRecord& record) {
   return response;
 }
 
-std::string reason(const ShoveReport& report) {
+}  // namespace
+
+ShoveReport report_shove(const scene::ShoveRecord& record) {
+  const JointResponse response = response_before(record);
+  ShoveReport report;
+  report.pushed_stiffness_Nm_rad = record.pushed_stiffness_Nm_rad();
+  report.read_stiffness_Nm_rad = record.before.stiffness_Nm_rad;
+  report.undamped_frequency_hz =
+      std::sqrt(std::max(0.0, report.read_stiffness_Nm_rad) / response.inertia_kg_m2) / (2.0 * std::numbers::pi);
+  report.mode = mode_of(response);
+  report.measured_frequency_hz = swing_frequency_hz(record);
+  report.swing_error = swing_error(record, response);
+  report.why = shove_reason(report);
+  return report;
+}
+
+std::string shove_reason(const ShoveReport& report) {
   if (report.read_stiffness_Nm_rad <= 0.0) return "It does not come back: its stiffness is not above zero.";
   if (report.mode.damping_ratio >= 1.0) {
     return fmt::format(
@@ -73,22 +89,6 @@ std::string reason(const ShoveReport& report) {
   }
   return fmt::format("It rings at {:.1f} Hz (damping ratio {:.2f}).", report.mode.frequency_hz,
                      report.mode.damping_ratio);
-}
-
-}  // namespace
-
-ShoveReport report_shove(const scene::ShoveRecord& record) {
-  const JointResponse response = response_before(record);
-  ShoveReport report;
-  report.pushed_stiffness_Nm_rad = record.pushed_stiffness_Nm_rad();
-  report.read_stiffness_Nm_rad = record.before.stiffness_Nm_rad;
-  report.undamped_frequency_hz =
-      std::sqrt(std::max(0.0, report.read_stiffness_Nm_rad) / response.inertia_kg_m2) / (2.0 * std::numbers::pi);
-  report.mode = mode_of(response);
-  report.measured_frequency_hz = swing_frequency_hz(record);
-  report.swing_error = swing_error(record, response);
-  report.why = reason(report);
-  return report;
 }
 
 std::string shove_text(const ShoveReport& report) {

@@ -21,6 +21,9 @@ struct ShoveReport {
 /// The record must be of a test that came to its end.
 ShoveReport report_shove(const scene::ShoveRecord& record);
 
+/// Whether the joint comes back, and rings: the report's `why`, of its other figures.
+std::string shove_reason(const ShoveReport& report);
+
 /// The report in a few lines for a person.
 std::string shove_text(const ShoveReport& report);
 

@@ -143,6 +143,28 @@ TEST_F(ComfortTest, ANewcomerIsLedFromTheLimbToCoContraction) {
   gui.click("tour.skip");
 }
 
+TEST_F(ComfortTest, PanelsFoldAwayAndTwoStatesAreFeltInTurn) {
+  GuiProgram gui("fold", "elbow --set tissue.default=line");
+  gui.click("fold.tasks");
+  EXPECT_TRUE(gui.wait_until([&](const json&) { return !gui.shows("tasks.see") && gui.shows("find.search"); }));
+  gui.key("F2");
+  EXPECT_TRUE(gui.wait_until([&](const json&) { return !gui.shows("find.search"); }));
+  gui.screenshot("folded");
+  gui.click("fold.find");
+  gui.key("F3");
+  EXPECT_TRUE(gui.wait_until([&](const json&) { return gui.shows("tasks.see") && gui.shows("find.search"); }));
+  gui.click("tasks.demonstrate");
+  gui.click("demonstrate.store_a");
+  gui.click("demonstrate.preset.firm");
+  ASSERT_TRUE(gui.wait_until([](const json& s) { return s["scene"]["common"] == 1.0; }));
+  gui.click("demonstrate.store_b");
+  gui.key("F4");
+  EXPECT_TRUE(gui.wait_until([](const json& s) { return s["scene"]["common"] == 0.0; }));
+  gui.key("F4");
+  EXPECT_TRUE(gui.wait_until([](const json& s) { return s["scene"]["common"] == 1.0; }));
+  EXPECT_NE(gui.value_of("demonstrate.K").find("N m/rad"), std::string::npos);
+}
+
 TEST_F(ComfortTest, BigTypeShowsTheStiffnessToAClassAndGoesAway) {
   GuiProgram gui("class", "elbow --set tissue.default=line");
   gui.key("F9");

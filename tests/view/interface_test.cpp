@@ -175,6 +175,19 @@ TEST(WindowLayout, AreasLieWithinTheWindowAndTheSceneNeverVanishes) {
   }
 }
 
+TEST(WindowLayout, FoldedPanelsLeaveTheirPlaceToTheLimb) {
+  const auto share = [](const SidePanels& sides) {
+    const Layout layout = layout_of(1280.0f, 800.0f, 15.0f, sides);
+    expect_within(layout, 1280.0f, 800.0f);
+    return layout.scene.width * layout.scene.height / (1280.0f * 800.0f);
+  };
+  EXPECT_GE(share({true, false}), 0.6f);
+  EXPECT_GT(share({false, true}), share({true, true}));
+  EXPECT_GE(share({false, false}), 0.8f);
+  EXPECT_TRUE(layout_of(1280.0f, 800.0f, 15.0f, {false, true}).find.empty());
+  EXPECT_TRUE(layout_of(1280.0f, 800.0f, 15.0f, {true, false}).tasks.empty());
+}
+
 TEST(WindowLayout, TheLargestLettersStillShowTheSettings) {
   for (const float width : {640.0f, 700.0f, 1280.0f, 3840.0f}) {
     for (const float height : {400.0f, 500.0f, 800.0f, 2160.0f}) {

@@ -52,7 +52,10 @@ enum class KeyAction {
   TaskSettings,
   LessCoContraction,
   MoreCoContraction,
-  BigType
+  BigType,
+  FoldFind,
+  FoldTasks,
+  OtherState
 };
 
 struct KeyBinding {

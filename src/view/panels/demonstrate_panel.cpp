@@ -11,6 +11,7 @@
 #include <imgui.h>
 
 #include "view/ui/controls.h"
+#include "view/ui/retold.h"
 #include "view/ui/text.h"
 
 namespace myotact::view {
@@ -66,7 +67,7 @@ void draw_shove(PanelContext& context, std::optional<double>& began_s) {
   }
   if (began_s && (now_s < *began_s || now_s > *began_s + kLasts_s)) began_s.reset();
   if (began_s) return ui::paragraph(ui::tr("demonstrate.shove_runs"));
-  if (!context.readings.shove.empty()) ui::paragraph(context.readings.shove);
+  if (!context.readings.shove.empty()) ui::paragraph(ui::retold(context.readings.shove));
 }
 
 /// What K is made of; the bars add up to it. Finite elements do not part their own stiffness as lines do: what they add
@@ -80,8 +81,8 @@ void draw_parts(const messages::JointFrame& joint) {
   const StiffnessShare contact{"demonstrate.K_contact", joint.contact_Nm_rad};
   const StiffnessShare passive{"demonstrate.K_passive", joint.passive_Nm_rad};
   const double others_Nm_rad = muscle.K_Nm_rad + geometry.K_Nm_rad + contact.K_Nm_rad + passive.K_Nm_rad;
-  const StiffnessShare flesh{"demonstrate.K_flesh", joint.stiffness_Nm_rad - others_Nm_rad};
-  const std::array parts = {muscle, geometry, flesh, contact, passive};
+  const StiffnessShare bulk{"demonstrate.K_bulk", joint.stiffness_Nm_rad - others_Nm_rad};
+  const std::array parts = {muscle, geometry, bulk, contact, passive};
   double largest_Nm_rad = 1e-3;
   for (const StiffnessShare& part : parts) largest_Nm_rad = std::max(largest_Nm_rad, std::abs(part.K_Nm_rad));
   for (const StiffnessShare& part : parts) draw_part(part, largest_Nm_rad);
@@ -93,7 +94,7 @@ void draw_joint(PanelContext& context, std::optional<double>& shove_began_s) {
   ui::paragraph(ui::tr("demonstrate.torque", joint.torque_Nm, joint.angle_rad * 57.29577951308232));
   draw_parts(joint);
   if (joint.preview) ui::paragraph(messages::kPreviewMark);
-  if (!readings.why.empty()) ui::paragraph(readings.why);
+  if (!readings.why.empty()) ui::paragraph(ui::retold(readings.why));
   draw_shove(context, shove_began_s);
 }
 
@@ -155,6 +156,13 @@ void draw_presets(SceneControls& scene, const std::vector<Preset>& presets) {
 }
 
 }  // namespace
+
+bool DemonstratePanel::feel_other(SceneControls& scene) {
+  const bool at_a = stored_[0] && orders_between(scene_state_of(scene.state()), *stored_[0]).empty();
+  const std::optional<SceneState>& other = stored_[at_a ? 1 : 0];
+  if (other) scene.restore(*other);
+  return other.has_value();
+}
 
 void DemonstratePanel::draw(PanelContext& context) {
   context.asks.big_type = ui::button("comfort.big_type") || context.asks.big_type;

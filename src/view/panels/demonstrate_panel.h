@@ -12,6 +12,8 @@ namespace myotact::view {
 class DemonstratePanel {
  public:
   void draw(PanelContext& context);
+  /// B where A is in force, else A. False, and nothing is done, where that one has not been kept.
+  bool feel_other(SceneControls& scene);
 
  private:
   StiffnessGauge gauge_;

@@ -115,12 +115,14 @@ void FindPanel::draw_row(PanelContext& context, const Part& part) {
   ui::note_control(fmt::format("find.shown.{}", key).c_str(), shown ? "on" : "off");
   ImGui::SameLine();
   const bool selected = selected_part(view) == part;
-  if (ImGui::Selectable(name_of(context.specimen, part, view).c_str(), selected,
-                        ImGuiSelectableFlags_AllowDoubleClick)) {
+  const std::string name = name_of(context.specimen, part, view);
+  const std::string fits = ui::shortened(name, ImGui::GetContentRegionAvail().x);
+  if (ImGui::Selectable(fmt::format("{}###name", fits).c_str(), selected, ImGuiSelectableFlags_AllowDoubleClick)) {
     ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) ? isolate(view, part) : select(view, part);
   }
   ui::note_control(fmt::format("find.{}", key).c_str(), selected ? "selected" : "");
   if (ImGui::IsItemHovered()) hovered_ = part;
+  if (ImGui::IsItemHovered() && fits != name) ImGui::SetTooltip("%s", name.c_str());
   if (ImGui::IsItemClicked(ImGuiMouseButton_Right)) context.asks.menu_of = part;
   mark_note(context, key);
   ImGui::PopStyleColor();

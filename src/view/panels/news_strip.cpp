@@ -6,6 +6,7 @@
 
 #include "view/panels/device_part.h"
 #include "view/ui/controls.h"
+#include "view/ui/retold.h"
 #include "view/ui/text.h"
 
 namespace myotact::view {
@@ -82,7 +83,8 @@ void NewsStrip::draw(PanelContext& context, const Area& scene, std::string& mess
   }
   if (slow && !silent) draw_too_slow(context);
   draw_devices(context);
-  if (!notice.empty()) ui::paragraph(notice);  // last: it comes and goes, and what is clicked must not move for it
+  if (!notice.empty())
+    ui::paragraph(ui::retold(notice));  // last: it comes and goes, and what is clicked must not move for it
   ImGui::End();
 }
 

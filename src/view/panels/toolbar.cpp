@@ -12,11 +12,12 @@ namespace myotact::view {
 
 namespace {
 
-/// Always at the same place.
+/// Always at the same place; red is what stops them alone.
 void draw_force_switch(PanelContext& context) {
-  const bool stopped = forces_stopped(context.frame);
-  if (red_button(stopped ? "toolbar.forces_on" : "toolbar.forces_off")) {
-    stopped ? context.scene.enable_forces() : context.scene.stop_forces();
+  if (!forces_stopped(context.frame)) {
+    if (red_button("toolbar.forces_off")) context.scene.stop_forces();
+  } else if (ui::button("toolbar.forces_on")) {
+    context.scene.enable_forces();
   }
 }
 

@@ -71,6 +71,25 @@ bool button(const char* key) {
   return pressed;
 }
 
+bool arrow_button(const char* key, bool to_right) {
+  const bool pressed = ImGui::ArrowButton(key, to_right ? ImGuiDir_Right : ImGuiDir_Left);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tr(key));
+  note_control(key);
+  return pressed;
+}
+
+std::string shortened(const std::string& text, float width) {
+  const auto is_too_wide = [&](const std::string& cut) { return ImGui::CalcTextSize(cut.c_str()).x > width; };
+  if (!is_too_wide(text)) return text;
+  std::string begin = text;
+  const auto ends_in_character = [&] { return (static_cast<unsigned char>(begin.back()) & 0xC0u) == 0x80u; };
+  while (!begin.empty() && is_too_wide(begin + "...")) {
+    while (begin.size() > 1 && ends_in_character()) begin.pop_back();  // UTF-8: a character's later bytes
+    begin.pop_back();
+  }
+  return begin + "...";
+}
+
 bool hold_button(const char* key) {
   ImGui::Button(label(key).c_str());
   const bool held = ImGui::IsItemActive();

@@ -11,6 +11,8 @@
 namespace myotact::view::ui {
 
 bool button(const char* key);
+/// A small arrow; its text is shown when the pointer rests on it.
+bool arrow_button(const char* key, bool to_right);
 /// True for as long as it is pressed.
 bool hold_button(const char* key);
 /// Looks pressed while `on`.
@@ -34,6 +36,8 @@ bool is_entered();
 bool is_held();
 
 void text(const char* key);
+/// The text, or its beginning and three points, so that it is no wider [pixels].
+std::string shortened(const std::string& text, float width);
 /// Any text, broken at the panel's edge.
 void paragraph(const std::string& text);
 void heading(const char* key);

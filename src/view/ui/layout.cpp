@@ -17,7 +17,7 @@ float largest_em(float width, float height) {
   return std::min(width / (kTasks + kNarrowestScene), height / (kTwoRows + kTimeline + kStatus + kLowestScene));
 }
 
-Layout layout_of(float width, float height, float em, bool sides) {
+Layout layout_of(float width, float height, float em, const SidePanels& sides) {
   Layout layout;
   layout.scene = {0.0f, 0.0f, width, height};
   const float toolbar = width >= kWideToolbar * em ? kToolbar : kTwoRows;
@@ -28,11 +28,12 @@ Layout layout_of(float width, float height, float em, bool sides) {
     layout.scene.y = layout.toolbar.height;
     layout.scene.height = height - layout.toolbar.height - layout.status.height;
   }
-  if (sides && width >= (kTasks + kNarrowestScene) * em) {
+  if (sides.tasks && width >= (kTasks + kNarrowestScene) * em) {
     layout.tasks = {width - kTasks * em, layout.scene.y, kTasks * em, layout.scene.height};
     layout.scene.width -= layout.tasks.width;
   }
-  if (sides && width >= (kFind + kTasks + kNarrowestScene) * em) {
+  const float beside = (sides.tasks ? kTasks : 0.0f) + kNarrowestScene;
+  if (sides.find && width >= (kFind + beside) * em) {
     layout.find = {0.0f, layout.scene.y, kFind * em, layout.scene.height};
     layout.scene.x = layout.find.width;
     layout.scene.width -= layout.find.width;

@@ -27,7 +27,12 @@ struct Layout {
 /// would hide the very control that makes them smaller.
 float largest_em(float width, float height);
 
-/// `em`: height of the font [pixels]. `sides`: with the panels at the left and the right.
-Layout layout_of(float width, float height, float em, bool sides = true);
+/// Which panels the person wants beside the limb; the others are folded.
+struct SidePanels {
+  bool find = true, tasks = true;
+};
+
+/// `em`: height of the font [pixels].
+Layout layout_of(float width, float height, float em, const SidePanels& sides = {});
 
 }  // namespace myotact::view

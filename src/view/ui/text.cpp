@@ -90,6 +90,10 @@ const std::string& language() {
   return current().language;
 }
 
+const Catalogue& english_texts() {
+  return current().english;
+}
+
 const char* tr(std::string_view key) {
   if (const std::string* text = find_text(key)) return text->c_str();
   static std::map<std::string, std::string, std::less<>> missing;  // so that the pointer stays good

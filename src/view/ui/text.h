@@ -24,6 +24,9 @@ Catalogue load_catalogue(const std::string& language);
 void set_language(const std::string& language);
 const std::string& language();
 
+/// What texts of other languages stand for.
+const Catalogue& english_texts();
+
 /// The text of a key, valid until set_language(); the key itself where there is none. English before set_language().
 const char* tr(std::string_view key);
 bool has_text(std::string_view key);

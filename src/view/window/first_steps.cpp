@@ -82,7 +82,11 @@ bool FirstSteps::draw(PanelContext& context, const Area& scene, const std::vecto
   go_on(context);
   const bool presses = step_ == Step::Press || step_ == Step::PressAgain;
   if (presses && !touches_muscle(context)) glow_on_muscle(context, scene, superficial);
-  if (step_ == Step::Contract && !glow_on_control("demonstrate.preset.firm")) glow_on_control("tasks.demonstrate");
+  if (step_ == Step::Contract) {
+    for (const char* key : {"demonstrate.preset.firm", "tasks.demonstrate", "fold.tasks"}) {
+      if (glow_on_control(key)) break;
+    }
+  }
   if (step_ == Step::Learn) glow_on_control("tasks.learn");
   // Beside the limb, above the scale bar, and off the legend.
   const float em = ImGui::GetFontSize(), width = std::min(17.0f * em, scene.width - em);

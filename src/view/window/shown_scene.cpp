@@ -67,6 +67,7 @@ void ShownScene::take_over(const ShownScene& before) {
   message = before.message;
   layout_ = before.layout_;
   big_type_ = before.big_type_;
+  sides_ = before.sides_;
 }
 
 /// Turns there within a quarter of a second.
@@ -186,12 +187,14 @@ void ShownScene::draw_areas(PanelContext& context) {
   in_area("find", layout_.find, [&] { find_.draw(context); });
   in_area("tasks", layout_.tasks, [&] { draw_tasks(context); });
   in_area("timeline", layout_.timeline, [&] { replays() ? replay_.draw(context) : timeline_.draw(context); });
+  draw_fold_handles();
   recordings_.draw(context);
   if (big_type_) draw_class_panel(context, layout_.scene);
   in_area("status", layout_.status, [&] { draw_status_bar(context); });
   news_strip_.draw(context, layout_.scene, message);
   if (help_ && draw_help(help_, keys_, settings.mouse)) {
     tour_on_ = true;
+    sides_ = {};
     help_ = false;
   }
   works_.draw(context);
@@ -217,7 +220,7 @@ PanelContext ShownScene::context_of(const messages::SceneFrame& frame, WindowAsk
 void ShownScene::draw_panels(const messages::SceneFrame& now, GlfwWindow& window) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const bool first = layout_.scene.empty();
-  layout_ = layout_of(display.x, display.y, ImGui::GetFontSize(), !big_type_);
+  layout_ = layout_of(display.x, display.y, ImGui::GetFontSize(), big_type_ ? SidePanels{false, false} : sides_);
   keys_ = bindings_with(settings.keys);
   if (big_type_) ui::apply_theme(ui::Theme::Contrast);  // settings that changed have set theirs
   if (first) {

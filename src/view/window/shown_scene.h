@@ -92,6 +92,7 @@ class ShownScene {
   void set_big_type(bool on);
   void hold_buttons(const GlfwWindow& window);
   void draw_areas(PanelContext& context);
+  void draw_fold_handles();
   void guide(PanelContext& context);
   void begin_or_end_recording();
   void draw_tasks(PanelContext& context);
@@ -145,7 +146,8 @@ class ShownScene {
   std::vector<KeyBinding> keys_;  // as the person chose them
   std::string open_task_;         // tab to be opened; empty: none
   int area_step_ = 0;             // to the area that the keyboard goes to; 0: it stays
-  bool big_type_ = false;         // for a class in front of a projector
+  SidePanels sides_;
+  bool big_type_ = false;  // for a class in front of a projector
   bool help_ = false;
   WorksPanel works_;
   BookmarkList bookmarks_;

@@ -3,6 +3,9 @@
 #include <cmath>
 #include <utility>
 
+#include <imgui.h>
+
+#include "view/ui/controls.h"
 #include "view/ui/text.h"
 #include "view/window/shown_scene.h"
 
@@ -48,9 +51,37 @@ bool ShownScene::act_on_comfort(KeyAction action, WindowAsks& asks) {
     case KeyAction::BigType:
       asks.big_type = true;
       return true;
+    case KeyAction::FoldFind:
+      sides_.find = !sides_.find;
+      return true;
+    case KeyAction::FoldTasks:
+      sides_.tasks = !sides_.tasks;
+      return true;
+    case KeyAction::OtherState:
+      if (!demonstrate_.feel_other(scene_)) message = ui::tr("demonstrate.none_kept");
+      return true;
     default:
       return false;
   }
+}
+
+/// At the scene's upper corners; a window that is too small for a panel has no handle for it either.
+void ShownScene::draw_fold_handles() {
+  const auto handle = [&](const char* key, float x, float pivot, bool& open, bool is_left) {
+    ImGui::SetNextWindowPos(ImVec2(x, layout_.scene.y), 0, ImVec2(pivot, 0.0f));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(2.0f, 2.0f));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1.0f, 1.0f));
+    ImGui::Begin(key, nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
+    if (ui::arrow_button(key, open != is_left)) open = !open;
+    ImGui::End();
+    ImGui::PopStyleVar(2);
+  };
+  const Layout all = layout_of(ImGui::GetIO().DisplaySize.x, ImGui::GetIO().DisplaySize.y, ImGui::GetFontSize());
+  if (big_type_) return;
+  if (!all.find.empty() || !sides_.tasks) handle("fold.find", layout_.scene.x, 0.0f, sides_.find, true);
+  if (!all.tasks.empty()) handle("fold.tasks", layout_.scene.x + layout_.scene.width, 1.0f, sides_.tasks, false);
 }
 
 /// Of both sides of the joint, whatever drove the muscles before: from the level in force on.

@@ -79,6 +79,26 @@ TEST_F(PanelControls, StayInHandWhileTheLanguageChanges) {
   EXPECT_NEAR(value, 0.8, 0.03);
 }
 
+TEST_F(PanelControls, ATextThatIsTooLongKeepsItsBeginning) {
+  const std::string name = "M. triceps brachii, caput accessorium";
+  std::string narrow, wide, none, german;
+  float room = 0.0f;
+  paint_ = [&] {
+    room = 0.6f * ImGui::CalcTextSize(name.c_str()).x;
+    narrow = shortened(name, room);
+    wide = shortened(name, 2.0f * room);
+    none = shortened(name, 0.0f);
+    german = shortened("ääääää", 0.8f * ImGui::CalcTextSize("ääääää").x);
+    room -= ImGui::CalcTextSize(narrow.c_str()).x;
+  };
+  draw();
+  EXPECT_EQ(wide, name);
+  EXPECT_EQ(none, "...");
+  EXPECT_GE(room, 0.0f) << narrow << " is too wide";
+  EXPECT_TRUE(narrow.ends_with("...") && name.starts_with(narrow.substr(0, narrow.size() - 3))) << narrow;
+  EXPECT_EQ(german.size() % 2, 1u) << "three points after whole characters of two bytes: " << german;
+}
+
 TEST_F(PanelControls, ASliderReachesBothEndsAndSaysWhereItsTrackIs) {
   double value = 3.0;
   bool moved = false;
