@@ -1,6 +1,9 @@
 #include "learn/lesson_list.h"
 
 #include <algorithm>
+#include <charconv>
+#include <limits>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -14,13 +17,26 @@ namespace myotact::learn {
 
 namespace {
 
+/// The number in front of a name; a name without one comes last.
+unsigned long number_of(const std::filesystem::path& file) {
+  const std::string name = file.filename().string();
+  unsigned long number = std::numeric_limits<unsigned long>::max();
+  std::from_chars(name.data(), name.data() + name.size(), number);
+  return number;
+}
+
+/// As lessons are counted: 2 before 10.
+bool comes_before(const std::filesystem::path& a, const std::filesystem::path& b) {
+  return std::tuple(number_of(a), a) < std::tuple(number_of(b), b);
+}
+
 void add_folder(const std::filesystem::path& folder, std::vector<ListedLesson>& lessons) {
   std::error_code failure;  // no folder, no lessons
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder, failure)) {
     if (entry.path().extension() == ".json") files.push_back(entry.path());
   }
-  std::sort(files.begin(), files.end());
+  std::sort(files.begin(), files.end(), comes_before);
   for (const std::filesystem::path& file : files) {
     ListedLesson lesson{file, {}, ""};
     try {

@@ -74,7 +74,8 @@ TEST_P(ShippedLesson, RunsToItsEndAndRightAnswersScoreFull) {
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedLesson,
                          ::testing::Values("1_find_and_touch", "2_pull_a_line", "3_co_contraction", "4_stifle",
-                                           "5_hock"));
+                                           "5_hock", "6_shoulder", "7_forearm", "8_thigh_layers", "9_leg",
+                                           "10_two_joints", "11_gait", "12_palpation"));
 
 TEST(LessonPlayed, AWrongPredictionIsTaughtByThePull) {
   const TemporaryFolder folder;

@@ -1,6 +1,7 @@
 #include "learn/lesson_list.h"
 
 #include <cstdlib>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -48,6 +49,16 @@ TEST_F(OwnLessons, AreFoundByKeyFileNameAndPath) {
   const std::string complaint = testing::complaint(ExitStatus::NoInput, [] { find_lesson("2_pull_a_lin"); });
   EXPECT_THAT(complaint, HasSubstr("2_pull_a_lin: no such lesson"));
   EXPECT_THAT(complaint, HasSubstr("nearest: 2_pull_a_line"));
+}
+
+TEST_F(OwnLessons, TheShippedOnesComeInTheOrderOfTheirNumbers) {
+  int last = 0;
+  for (const ListedLesson& lesson : list_lessons()) {
+    const int number = std::stoi(lesson.path.filename().string());
+    EXPECT_EQ(number, last + 1);
+    last = number;
+  }
+  EXPECT_GE(last, 12);
 }
 
 TEST(OwnLessonsFolder, IgnoresAPathThatIsNotAbsolute) {
