@@ -121,6 +121,7 @@ std::optional<view::ClassNews> MirrorStage::class_news() {
 view::WindowSettings MirrorStage::window_settings(const Options&) const {
   view::WindowSettings settings;
   settings.facts = facts_of(scene_);
+  settings.facts.is_served = true;
   const auto& scenes = settings.facts.scenes;
   const bool built_in = std::find(scenes.begin(), scenes.end(), scene_.name) != scenes.end();
   settings.facts.file = built_in ? scene_.name : "elbow";  // to open one on this machine

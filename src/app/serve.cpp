@@ -72,8 +72,8 @@ scene::Scene with_hands_of_class(scene::Scene scene) {
   const std::size_t hands = std::max(borne, scene.tools.size());
   std::cout << "hands " << hands << '\n';
   if (borne < hands) {
-    spdlog::warn("On this machine \"{}\" runs slower than real time while {} press.", scene.name,
-                 hands == 1 ? "one hand" : fmt::format("{} hands", hands));
+    spdlog::warn("On this machine \"{}\" runs slower than real time while {}.", scene.name,
+                 hands == 1 ? "a hand presses" : fmt::format("{} hands press", hands));
   } else {
     spdlog::info(
         "This machine bears about {} hands that press at once; a class gets as many. Who comes after them "

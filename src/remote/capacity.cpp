@@ -16,7 +16,7 @@ constexpr double kDepth_m = 3e-3;        // as deep as a careful finger goes
 constexpr double kCoupling_N_m = 400.0;  // of a page's pseudo-haptic hand
 constexpr int kFirstSteps = 10;          // until what was woken has settled
 constexpr int kTimedSteps = 21;          // .2 s: of their median one tenth is noise on a busy machine
-/// A stride that comes to all muscles and to all sides of each before it comes back (golden ratio of 2^32).
+/// A stride that comes to all sides of a muscle before it comes back (golden ratio of 2^32).
 constexpr std::uint32_t kStride = 2654435769u;
 
 std::vector<int> soft_muscles(const scene::Scene& scene) {

@@ -1,4 +1,5 @@
-// Every sentence that the simulation builds at run time is told in the languages of the window.
+// The sentences that the simulation builds at run time of faults, stiffness, shoves and its posture are told in the
+// languages of the window. Those of files and connections are not: they name paths and addresses.
 
 #include "view/ui/retold.h"
 

@@ -88,7 +88,7 @@ TEST_F(MirrorWindowTest, BigTypeShowsAClassTheWayIn) {
   gui.key("F9");
   ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.shows("class.qr"); }));
   EXPECT_EQ(gui.value_of("class.link").find("http://127.0.0.1:"), 0u) << gui.value_of("class.link");
-  EXPECT_EQ(gui.value_of("class.present"), "0 are in, 0 hands up");
+  EXPECT_EQ(gui.value_of("class.present"), "In: 0, hands up: 0");
   gui.screenshot("way_in");
 }
 

@@ -220,7 +220,7 @@ bool of_several_tools(const Limb& limb) {
                      [&](const ToolSpring& spring) { return spring.tool != limb.springs.front().tool; });
 }
 
-/// Of a joint's rotation under each spring alone.
+/// Of each spring alone: its muscle's, and what joints add.
 void read_compliance_of_one_tool(Limb& limb, const SmallSystem& small) {
   const auto joints = static_cast<Eigen::Index>(small.joints.size());
   const Eigen::MatrixXd columns = small.matrix.topRightCorner(joints, small.size() - joints);

@@ -91,7 +91,6 @@ void draw_parts(const messages::JointFrame& joint) {
 void draw_joint(PanelContext& context, std::optional<double>& shove_began_s) {
   const auto& joint = context.frame.joints[static_cast<std::size_t>(context.facts.joint)];
   const JointReadings& readings = context.readings;
-  ui::paragraph(ui::tr("demonstrate.torque", joint.torque_Nm, joint.angle_rad * 57.29577951308232));
   draw_parts(joint);
   if (joint.preview) ui::paragraph(messages::kPreviewMark);
   if (!readings.why.empty()) ui::paragraph(ui::retold(readings.why));
@@ -100,12 +99,14 @@ void draw_joint(PanelContext& context, std::optional<double>& shove_began_s) {
 
 /// Another scene, or other tissue: built beside, while this one goes on.
 void draw_scene_choice(PanelContext& context) {
+  constexpr float kWidth_em = 7.6f;  // both in one row, with their names in any language
   const SceneFacts& facts = context.facts;
   ImGui::BeginDisabled(context.news.opening);
   std::vector<const char*> scenes;
   for (const std::string& name : facts.scenes) scenes.push_back(name.c_str());
   const auto found = std::find(facts.scenes.begin(), facts.scenes.end(), facts.name);
   int scene = found == facts.scenes.end() ? -1 : static_cast<int>(found - facts.scenes.begin());
+  ImGui::SetNextItemWidth(kWidth_em * ImGui::GetFontSize());
   if (ui::choice("demonstrate.scene", scene, scenes)) {
     context.asks.wish = SceneWish{facts.scenes[static_cast<std::size_t>(scene)], facts.tissue, {}};
   }
@@ -114,10 +115,11 @@ void draw_scene_choice(PanelContext& context) {
                                  "demonstrate.tissue.rigid"};
   const auto* now = std::find(kTissues.begin(), kTissues.end(), facts.tissue);
   int tissue = now == kTissues.end() ? 0 : static_cast<int>(now - kTissues.begin());
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(kWidth_em * ImGui::GetFontSize());
   if (ui::choice("demonstrate.tissue", tissue, kTexts)) {
     context.asks.wish = SceneWish{facts.file, kTissues[static_cast<std::size_t>(tissue)], {}};
   }
-  ui::paragraph(ui::tr(fmt::format("{}.note", kTexts[static_cast<std::size_t>(tissue)])));
   ImGui::EndDisabled();
 }
 
@@ -164,13 +166,20 @@ bool DemonstratePanel::feel_other(SceneControls& scene) {
   return other.has_value();
 }
 
+void DemonstratePanel::observe(const PanelContext& context) {
+  const auto joint = static_cast<std::size_t>(context.facts.joint);
+  const auto& joints = context.frame.joints;
+  if (joint < joints.size()) gauge_.note(context.frame.time_s, joints[joint].stiffness_Nm_rad);
+}
+
 void DemonstratePanel::draw(PanelContext& context) {
+  draw_scene_choice(context);
   context.asks.big_type = ui::button("comfort.big_type") || context.asks.big_type;
   const bool has_muscles = !context.specimen.muscles.empty();
   const bool has_joint = has_muscles && context.facts.joint < static_cast<int>(context.frame.joints.size());
   if (has_joint) {
     const auto& joint = context.frame.joints[static_cast<std::size_t>(context.facts.joint)];
-    gauge_.draw(joint, context.readings, context.frame.time_s);
+    gauge_.draw(joint, context.readings);
   }
   if (context.specimen.muscles.size() > 1) {
     ui::heading("demonstrate.presets");
@@ -180,11 +189,10 @@ void DemonstratePanel::draw(PanelContext& context) {
   }
   if (has_muscles) draw_sliders(context.scene);
   bool gravity = context.scene.state().gravity;
+  if (has_muscles) ImGui::SameLine();
   if (ui::checkbox("demonstrate.gravity", gravity)) context.scene.push(messages::SetGravity{gravity});
   ImGui::Separator();
   if (has_joint) draw_joint(context, shove_began_s_);
-  ui::heading("demonstrate.model");
-  draw_scene_choice(context);
 }
 
 }  // namespace myotact::view

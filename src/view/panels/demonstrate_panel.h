@@ -12,6 +12,8 @@ namespace myotact::view {
 class DemonstratePanel {
  public:
   void draw(PanelContext& context);
+  /// Every picture, drawn or not.
+  void observe(const PanelContext& context);
   /// B where A is in force, else A. False, and nothing is done, where that one has not been kept.
   bool feel_other(SceneControls& scene);
 

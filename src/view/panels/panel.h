@@ -33,6 +33,7 @@ struct SceneFacts {
   std::vector<double> device_peaks_N{3.3};  // of the tools' devices
   std::vector<bool> shows_force_only;       // of the tools' devices, as of a mouse; none: all move the hand
   double replay_s = 0.0;                    // length of the recording that is played; 0: the scene is simulated
+  bool is_served = false;                   // another machine simulates it, with hands of others in it
   int joint = 0;                            // that is watched: co-contracted, or the first
   std::vector<Preset> presets;
   std::vector<std::string> scenes;  // that can be opened by name

@@ -19,7 +19,7 @@ constexpr double kApart_s = 0.04;  // samples, at most 500 of them
 const ImVec4 kFlexes(0.85f, 0.45f, 0.2f, 1.0f), kExtends(0.3f, 0.55f, 0.85f, 1.0f), kUnstable(1.0f, 0.4f, 0.3f, 1.0f);
 
 void draw_number(double K_Nm_rad) {
-  constexpr float kScale = 2.4f;
+  constexpr float kScale = 2.2f;
   const bool unstable = K_Nm_rad < 0.0;
   ImGui::PushStyleColor(ImGuiCol_Text, unstable ? kUnstable : ImGui::GetStyleColorVec4(ImGuiCol_Text));
   ImGui::SetWindowFontScale(kScale);
@@ -47,7 +47,9 @@ void draw_opposition(const messages::JointFrame& joint) {
   list->AddLine(ImVec2(net, corner.y - 2.0f), ImVec2(net, low + 2.0f), ImGui::GetColorU32(ImGuiCol_Text), 3.0f);
   ImGui::Dummy(ImVec2(width, height));
   ui::note_control("demonstrate.opposition", fmt::format("{:.3f}", sides.flexing_Nm + sides.extending_Nm));
-  ui::paragraph(ui::tr("demonstrate.opposition", sides.flexing_Nm, -sides.extending_Nm));
+  constexpr double kDegrees = 57.29577951308232;
+  ui::paragraph(ui::tr("demonstrate.opposition", sides.flexing_Nm, -sides.extending_Nm, joint.torque_Nm,
+                       joint.angle_rad * kDegrees));
 }
 
 }  // namespace
@@ -71,6 +73,7 @@ double scale_end(double largest) {
 
 void StiffnessGauge::note(double time_s, double K_Nm_rad) {
   if (!history_.empty() && time_s < history_.back().time_s) history_.clear();  // the scene began again
+  if (!std::isfinite(K_Nm_rad)) return;
   if (history_.empty() || time_s >= history_.back().time_s + kApart_s) history_.push_back({time_s, K_Nm_rad});
   while (history_.back().time_s - history_.front().time_s > kSpan_s) history_.pop_front();
 }
@@ -83,7 +86,7 @@ void StiffnessGauge::draw_history(const JointReadings& readings) {
   }
   const double top = scale_end(highest), bottom = lowest < 0.0 ? -scale_end(-lowest) : 0.0;
   const ImVec2 corner = ImGui::GetCursorScreenPos();
-  const ImVec2 size(ImGui::GetContentRegionAvail().x, 5.0f * ImGui::GetTextLineHeight());
+  const ImVec2 size(ImGui::GetContentRegionAvail().x, 3.6f * ImGui::GetTextLineHeight());
   const ImVec2 end(corner.x + size.x, corner.y + size.y);
   const auto y_of = [&](double K) { return end.y - size.y * static_cast<float>((K - bottom) / (top - bottom)); };
   const auto x_of = [&](double time_s) {
@@ -110,8 +113,8 @@ void StiffnessGauge::draw_history(const JointReadings& readings) {
   ui::note_control("demonstrate.history", fmt::format("{:g}", top));
 }
 
-void StiffnessGauge::draw(const messages::JointFrame& joint, const JointReadings& readings, double time_s) {
-  note(time_s, joint.stiffness_Nm_rad);
+void StiffnessGauge::draw(const messages::JointFrame& joint, const JointReadings& readings) {
+  if (history_.empty()) return;
   draw_number(joint.stiffness_Nm_rad);
   draw_history(readings);
   if (readings.K_low_Nm_rad != 0.0 || readings.K_high_Nm_rad != 0.0)

@@ -20,16 +20,21 @@ double scale_end(double largest);
 /// over.
 class StiffnessGauge {
  public:
-  void draw(const messages::JointFrame& joint, const JointReadings& readings, double time_s);
+  /// Every picture, whether it is drawn or not.
+  void note(double time_s, double K_Nm_rad);
+  /// Nothing before the first note().
+  void draw(const messages::JointFrame& joint, const JointReadings& readings);
 
- private:
   struct Sample {
     double time_s, K_Nm_rad;
   };
-  void note(double time_s, double K_Nm_rad);
+  /// Of the last 20 s, by simulated time.
+  const std::deque<Sample>& history() const { return history_; }
+
+ private:
   void draw_history(const JointReadings& readings);
 
-  std::deque<Sample> history_;  // of the last kSpan_s, by simulated time
+  std::deque<Sample> history_;
 };
 
 }  // namespace myotact::view

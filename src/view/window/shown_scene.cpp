@@ -68,6 +68,9 @@ void ShownScene::take_over(const ShownScene& before) {
   layout_ = before.layout_;
   big_type_ = before.big_type_;
   sides_ = before.sides_;
+  first_steps_ = before.first_steps_;
+  tour_ = before.tour_;
+  tour_on_ = before.tour_on_;
 }
 
 /// Turns there within a quarter of a second.
@@ -156,7 +159,10 @@ void ShownScene::obey(const WindowAsks& asks, const messages::SceneFrame& frame)
   if (asks.recordings) recordings_.toggle();
   if (asks.film) filming_.begin_or_end(facts_.name);
   if (asks.wish) wish = asks.wish;
-  if (asks.write_note) find_.focus_note();
+  if (asks.write_note) {
+    sides_.find = true;
+    find_.focus_note();
+  }
   take_marks(asks);
   if (asks.turn_to) look(*asks.turn_to);
   if (asks.works) works_.toggle();
@@ -196,6 +202,7 @@ void ShownScene::draw_areas(PanelContext& context) {
     tour_on_ = true;
     sides_ = {};
     help_ = false;
+    if (big_type_) set_big_type(false);
   }
   works_.draw(context);
   guide(context);
@@ -203,11 +210,13 @@ void ShownScene::draw_areas(PanelContext& context) {
 
 void ShownScene::guide(PanelContext& context) {
   if (tour_on_) {
-    tour_on_ = !layout_.tasks.empty() && !tour_.draw();
+    if (!layout_.tasks.empty() && tour_.draw()) tour_on_ = false;
     return;
   }
-  if (settings.tour_done || replays() || layout_.scene.empty() || context.specimen.muscles.empty()) return;
+  const bool can_press = !replays() && !facts_.is_served && !big_type_ && !context.specimen.muscles.empty();
+  if (settings.tour_done || layout_.scene.empty() || !can_press) return;
   if (!first_steps_.draw(context, layout_.scene, renderer_.superficial())) return;
+  first_steps_ = {};  // to begin anew when they are asked for
   settings.tour_done = true;
   keep(settings, message);
 }
@@ -236,6 +245,7 @@ void ShownScene::draw_panels(const messages::SceneFrame& now, GlfwWindow& window
   PanelContext present = context_of(replays() ? shown : now, asks);
   PanelContext seen = context_of(shown, asks);  // a past frame while the person looks back
   plots_.add(present);
+  demonstrate_.observe(present);
   feel_.add(present.frame);
   learn_.observe(present);
   pointer_.free_orbit = settings.free_orbit;

@@ -33,6 +33,7 @@ const char* task_of(KeyAction action) {
 bool ShownScene::act_on_comfort(KeyAction action, WindowAsks& asks) {
   if (const char* task = task_of(action)) {
     open_task_ = task;
+    sides_.tasks = true;
     return true;
   }
   switch (action) {
@@ -78,10 +79,14 @@ void ShownScene::draw_fold_handles() {
     ImGui::End();
     ImGui::PopStyleVar(2);
   };
-  const Layout all = layout_of(ImGui::GetIO().DisplaySize.x, ImGui::GetIO().DisplaySize.y, ImGui::GetFontSize());
   if (big_type_) return;
-  if (!all.find.empty() || !sides_.tasks) handle("fold.find", layout_.scene.x, 0.0f, sides_.find, true);
-  if (!all.tasks.empty()) handle("fold.tasks", layout_.scene.x + layout_.scene.width, 1.0f, sides_.tasks, false);
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const auto laid_out = [&](const SidePanels& sides) {
+    return layout_of(display.x, display.y, ImGui::GetFontSize(), sides);
+  };
+  if (!laid_out({true, sides_.tasks}).find.empty()) handle("fold.find", layout_.scene.x, 0.0f, sides_.find, true);
+  if (!laid_out({false, true}).tasks.empty())
+    handle("fold.tasks", layout_.scene.x + layout_.scene.width, 1.0f, sides_.tasks, false);
 }
 
 /// Of both sides of the joint, whatever drove the muscles before: from the level in force on.

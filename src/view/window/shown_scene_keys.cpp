@@ -106,6 +106,7 @@ void ShownScene::act(KeyAction action, WindowAsks& asks, GlfwWindow& window) {
       asks.standard_view = "lateral";
       return;
     case KeyAction::Search:
+      sides_.find = true;
       return find_.focus();
     case KeyAction::Undo:
       asks.undo = true;

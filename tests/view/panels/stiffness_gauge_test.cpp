@@ -27,5 +27,18 @@ TEST(StiffnessGauge, ItsScaleEndsAtNumbersThatAreEasyToRead) {
   EXPECT_EQ(scale_end(std::numeric_limits<double>::infinity()), 1.0);
 }
 
+TEST(StiffnessGauge, KeepsTwentySecondsAndBeginsAnewWithTheScene) {
+  StiffnessGauge gauge;
+  for (int picture = 0; picture < 4000; ++picture) gauge.note(0.01 * picture, 1.0 + picture);
+  EXPECT_LE(gauge.history().size(), 501u);
+  EXPECT_NEAR(gauge.history().back().time_s, 39.99, 0.05);
+  EXPECT_NEAR(gauge.history().front().time_s, 20.0, 0.1);
+  gauge.note(40.0, std::numeric_limits<double>::quiet_NaN());
+  EXPECT_LT(gauge.history().back().time_s, 40.0) << "what is not known is not drawn";
+  gauge.note(0.01, 2.0);
+  ASSERT_EQ(gauge.history().size(), 1u);
+  EXPECT_EQ(gauge.history().front().K_Nm_rad, 2.0);
+}
+
 }  // namespace
 }  // namespace myotact::view
