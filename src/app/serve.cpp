@@ -63,8 +63,8 @@ void invite_class(const net::Endpoint& page, const net::AccessPolicy& access_pol
   std::cout.flush();
 }
 
-/// A class gets as many hands as this machine bears, and is told how many these are. What is sent takes .05 more with
-/// 30 that look on: with all hands pressing at once, which a class hardly does, time runs at .95.
+/// A class gets as many hands as this machine bears, and is told how many these are. What is sent to those that look on
+/// is not reckoned with: in the measurement all hands press at once, which a class hardly does.
 scene::Scene with_hands_of_class(scene::Scene scene) {
   const double allowed_s = scene.settings.dt_s;
   const auto load = remote::measure_load(scene, allowed_s, remote::kMostHands);
