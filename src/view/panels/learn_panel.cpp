@@ -70,21 +70,22 @@ void LearnPanel::draw_list(PanelContext& context) {
 
 void LearnPanel::draw_listed(const learn::ListedLesson& lesson, PanelContext& context) {
   ImGui::PushID(lesson.path.c_str());
-  ImGui::Separator();
   if (!lesson.complaint.empty()) {
     title_line(lesson.path.filename().string(), true);
     ui::paragraph(ui::tr("learn.broken", lesson.complaint));
     ImGui::PopID();
     return;
   }
-  title_line(lesson.head.title, true);
-  ui::paragraph(ui::tr("learn.about", lesson.head.scene, lesson.head.steps));
   const bool here = lesson.head.scene == context.facts.name;
   ImGui::BeginDisabled(!here && context.news.opening);
   const bool pressed =
       ImGui::Button(fmt::format("{}###start", ui::tr(here ? "learn.start" : "learn.open_scene")).c_str());
   ui::note_control(fmt::format("learn.{}.{}", here ? "start" : "open_scene", lesson.head.key).c_str());
   ImGui::EndDisabled();
+  ImGui::SameLine();
+  const std::string about = ui::tr("learn.about", lesson.head.scene, lesson.head.steps);
+  ImGui::TextUnformatted(ui::shortened(lesson.head.title, ImGui::GetContentRegionAvail().x).c_str());
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s\n%s", lesson.head.title.c_str(), about.c_str());
   ImGui::PopID();
   if (!pressed) return;
   if (here) return open(lesson, context);
