@@ -121,6 +121,8 @@ test('the shipped lessons are read', () => {
   const folder = join(REPOSITORY, 'assets', 'lessons');
   const specimens: Record<string, string> = {
     elbow: 'canine_elbow',
+    forelimb: 'canine_whole_forelimb',
+    hindlimb: 'canine_whole_hindlimb',
     stifle: 'canine_whole_hindlimb',
     hock: 'canine_whole_hindlimb',
   };

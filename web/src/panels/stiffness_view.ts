@@ -11,7 +11,9 @@ const POINTS_HZ = 10;
 const SHOW_EVERY_MS = 200;
 const HEIGHT_PX = 150;
 
-type PartKey = 'K_muscle' | 'K_geometry' | 'K_contact' | 'K_passive';
+/** They add up to K: what finite elements add to the stiffness of lines is one part, K_bulk. */
+const PARTS = ['K_muscle', 'K_geometry', 'K_bulk', 'K_contact', 'K_passive'] as const;
+type PartKey = (typeof PARTS)[number];
 
 export class StiffnessView {
   readonly element = el('div', { class: 'stiffness' });
@@ -32,7 +34,7 @@ export class StiffnessView {
       0,
       app.scene.joints.findIndex((joint) => joint.key === key),
     );
-    for (const part of ['K_muscle', 'K_geometry', 'K_contact', 'K_passive'] as PartKey[]) this.addPart(part);
+    for (const part of PARTS) this.addPart(part);
     this.element.append(this.number, this.angle, this.chart, this.parts);
     app.on('readings', (readings) => this.take(readings));
     app.on('language', () => this.rebuild());
@@ -70,12 +72,14 @@ export class StiffnessView {
     this.angle.textContent = texts.t('demonstrate.torque', joint.torque_Nm, degrees(joint.angle_rad));
     const sum = (of: (muscle: JointReading['muscles'][number]) => number): number =>
       joint.muscles.reduce((total, muscle) => total + of(muscle), 0);
-    const parts: Record<PartKey, number> = {
+    const others = {
       K_muscle: sum((muscle) => muscle.line_muscle_Nm_rad),
       K_geometry: sum((muscle) => muscle.line_geometry_Nm_rad),
       K_contact: joint.contact_Nm_rad,
       K_passive: joint.passive_Nm_rad,
     };
+    const known = Object.values(others).reduce((total, part) => total + part, 0);
+    const parts: Record<PartKey, number> = { ...others, K_bulk: joint.stiffness_Nm_rad - known };
     for (const [part, value] of this.values) value.textContent = parts[part].toFixed(3);
     this.draw();
   }
