@@ -24,10 +24,9 @@ constexpr std::array kSteps = {Step{"tour.find", "find.search"},        Step{"to
 
 /// A frame round the control, and the place beside it; the middle of the window where it is not shown.
 ImVec2 mark(const char* key) {
-  const auto& controls = ui::controls_of_last_picture();
-  const auto found = std::find_if(controls.begin(), controls.end(), [&](const auto& c) { return c.key == key; });
+  const ui::ControlPlace* found = ui::find_control(key);
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  if (found == controls.end()) return {0.4f * display.x, 0.4f * display.y};
+  if (found == nullptr) return {0.4f * display.x, 0.4f * display.y};
   constexpr float kGap = 4.0f;
   const ImVec2 low(found->x - kGap, found->y - kGap);
   const ImVec2 high(found->x + found->width + kGap, found->y + found->height + kGap);

@@ -54,6 +54,12 @@ const std::vector<ControlPlace>& controls_of_last_picture() {
   return places().last;
 }
 
+const ControlPlace* find_control(std::string_view key) {
+  const auto& controls = places().last;
+  const auto found = std::find_if(controls.begin(), controls.end(), [&](const auto& c) { return c.key == key; });
+  return found == controls.end() ? nullptr : &*found;
+}
+
 void note_control(const char* key, const std::string& value) {
   if (!ImGui::IsItemVisible()) return;
   const ImVec2 low = ImGui::GetItemRectMin(), size = ImGui::GetItemRectSize();

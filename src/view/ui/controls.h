@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 // The controls of the window. Each is named by the key of its text, which is also its identity: the language may change
@@ -60,6 +61,8 @@ struct ControlPlace {
   bool focused = false;                                   // by the keyboard
 };                                                        // of a slider: its track
 const std::vector<ControlPlace>& controls_of_last_picture();
+/// The one of this key, until the next picture; null: it was not shown.
+const ControlPlace* find_control(std::string_view key);
 /// As note_control(), for what is drawn where no control of ImGui is.
 void note_place(const ControlPlace& place);
 /// At the start of each picture.

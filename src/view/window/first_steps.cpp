@@ -34,9 +34,8 @@ void glow_round(const ImVec2& low, const ImVec2& high) {
 
 /// False where no such control is shown.
 bool glow_on_control(const char* key) {
-  const auto& controls = ui::controls_of_last_picture();
-  const auto found = std::find_if(controls.begin(), controls.end(), [&](const auto& c) { return c.key == key; });
-  if (found == controls.end()) return false;
+  const ui::ControlPlace* found = ui::find_control(key);
+  if (found == nullptr) return false;
   glow_round(ImVec2(found->x, found->y), ImVec2(found->x + found->width, found->y + found->height));
   return true;
 }
