@@ -113,6 +113,8 @@ test('its line is pulled', { skip }, async () => {
   await student.focus('canvas');
   await student.keyboard.press('p');
   await student.keyboard.down('Space');
+  await student.waitForSelector('.felt-chip:not([hidden])', { state: 'attached' });
+  for (let step = 0; step < 12; ++step) await student.keyboard.press('ArrowUp');
   await felt(student, 0.3);
   await student.keyboard.up('Space');
 });
