@@ -18,7 +18,7 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 
 set(CPACK_DEBIAN_MYOTACT_PACKAGE_NAME myotact)
 # libegl1 and libgl1 are loaded while the program runs, which shlibdeps does not see; without them libepoxy aborts.
-set(CPACK_DEBIAN_MYOTACT_PACKAGE_DEPENDS "fonts-dejavu-core, libegl1, libgl1")
+set(CPACK_DEBIAN_MYOTACT_PACKAGE_DEPENDS "fonts-dejavu-core, fonts-fork-awesome, fonts-inter, libegl1, libgl1")
 set(CPACK_DEBIAN_MYOTACT_PACKAGE_RECOMMENDS libgl1-mesa-dri)
 set(CPACK_DEBIAN_MYOTACT_PACKAGE_SUGGESTS "ffmpeg, myotact-prepare")
 set(CPACK_DEBIAN_MYOTACT_DESCRIPTION "feel the muscles of a dog's limb

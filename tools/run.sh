@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and opens the elbow. Without a display it runs the same scene and leaves a picture, a
+# Installs what is missing, builds, and opens the window. Without a display it runs the elbow and leaves a picture, a
 # stiffness plot and tables in out/ of the present folder. Arguments are passed on: tools/run.sh --seconds 2
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -9,7 +9,7 @@ build release -- myotact
 myotact="$project/build/release/src/app/myotact"
 
 if [ -n "${DISPLAY:-}" ] || [ -n "${WAYLAND_DISPLAY:-}" ]; then
-  exec "$myotact" view elbow "$@"
+  exec "$myotact" view "$@"
 fi
 "$myotact" run elbow --out out "$@"
 echo "no display: the scene ran without a window and left in $PWD/out:" >&2

@@ -49,7 +49,7 @@ struct HandRun {
 
 HandRun feel_in_lockstep(const Options& options, const scene::Scene& scene, remote::ScriptedDevice& device) {
   HandRun run(scene.tools[0], options.every);
-  remote::LockstepHand hand(server_of(options), own_token(), scene.tools[0], device);
+  remote::LockstepHand hand(server_of(options), own_token(options), scene.tools[0], device);
   const double end_s = options.seconds.value_or(device.script_end_s());
   while (hand.time_s() < end_s - 0.5 * scene.settings.dt_s && interruption() == 0) {
     hand.step([&](double time_s, const haptics::HapticTick& tick) { run.add(time_s, tick, device.limb()); });
@@ -76,7 +76,7 @@ HandRun feel_free(const Options& options, const scene::Scene& scene, remote::Scr
   settings.server = server_of(options);
   settings.hello.role = net::Role::Student;
   settings.hello.wants.hand = true;
-  settings.hello.token = own_token();
+  settings.hello.token = own_token(options);
   settings.hello.name = "feel";
   remote::FreeHand hand(settings, device, scene.tools[0], on_table ? nullptr : &guarded.watchdog,
                         on_table ? equipment.device(scene.tools[0].device).servo_clock() : nullptr);
@@ -107,7 +107,7 @@ HandRun feel_free(const Options& options, const scene::Scene& scene, remote::Scr
 int feel(const Options& options) {
   std::optional<GuardedMotors> guarded;
   guarded.emplace();  // first: the watchdog is forked off before there are threads
-  const net::SceneAnswer answer = net::ask_scene(server_of(options), own_token());
+  const net::SceneAnswer answer = net::ask_scene(server_of(options), own_token(options));
   scene::Scene scene = remote::scene_of_message(answer.scene_json);
   if (options.devices.size() > 1) {
     throw Error(ExitStatus::Usage, "--device: this is one hand; start it once more for another device");

@@ -255,6 +255,12 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
   bind(devices, myotact::app::devices);
 }
 
+/// Whoever names nothing to be shown, nor how long, is a person who has just started it.
+bool names_nothing(const CLI::App& program, const Options& options) {
+  const bool names_scene = program.get_subcommand("view")->get_option("scene")->count() > 0;
+  return !names_scene && !options.session && !options.connect && !options.recording && !options.seconds;
+}
+
 int report(ExitStatus status, const std::string& text) {
   spdlog::error("{}", text);
   return static_cast<int>(status);
@@ -270,6 +276,7 @@ int main(int argc, char** argv) {
   try {
     program.parse(argc, argv);
     myotact::start_log(options.log_level);
+    options.offers_start = names_nothing(program, options);
     return action(options);
   } catch (const CLI::ParseError& failure) {
     return program.exit(failure) == 0 ? 0 : static_cast<int>(ExitStatus::Usage);

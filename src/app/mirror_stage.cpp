@@ -24,14 +24,16 @@ bool takes_a_hand(const Options& options) {
               "--device: beside --connect the window takes the mouse or no device; `myotact feel` is for others");
 }
 
-net::Token token_for(net::Role role) {
-  if (role != net::Role::Instructor) return own_token();
-  return token_of("MYOTACT_INSTRUCTOR_TOKEN").value_or(own_token());
-}
 
 net::Role role_of(const Options& options) {
   if (options.role == "instructor") return net::Role::Instructor;
   return options.role == "student" || takes_a_hand(options) ? net::Role::Student : net::Role::Viewer;
+}
+
+net::Token token_for(const Options& options) {
+  const std::optional<net::Token> instructors =
+      role_of(options) == net::Role::Instructor ? token_of("MYOTACT_INSTRUCTOR_TOKEN") : std::nullopt;
+  return instructors ? *instructors : own_token(options);
 }
 
 net::ClientSettings client_settings(const Options& options) {
@@ -41,7 +43,7 @@ net::ClientSettings client_settings(const Options& options) {
   settings.hello.wants.hand = takes_a_hand(options);
   settings.hello.wants.frames = settings.hello.wants.readings = settings.hello.wants.in_force = true;
   settings.hello.wants.announcements = settings.hello.role == net::Role::Instructor;
-  settings.hello.token = token_for(settings.hello.role);
+  settings.hello.token = token_for(options);
   settings.hello.name = "view";
   return settings;
 }
@@ -49,7 +51,7 @@ net::ClientSettings client_settings(const Options& options) {
 }  // namespace
 
 MirrorStage::MirrorStage(const Options& options)
-    : answer_(net::ask_scene(server_of(options), token_for(role_of(options)))),
+    : answer_(net::ask_scene(server_of(options), token_for(options))),
       scene_(remote::scene_of_message(answer_.scene_json)),
       mouse_(scene::start_of_hand(scene_, 0)) {
   const net::ClientSettings settings = client_settings(options);

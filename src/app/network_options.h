@@ -15,7 +15,7 @@ std::optional<net::Token> token_of(const char* variable);
 /// --connect. Throws Error Usage when it is missing.
 net::Endpoint server_of(const Options& options);
 
-/// MYOTACT_TOKEN, or no token at all.
-net::Token own_token();
+/// The one that was typed, else MYOTACT_TOKEN, or no token at all. Throws Error Usage for an invalid one.
+net::Token own_token(const Options& options);
 
 }  // namespace myotact::app

@@ -22,6 +22,7 @@ struct Options {
   std::filesystem::path out = "out";
   std::optional<std::filesystem::path> record;
   std::optional<std::filesystem::path> session;       // view: a saved work to begin with
+  bool offers_start = false;                          // view: no scene was named, so it asks what for
   std::optional<std::string> camera;                  // view: the device that rotates it
   std::optional<std::filesystem::path> report_state;  // view: what the window shows, as JSON, kept up to date
   bool json = false;
@@ -70,6 +71,7 @@ struct Options {
   std::optional<std::size_t> hands;  // without: those of the scene
   bool lockstep = false;
   std::optional<std::string> connect;  // feel, view: HOST:PORT of a server
+  std::string token;                   // as typed in the window, for that server; empty: MYOTACT_TOKEN
   std::string role;                    // view, at that server; empty: a student's with a hand, else a viewer's
 };
 

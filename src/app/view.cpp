@@ -68,6 +68,12 @@ Options options_of(const Options& given, const view::SceneWish& wish) {
   options.record = wish.recording;
   options.recording = wish.replay;
   options.connect.reset();  // another scene is simulated here
+  if (wish.to_join) {
+    options.connect = wish.to_join->address;
+    options.token = wish.to_join->token;
+    options.devices = {"mouse"};  // a hand in it, by what everybody has
+    return options;
+  }
   if (wish.tissue.empty() && !wish.work) return options;
   std::erase_if(options.set, [](const std::string& pair) { return pair.starts_with("tissue.default="); });
   if (!wish.tissue.empty()) options.set.push_back("tissue.default=" + wish.tissue);
@@ -77,7 +83,7 @@ Options options_of(const Options& given, const view::SceneWish& wish) {
 /// The window and what it shows: one stage that runs and, after a wish for another, the next one being built.
 class WindowApp {
  public:
-  explicit WindowApp(const Options& options) : options_(options), equipment_(options), report_(options.report_state) {
+  explicit WindowApp(const Options& options) : options_(options), equipment_(options), report_(options.report_state), window_({}, options.offers_start) {
     if (options.camera && equipment_.has(*options.camera)) {
       throw Error(ExitStatus::Usage, "--camera " + *options.camera + ": moves a tool already (--device)");
     }

@@ -143,6 +143,28 @@ TEST_F(ComfortTest, ANewcomerIsLedFromTheLimbToCoContraction) {
   gui.click("tour.skip");
 }
 
+TEST_F(ComfortTest, WhoNamesNoSceneIsAskedWhatFor) {
+  GuiProgram gui("start", "--set tissue.default=line");
+  ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.shows("start.touch"); }));
+  gui.screenshot("start");
+  gui.click("start.prepare");
+  ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.shows("start.back") && !gui.shows("start.touch"); }));
+  gui.screenshot("prepare");
+  gui.click("start.back");
+  gui.click("start.teach");
+  EXPECT_TRUE(gui.wait_until([&](const json&) { return gui.value_of("tasks.demonstrate") == "on"; }));
+  EXPECT_FALSE(gui.shows("start.touch"));
+  gui.click("toolbar.start");
+  gui.click("start.lesson");
+  EXPECT_TRUE(gui.wait_until([&](const json&) { return gui.value_of("tasks.learn") == "on"; }));
+  gui.click("toolbar.start");
+  gui.click("start.touch");  // somebody who asks for it is led, though he was before
+  EXPECT_TRUE(gui.wait_until([&](const json&) { return gui.shows("first.press"); }));
+  gui.click("toolbar.start");
+  gui.click("start.close");
+  EXPECT_TRUE(gui.wait_until([&](const json&) { return !gui.shows("start.close"); }));
+}
+
 TEST_F(ComfortTest, PanelsFoldAwayAndTwoStatesAreFeltInTurn) {
   GuiProgram gui("fold", "elbow --set tissue.default=line");
   gui.click("fold.tasks");

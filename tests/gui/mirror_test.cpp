@@ -77,6 +77,28 @@ TEST_F(MirrorWindowTest, AnInstructorsWindowLeadsLosesItsServerAndFindsItAgain) 
   EXPECT_TRUE(gui.program().running());
 }
 
+TEST_F(MirrorWindowTest, AClassIsJoinedFromTheStartPage) {
+  const ServerProgram server(0);
+  ASSERT_NE(server.port, 0);
+  GuiProgram gui("start_join", "--set tissue.default=line");
+  gui.click("start.join");
+  gui.click("start.join.address");
+  gui.type("127.0.0.1:" + std::to_string(server.port));
+  gui.click("start.join.token");
+  gui.type("no token");
+  gui.screenshot("join");
+  gui.click("start.join.now");
+  EXPECT_TRUE(gui.wait_until([&](const json& s) {  // refused in a sentence, and the limb stays
+    return gui.value_of("news.message").find("32 hexadecimal digits") != std::string::npos && s["scene_name"] == "elbow";
+  }));
+  gui.click("toolbar.start");
+  gui.click("start.join");
+  gui.click("start.join.address");
+  gui.type("127.0.0.1:" + std::to_string(server.port));
+  gui.tap("Return");
+  EXPECT_TRUE(gui.wait_until([](const json& s) { return s["scene_name"] == "particle" && time_s(s) > 0.2; }));
+}
+
 TEST_F(MirrorWindowTest, BigTypeShowsAClassTheWayIn) {
   if (!std::filesystem::exists(source_folder() + "/web/dist/index.html")) {
     GTEST_SKIP() << "the page of a class is not built: tools/build_web.sh";

@@ -1,14 +1,19 @@
 #include "view/overlay/scene_overlay.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "view/overlay/opposing_pulls.h"
 #include "view/overlay/seen_parts.h"
 #include "view/render/tool_drawing.h"
+#include "view/ui/controls.h"
 #include "view/ui/text.h"
+#include "view/ui/theme.h"
 
 namespace myotact::view {
 
@@ -163,6 +168,50 @@ void draw_scale_bar(const Sheet& sheet) {
   sheet.write({0.5f * (start.x + end.x - sheet.size_of(text).x), end.y - 1.5f * em}, text);
 }
 
+/// The place on the screen; none behind the eye.
+std::optional<glm::vec2> seen_at(const Sheet& sheet, const glm::vec3& world_m) {
+  const glm::mat4 clip_from_world = sheet.scene.view.camera.clip_from_world(sheet.area.width / sheet.area.height);
+  const glm::vec4 clip = clip_from_world * glm::vec4(world_m, 1.0f);
+  if (!(clip.w > 0.0f)) return {};
+  return sheet.on_screen({0.5f + 0.5f * clip.x / clip.w, 0.5f - 0.5f * clip.y / clip.w});
+}
+
+void draw_arrow(const Sheet& sheet, const glm::vec2& from, const glm::vec2& to, const ImVec4& colour) {
+  const float em = sheet.em(), thick = 0.5f * em;
+  const glm::vec2 along = glm::normalize(to - from), across(-along.y, along.x);
+  const glm::vec2 neck = to - std::min(1.2f * em, 0.6f * glm::distance(from, to)) * along;
+  const auto draw = [&](float margin, ImU32 ink) {
+    const glm::vec2 wing = (0.8f * em + 1.6f * margin) * across, back = neck - margin * along;
+    sheet.list.AddLine(to_im(from - margin * along), to_im(neck), ink, thick + 2.0f * margin);
+    sheet.list.AddTriangleFilled(to_im(to + 2.0f * margin * along), to_im(back + wing), to_im(back - wing), ink);
+  };
+  draw(0.12f * em, to_im(glm::vec3(1.0f)));  // an edge, so that it stands out from red muscle
+  draw(0.0f, ImGui::GetColorU32(colour));
+}
+
+/// Both groups of a joint on one scale: as long as their longest muscle where the stronger one pulls with all it has.
+void draw_opposing_pulls(const Sheet& sheet) {
+  const std::array colours = {ui::kFlexes, ui::kExtends};
+  constexpr std::array kTexts = {"demonstrate.arrow_flexors", "demonstrate.arrow_extensors"};
+  const auto groups = opposing_pulls(sheet.scene.specimen, sheet.scene.frame, sheet.scene.opposed_joint);
+  const float full_N = std::max({groups[0].full_N, groups[1].full_N, 1.0f});
+  const float longest_m = std::max(groups[0].longest_m, groups[1].longest_m);
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const auto from = seen_at(sheet, groups[i].place_m);
+    const auto to = seen_at(sheet, groups[i].place_m + longest_m / full_N * groups[i].force_N);
+    if (!from || !to || glm::distance(*from, *to) < 0.7f * sheet.em()) continue;
+    draw_arrow(sheet, *from, *to, colours[i]);
+    const float force_N = glm::length(groups[i].force_N);
+    const std::string text = ui::tr(kTexts[i], force_N);
+    const glm::vec2 size = sheet.size_of(text), other = seen_at(sheet, groups[1 - i].place_m).value_or(*from);
+    const float side = other.x > from->x ? -size.x - 1.2f * sheet.em() : 1.2f * sheet.em();
+    const glm::vec2 corner(std::clamp(from->x + side, sheet.area.x, sheet.area.x + sheet.area.width - size.x), from->y);
+    sheet.paper(corner - 0.2f * sheet.em(), size + 0.4f * sheet.em());
+    sheet.write(corner, text);
+    ui::note_place({kTexts[i], fmt::format("{:.1f}", force_N), corner.x, corner.y, size.x, size.y});
+  }
+}
+
 /// Anchors are found on a coarse grid: one that moves by no more than a few of its cells glides there.
 void steady(std::vector<LabelWish>& wishes, const std::vector<LabelWish>& before, float reach) {
   constexpr float kGlide = 0.25f;  // of the way, a picture
@@ -246,6 +295,7 @@ void SceneOverlay::draw(const OverlaidScene& scene, const Area& area, ImDrawList
   if (scene.tools_lag) legend.entries.push_back({"see.thread", {}, true});
   const float legend_height = draw_legend(sheet, legend);
   if (!scene.view.names_hidden) draw_labels(sheet, legend_height, placed_, wishes_);
+  draw_opposing_pulls(sheet);
   draw_scale_bar(sheet);
   list.PopClipRect();
 }

@@ -25,6 +25,7 @@ struct OverlaidScene {
   const std::vector<bool>& superficial;  // as for opacity_of()
   Part hovered;
   glm::vec3 background{1.0f};  // text is dark on a light one
+  int opposed_joint = -1;      // whose two groups are shown as they pull against each other; -1: none
   bool tools_lag = false;      // some may, behind hands that feel nothing: the legend explains what joins the two
 };
 

@@ -5,6 +5,7 @@
 #include <imgui.h>
 
 #include "view/ui/controls.h"
+#include "view/ui/font.h"
 #include "view/ui/qr_code.h"
 #include "view/ui/text.h"
 
@@ -12,14 +13,13 @@ namespace myotact::view {
 
 namespace {
 
-constexpr float kHeadline = 2.0f;  // times the font
 constexpr double kDegrees = 57.29577951308232;
 
 void draw_headline(const std::string& text, const char* key) {
-  ImGui::SetWindowFontScale(kHeadline);
+  ui::push_type(ui::Type::Number);
   ImGui::TextUnformatted(text.c_str());
   ui::note_control(key, text);
-  ImGui::SetWindowFontScale(1.0f);
+  ImGui::PopFont();
 }
 
 /// How to join, for telephones that look at the screen: dark on light whatever the theme, with the margin that the

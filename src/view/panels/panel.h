@@ -61,6 +61,12 @@ struct SessionNews {
   std::optional<ClassNews> class_in = {};
 };
 
+/// A class that another machine serves.
+struct ClassToJoin {
+  std::string address;  // HOST:PORT
+  std::string token;    // 32 hexadecimal digits; empty: none is needed
+};
+
 /// A scene to be opened.
 struct SceneWish {
   std::string scene;                                 // name or path
@@ -68,6 +74,7 @@ struct SceneWish {
   std::optional<std::filesystem::path> recording;    // file to record it to
   std::optional<SavedWork> work = {};                // that it is to begin with
   std::optional<std::filesystem::path> replay = {};  // recording to be played in place of the scene
+  std::optional<ClassToJoin> to_join = {};           // in place of a scene that is simulated here
 };
 
 /// What the mouse is over the scene.
@@ -88,6 +95,7 @@ struct WindowAsks {
   bool frame_selection = false;         // to come near what is selected; all when nothing is
   bool undo = false, redo = false;
   bool help = false;                               // to be shown or hidden
+  bool start = false;                              // the page of what the program is for
   bool big_type = false;                           // for a class, to begin or to end
   double co_contraction_step = 0.0;                // to be added to the common level
   std::optional<bool> free_orbit;                  // was switched on or off

@@ -8,7 +8,9 @@
 #include <imgui.h>
 
 #include "view/ui/controls.h"
+#include "view/ui/font.h"
 #include "view/ui/text.h"
+#include "view/ui/theme.h"
 
 namespace myotact::view {
 
@@ -16,17 +18,16 @@ namespace {
 
 constexpr double kSpan_s = 20.0;
 constexpr double kApart_s = 0.04;  // samples, at most 500 of them
-const ImVec4 kFlexes(0.85f, 0.45f, 0.2f, 1.0f), kExtends(0.3f, 0.55f, 0.85f, 1.0f), kUnstable(1.0f, 0.4f, 0.3f, 1.0f);
+const ImVec4 kUnstable(1.0f, 0.4f, 0.3f, 1.0f);
 
 void draw_number(double K_Nm_rad) {
-  constexpr float kScale = 2.2f;
   const bool unstable = K_Nm_rad < 0.0;
   ImGui::PushStyleColor(ImGuiCol_Text, unstable ? kUnstable : ImGui::GetStyleColorVec4(ImGuiCol_Text));
-  ImGui::SetWindowFontScale(kScale);
+  ui::push_type(ui::Type::Number);
   const char* key = unstable ? "demonstrate.K_unstable" : "demonstrate.K";
   const std::string text = ui::tr(key, K_Nm_rad);
   ImGui::TextUnformatted(text.c_str());
-  ImGui::SetWindowFontScale(1.0f);
+  ImGui::PopFont();
   ImGui::PopStyleColor();
   ui::note_control("demonstrate.K", text);
 }
@@ -41,8 +42,8 @@ void draw_opposition(const messages::JointFrame& joint) {
   const auto x_of = [&](double torque_Nm) { return middle - 0.5f * width * static_cast<float>(torque_Nm / end_Nm); };
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddRectFilled(corner, ImVec2(corner.x + width, low), ImGui::GetColorU32(ImGuiCol_FrameBg));
-  list->AddRectFilled(ImVec2(x_of(sides.flexing_Nm), corner.y), ImVec2(middle, low), ImGui::GetColorU32(kFlexes));
-  list->AddRectFilled(ImVec2(middle, corner.y), ImVec2(x_of(sides.extending_Nm), low), ImGui::GetColorU32(kExtends));
+  list->AddRectFilled(ImVec2(x_of(sides.flexing_Nm), corner.y), ImVec2(middle, low), ImGui::GetColorU32(ui::kFlexes));
+  list->AddRectFilled(ImVec2(middle, corner.y), ImVec2(x_of(sides.extending_Nm), low), ImGui::GetColorU32(ui::kExtends));
   const float net = x_of(sides.flexing_Nm + sides.extending_Nm);
   list->AddLine(ImVec2(net, corner.y - 2.0f), ImVec2(net, low + 2.0f), ImGui::GetColorU32(ImGuiCol_Text), 3.0f);
   ImGui::Dummy(ImVec2(width, height));

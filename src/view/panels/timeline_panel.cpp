@@ -38,17 +38,17 @@ void TimelinePanel::draw(PanelContext& context) {
   ImGui::SameLine();
   if (ui::button("keep.recordings")) context.asks.recordings = true;
   ImGui::SameLine();
-  if (ui::button("keep.step_back")) step(-1);
+  if (ui::icon_button("keep.step_back")) step(-1);
   ImGui::SameLine();
-  if (ui::button(paused ? "keep.play" : "keep.pause")) {
+  if (ui::icon_button(paused ? "keep.play" : "keep.pause")) {
     context.scene.push(messages::Pause{!paused});
     back_to_now();
   }
   ImGui::SameLine();
   ImGui::BeginDisabled(!looks_back());
-  if (ui::button("keep.step_forward")) step(1);
+  if (ui::icon_button("keep.step_forward")) step(1);
   ImGui::SameLine();
-  if (ui::button("keep.now")) back_to_now();
+  if (ui::icon_button("keep.now")) back_to_now();
   ImGui::EndDisabled();
   if (history_.size() < 2) return;
   ImGui::SameLine();

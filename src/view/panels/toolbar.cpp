@@ -33,21 +33,21 @@ void draw_modes(PointerMode now, WindowAsks& asks) {
 
 void draw_play(SceneControls& scene) {
   const bool paused = scene.state().paused;
-  if (ui::button(paused ? "toolbar.play" : "toolbar.pause")) scene.push(messages::Pause{!paused});
+  if (ui::icon_button(paused ? "toolbar.play" : "toolbar.pause")) scene.push(messages::Pause{!paused});
   ImGui::SameLine();
-  if (ui::button("toolbar.step")) {
+  if (ui::icon_button("toolbar.step")) {
     scene.push(messages::Pause{true});
     scene.push(messages::SingleStep{});
   }
   ImGui::SameLine();
-  if (ui::button("toolbar.reset")) scene.push(messages::Reset{});
+  if (ui::icon_button("toolbar.reset")) scene.push(messages::Reset{});
   ImGui::SameLine();
 }
 
 void draw_saving(WindowAsks& asks) {
-  if (ui::button("session.save_now")) asks.save_work = "";
+  if (ui::icon_button("session.save_now")) asks.save_work = "";
   ImGui::SameLine();
-  if (ui::button("session.works")) asks.works = true;
+  if (ui::icon_button("session.works")) asks.works = true;
   ImGui::SameLine();
 }
 
@@ -87,14 +87,16 @@ void draw_toolbar(PanelContext& context, const ToolbarState& state) {
   draw_views(context, state.free_orbit);
   draw_gap();
   ImGui::BeginDisabled(!state.can_undo);
-  context.asks.undo = ui::button("toolbar.undo") || context.asks.undo;
+  context.asks.undo = ui::icon_button("toolbar.undo") || context.asks.undo;
   ImGui::EndDisabled();
   ImGui::SameLine();
   ImGui::BeginDisabled(!state.can_redo);
-  context.asks.redo = ui::button("toolbar.redo") || context.asks.redo;
+  context.asks.redo = ui::icon_button("toolbar.redo") || context.asks.redo;
   ImGui::EndDisabled();
   ImGui::SameLine();
   if (ui::button("toolbar.help")) context.asks.help = true;
+  ImGui::SameLine();
+  context.asks.start = ui::icon_button("toolbar.start") || context.asks.start;
 }
 
 }  // namespace myotact::view

@@ -6,6 +6,8 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "view/ui/font.h"
+#include "view/ui/icons.h"
 #include "view/ui/text.h"
 
 namespace myotact::view::ui {
@@ -21,9 +23,10 @@ Places& places() {
   return all;
 }
 
-/// The text that is shown, then what ImGui knows the control by, whatever the language.
+/// What is shown, icon and text, then what ImGui knows the control by, whatever the language.
 std::string label(const char* key) {
-  return fmt::format("{}###{}", tr(key), key);
+  const std::string icon = icon_of(key);
+  return fmt::format("{}{}{}###{}", icon, icon.empty() ? "" : " ", tr(key), key);
 }
 
 void show_tip(const char* key) {
@@ -73,6 +76,16 @@ void note_place(const ControlPlace& place) {
 
 bool button(const char* key) {
   const bool pressed = ImGui::Button(label(key).c_str());
+  finish(key, "");
+  return pressed;
+}
+
+bool icon_button(const char* key) {
+  const std::string icon = icon_of(key);
+  if (icon.empty()) return button(key);
+  const bool pressed = ImGui::Button(fmt::format("{}###{}", icon, key).c_str());
+  const bool has_tip = has_text(fmt::format("{}.tip", key));
+  if (!has_tip && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", tr(key));
   finish(key, "");
   return pressed;
 }
@@ -180,7 +193,9 @@ void paragraph(const std::string& text) {
 
 void heading(const char* key) {
   ImGui::Spacing();
+  push_type(Type::Heading);
   ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_PlotHistogram), "%s", tr(key));
+  ImGui::PopFont();
   ImGui::Separator();
 }
 

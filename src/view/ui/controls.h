@@ -12,6 +12,9 @@
 namespace myotact::view::ui {
 
 bool button(const char* key);
+/// Its icon alone, of what everybody knows; its text, or its tip, is shown when the pointer rests on it. Where the font
+/// has no icon, a button with its text.
+bool icon_button(const char* key);
 /// A small arrow; its text is shown when the pointer rests on it.
 bool arrow_button(const char* key, bool to_right);
 /// True for as long as it is pressed.

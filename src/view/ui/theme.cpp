@@ -1,6 +1,7 @@
 #include "view/ui/theme.h"
 
 #include <array>
+#include <initializer_list>
 
 namespace myotact::view::ui {
 
@@ -26,31 +27,62 @@ constexpr std::array kPairs = {
     TextPair{ImGuiCol_PlotHistogramHovered, ImGuiCol_WindowBg},  // warnings
 };
 
+/// Greys, and one accent: deep as a ground of text (what is chosen), bright as a line, a mark or a heading.
+struct Palette {
+  unsigned window, popup, border;         // 0xRRGGBB
+  unsigned field, field_hovered, field_active;  // that is filled in: sliders, boxes
+  unsigned button, button_hovered;
+  unsigned chosen, accent;
+  unsigned text, faint_text, warning;
+};
+
+constexpr Palette kDark = {0x16181B, 0x1E2125, 0x31363C, 0x23272C, 0x2D3238, 0x363C43, 0x2B3036,
+                           0x3A4149, 0x0F6F68, 0x4FD1C5, 0xE8EAED, 0x9AA3AD, 0xFFB057};
+constexpr Palette kLight = {0xFAFAF9, 0xFFFFFF, 0xCFD4D9, 0xE9ECEF, 0xDFE3E7, 0xD3D9DE, 0xE3E7EA,
+                            0xD3D9DE, 0x99D9D2, 0x0B655E, 0x1B1F23, 0x565E66, 0xA33A00};
+constexpr Palette kContrast = {0x000000, 0x000000, 0xD9D9D9, 0x1E2125, 0x2D3238, 0x363C43, 0x2B3036,
+                               0x3A4149, 0x0F6F68, 0x6FE8DC, 0xFFFFFF, 0xCCCCCC, 0xFFB057};
+
+ImVec4 colour_of(unsigned rgb, float opacity = 1.0f) {
+  constexpr float kFull = 255.0f;
+  return {static_cast<float>((rgb >> 16u) & 0xFFu) / kFull, static_cast<float>((rgb >> 8u) & 0xFFu) / kFull,
+          static_cast<float>(rgb & 0xFFu) / kFull, opacity};
+}
+
+void apply(const Palette& palette) {
+  ImVec4* colours = ImGui::GetStyle().Colors;
+  const auto set = [&](unsigned rgb, std::initializer_list<ImGuiCol> places) {
+    for (const ImGuiCol place : places) colours[place] = colour_of(rgb);
+  };
+  set(palette.window, {ImGuiCol_WindowBg, ImGuiCol_Tab, ImGuiCol_ScrollbarBg, ImGuiCol_MenuBarBg});
+  set(palette.popup, {ImGuiCol_PopupBg, ImGuiCol_TitleBg, ImGuiCol_TitleBgActive, ImGuiCol_TitleBgCollapsed});
+  set(palette.border, {ImGuiCol_Border, ImGuiCol_Separator, ImGuiCol_TableBorderStrong, ImGuiCol_TableBorderLight});
+  set(palette.field, {ImGuiCol_FrameBg, ImGuiCol_Header, ImGuiCol_TableHeaderBg});
+  set(palette.field_hovered, {ImGuiCol_FrameBgHovered, ImGuiCol_ScrollbarGrab, ImGuiCol_ResizeGrip});
+  set(palette.field_active, {ImGuiCol_FrameBgActive, ImGuiCol_ScrollbarGrabHovered, ImGuiCol_ResizeGripHovered});
+  set(palette.button, {ImGuiCol_Button});
+  set(palette.button_hovered, {ImGuiCol_ButtonHovered, ImGuiCol_HeaderHovered, ImGuiCol_TabHovered});
+  set(palette.chosen, {ImGuiCol_ButtonActive, ImGuiCol_HeaderActive, ImGuiCol_TabActive, ImGuiCol_TabUnfocusedActive});
+  set(palette.accent, {ImGuiCol_CheckMark, ImGuiCol_SliderGrab, ImGuiCol_SliderGrabActive, ImGuiCol_PlotHistogram,
+                       ImGuiCol_PlotLines, ImGuiCol_NavHighlight, ImGuiCol_SeparatorHovered, ImGuiCol_SeparatorActive,
+                       ImGuiCol_ScrollbarGrabActive, ImGuiCol_ResizeGripActive, ImGuiCol_DragDropTarget});
+  set(palette.text, {ImGuiCol_Text});
+  set(palette.faint_text, {ImGuiCol_TextDisabled});
+  set(palette.warning, {ImGuiCol_PlotHistogramHovered, ImGuiCol_PlotLinesHovered});
+  constexpr float kSelection = 0.35f;  // of opacity: the selected text is read through it
+  colours[ImGuiCol_TextSelectedBg] = colour_of(palette.accent, kSelection);
+}
+
 }  // namespace
 
 void apply_theme(Theme theme) {
-  ImVec4* colours = ImGui::GetStyle().Colors;
   if (theme == Theme::Light) {
     ImGui::StyleColorsLight();
-    colours[ImGuiCol_TextDisabled] = ImVec4(0.35f, 0.35f, 0.35f, 1.0f);
-    colours[ImGuiCol_PlotHistogram] = ImVec4(0.47f, 0.31f, 0.0f, 1.0f);
-    colours[ImGuiCol_PlotHistogramHovered] = ImVec4(0.66f, 0.16f, 0.0f, 1.0f);
+    apply(kLight);
   } else {
     ImGui::StyleColorsDark();
-    // ImGui's own are brighter: white text on them has 3:1.
-    colours[ImGuiCol_TextDisabled] = ImVec4(0.62f, 0.62f, 0.62f, 1.0f);
-    colours[ImGuiCol_ButtonHovered] = ImVec4(0.18f, 0.42f, 0.72f, 1.0f);
-    colours[ImGuiCol_ButtonActive] = ImVec4(0.06f, 0.38f, 0.72f, 1.0f);
-    colours[ImGuiCol_HeaderHovered] = ImVec4(0.18f, 0.42f, 0.72f, 1.0f);
-    colours[ImGuiCol_HeaderActive] = ImVec4(0.18f, 0.42f, 0.72f, 1.0f);
-    colours[ImGuiCol_TabHovered] = ImVec4(0.18f, 0.42f, 0.72f, 1.0f);
-    colours[ImGuiCol_PlotHistogramHovered] = ImVec4(1.0f, 0.60f, 0.20f, 1.0f);
+    apply(theme == Theme::Contrast ? kContrast : kDark);
   }
-  if (theme != Theme::Contrast) return;
-  colours[ImGuiCol_Text] = ImVec4(1.0f, 1.0f, 1.0f, 1.0f);
-  colours[ImGuiCol_TextDisabled] = ImVec4(0.80f, 0.80f, 0.80f, 1.0f);
-  colours[ImGuiCol_WindowBg] = colours[ImGuiCol_PopupBg] = ImVec4(0.0f, 0.0f, 0.0f, 1.0f);
-  colours[ImGuiCol_Border] = ImVec4(0.85f, 0.85f, 0.85f, 1.0f);
 }
 
 std::span<const TextPair> text_pairs() {

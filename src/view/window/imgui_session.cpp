@@ -50,7 +50,10 @@ void ImGuiSession::set_scale(float scale) {
   drawn_scale_ = wanted;
   ImGuiStyle scaled;
   scaled.WindowRounding = 0.0f;
-  scaled.FrameRounding = 3.0f;
+  scaled.FrameRounding = scaled.GrabRounding = scaled.TabRounding = 5.0f;
+  scaled.PopupRounding = 6.0f;
+  scaled.FramePadding = ImVec2(7.0f, 3.0f);
+  scaled.ItemSpacing = ImVec2(7.0f, 5.0f);
   scaled.ScaleAllSizes(wanted);
   std::copy(std::begin(ImGui::GetStyle().Colors), std::end(ImGui::GetStyle().Colors), std::begin(scaled.Colors));
   ImGui::GetStyle() = scaled;

@@ -73,6 +73,21 @@ void ShownScene::take_over(const ShownScene& before) {
   tour_on_ = before.tour_on_;
 }
 
+void ShownScene::begin_with(const StartChoice& choice) {
+  if (choice.purpose == Purpose::Join) {
+    wish = SceneWish{};
+    wish->to_join = choice.to_join;
+    return;
+  }
+  sides_.tasks = true;
+  open_task_ = choice.purpose == Purpose::Teach    ? "tasks.demonstrate"
+               : choice.purpose == Purpose::Lesson ? "tasks.learn"
+                                                   : "tasks.feel";
+  if (choice.purpose != Purpose::Touch) return;
+  first_steps_ = {};
+  settings.tour_done = false;
+}
+
 /// Turns there within a quarter of a second.
 void ShownScene::look(const Camera& camera) {
   transition_ = {state_.view.camera, camera, 0.0f};
@@ -139,7 +154,11 @@ void ShownScene::draw_tasks(PanelContext& context) {
     draw_see_panel(context);
     bookmarks_.draw(context);
   });
-  tab("tasks.demonstrate", [&] { demonstrate_.draw(context); });
+  demonstrates_ = false;
+  tab("tasks.demonstrate", [&] {
+    demonstrates_ = true;
+    demonstrate_.draw(context);
+  });
   tab("tasks.learn", [&] { learn_.draw(context); });
   tab("tasks.plots", [&] { plots_.draw(context); });
   tab("tasks.settings", [&] { settings_panel_.draw(settings, message); });
@@ -150,6 +169,7 @@ void ShownScene::obey(const WindowAsks& asks, const messages::SceneFrame& frame)
   if (asks.standard_view != nullptr) look(asks.standard_view, frame);
   if (asks.frame_selection) look_at_selection(frame);
   if (asks.help) help_ = !help_;
+  if (asks.start) start_.open();
   if (asks.big_type) set_big_type(!big_type_);
   if (asks.co_contraction_step != 0.0) add_co_contraction(asks.co_contraction_step);
   if (asks.undo) restore(history_.undo());
@@ -205,7 +225,8 @@ void ShownScene::draw_areas(PanelContext& context) {
     if (big_type_) set_big_type(false);
   }
   works_.draw(context);
-  guide(context);
+  if (const auto choice = start_.draw(layout_.scene)) begin_with(*choice);
+  if (!start_.is_open()) guide(context);
 }
 
 void ShownScene::guide(PanelContext& context) {
@@ -274,7 +295,8 @@ void ShownScene::draw_panels(const messages::SceneFrame& now, GlfwWindow& window
   named.labels = named.labels || big_type_;
   const bool tools_lag = std::count(facts_.shows_force_only.begin(), facts_.shows_force_only.end(), true) > 0 &&
                          (controls_.hand_moves || !news.devices.empty());
-  overlay_.draw({*specimen_, shown, named, renderer_.superficial(), {}, SceneExtras{}.background, tools_lag},
+  const int opposed = demonstrates_ || big_type_ ? facts_.joint : -1;
+  overlay_.draw({*specimen_, shown, named, renderer_.superficial(), {}, SceneExtras{}.background, opposed, tools_lag},
                 layout_.scene, *ImGui::GetBackgroundDrawList());
   timeline_.draw_past_banner(layout_.scene);
   if (replays()) draw_banner(layout_.scene, ui::tr("keep.replaying"));

@@ -19,6 +19,7 @@
 #include "view/panels/recordings_panel.h"
 #include "view/panels/replay_panel.h"
 #include "view/panels/settings_panel.h"
+#include "view/panels/start_page.h"
 #include "view/panels/timeline_panel.h"
 #include "view/panels/tour.h"
 #include "view/panels/works_panel.h"
@@ -45,6 +46,9 @@ class ShownScene {
 
   /// Writes what is unsaved of the person's marks; without a window any more, a failure goes to the standard error too.
   void keep_marks();
+  /// The page of what the program is for, as far as somebody is in it; or what was chosen there.
+  void begin_with(const StartPage& page) { start_ = page; }
+  void begin_with(const StartChoice& choice);
   /// The same scene from its start: what was set and shown stays.
   void take_over(const ShownScene& before);
 
@@ -141,6 +145,7 @@ class ShownScene {
   NewsStrip news_strip_;
   SettingsPanel settings_panel_;
   FirstSteps first_steps_;
+  StartPage start_;
   Tour tour_;
   bool tour_on_ = false;
   std::vector<KeyBinding> keys_;  // as the person chose them
@@ -149,6 +154,7 @@ class ShownScene {
   SidePanels sides_;
   bool big_type_ = false;  // for a class in front of a projector
   bool help_ = false;
+  bool demonstrates_ = false;  // that panel is open, or was when the panels were folded
   WorksPanel works_;
   BookmarkList bookmarks_;
   Marks marks_;

@@ -11,6 +11,7 @@
 #include <imgui.h>
 
 #include "core/error.h"
+#include "view/panels/start_page.h"
 #include "view/pictures/window_pictures.h"
 #include "view/session/settings.h"
 #include "view/sound/speaker.h"
@@ -36,11 +37,12 @@ void draw_waiting(const std::string& message) {
 }  // namespace
 
 struct Window::Impl {
-  explicit Impl(const WindowSize& size)
+  Impl(const WindowSize& size, bool offers_start)
       : window("Myotact", size.width, size.height),
         imgui(window.get()),
         settings(settings_or_defaults(settings_file(), settings_message)) {
     apply(settings);
+    if (offers_start) start.open();
     if (!imgui.has_font() && settings_message.empty()) settings_message = ui::tr("comfort.no_font");
   }
 
@@ -53,7 +55,9 @@ struct Window::Impl {
       scene->draw_panels(frame, window);
       sound_force();
     } else {
-      draw_waiting(message);
+      const ImVec2 display = ImGui::GetIO().DisplaySize;
+      if (const auto choice = start.draw({0.0f, 0.0f, display.x, display.y})) chosen = choice;
+      if (!start.is_open()) draw_waiting(message);
     }
     ImGui::Render();
     int width = 0, height = 0;
@@ -85,11 +89,13 @@ struct Window::Impl {
   Settings settings;                  // that the first scene starts with
   std::unique_ptr<ShownScene> scene;  // none before the first one is open
   std::string message;                // while there is none
+  StartPage start;                    // while there is none
+  std::optional<StartChoice> chosen;  // on it
   std::optional<Speaker> speaker;     // while the person wants the tone
   std::optional<std::filesystem::path> screenshot;
 };
 
-Window::Window(const WindowSize& size) : impl_(std::make_unique<Impl>(size)) {}
+Window::Window(const WindowSize& size, bool offers_start) : impl_(std::make_unique<Impl>(size, offers_start)) {}
 
 Window::~Window() = default;
 
@@ -99,6 +105,8 @@ void Window::open(const anatomy::Specimen& specimen, const WindowSettings& setti
   if (impl_->scene && impl_->scene->facts().name == settings.facts.name) opened->take_over(*impl_->scene);
   opened->settings = impl_->scene ? impl_->scene->settings : impl_->settings;
   if (!impl_->settings_message.empty()) opened->message = std::exchange(impl_->settings_message, {});
+  if (!impl_->scene) opened->begin_with(impl_->start);
+  if (impl_->chosen) opened->begin_with(*std::exchange(impl_->chosen, std::nullopt));
   impl_->scene = std::move(opened);
   glfwSetWindowTitle(impl_->window.get(), settings.facts.title.c_str());
 }

@@ -32,7 +32,8 @@ class Window {
  public:
   /// Shows that a scene is being prepared, until open(). Throws Error Unavailable without a display or without OpenGL
   /// 3.3.
-  explicit Window(const WindowSize& size = {});
+  /// `offers_start`: asks first what the person came for, while the scene is being prepared.
+  explicit Window(const WindowSize& size = {}, bool offers_start = false);
   ~Window();
 
   /// Another scene, or the same one from its start; then view and settings stay. The specimen outlives its being shown.

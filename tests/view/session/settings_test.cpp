@@ -1,5 +1,6 @@
 #include "view/session/settings.h"
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <initializer_list>
@@ -49,7 +50,7 @@ INSTANTIATE_TEST_SUITE_P(Both, Themes, ::testing::Values(ui::Theme::Dark, ui::Th
 TEST(Font, WithoutItsFileIsTheBuiltInOneInTheSameHeight) {
   for (const char* file : {"/no/such/font.ttf", "/tmp"}) {
     ImGui::CreateContext();
-    EXPECT_FALSE(ui::add_font(24.0f, file));
+    EXPECT_FALSE(ui::add_font(24.0f, std::array{file}));
     ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
     ASSERT_TRUE(fonts.Build());
     ASSERT_EQ(fonts.Fonts.Size, 1);

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "view/panels/panel.h"
+#include "view/ui/layout.h"
+
+namespace myotact::view {
+
+/// What somebody comes for.
+enum class Purpose { Touch, Teach, Lesson, Join };
+
+struct StartChoice {
+  Purpose purpose = Purpose::Touch;
+  ClassToJoin to_join = {};  // where it is Join
+};
+
+/// What the program is for, each a large button with a sentence: for those who start it without saying what they want.
+class StartPage {
+ public:
+  /// In the middle of `area`. A choice closes it.
+  std::optional<StartChoice> draw(const Area& area);
+
+  bool is_open() const { return open_; }
+  void open() { *this = StartPage(), open_ = true; }
+
+ private:
+  enum class Side { Purposes, Prepare, Join };
+
+  std::optional<StartChoice> draw_purposes();
+  void draw_preparing();
+  std::optional<StartChoice> draw_joining();
+
+  bool open_ = false;
+  Side side_ = Side::Purposes;
+  ClassToJoin to_join_;
+};
+
+}  // namespace myotact::view
