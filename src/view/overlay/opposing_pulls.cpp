@@ -58,11 +58,12 @@ std::array<GroupPull, 2> opposing_pulls(const anatomy::Specimen& specimen, const
     const auto tension_N = static_cast<float>(frame.tensions_N[muscle]);
     const std::size_t side = muscles[muscle].torque_Nm > 0.0 ? 0 : 1;
     GroupPull& group = groups[side];
-    group.place_m += tension_N * passing.place_m;
+    const float weight_N = std::max(tension_N, 1e-6f);  // a slack group has its place, too
+    group.place_m += weight_N * passing.place_m;
     group.force_N += tension_N * passing.towards_origin;
     group.full_N += static_cast<float>(specimen.muscles[muscle].peak_force_N);
     group.longest_m = std::max(group.longest_m, passing.length_m);
-    weights_N[side] += tension_N;
+    weights_N[side] += weight_N;
   }
   for (std::size_t side = 0; side < groups.size(); ++side) {
     if (weights_N[side] > 0.0f) groups[side].place_m /= weights_N[side];

@@ -189,27 +189,31 @@ void draw_arrow(const Sheet& sheet, const glm::vec2& from, const glm::vec2& to, 
   draw(0.0f, ImGui::GetColorU32(colour));
 }
 
+/// What a group of muscles pulls with.
+struct PullArrow {
+  glm::vec2 from{0.0f}, to{0.0f};
+  float middle = 0.0f;  // x, between the two groups
+  ImVec4 colour;
+  const char* text_key = "";
+  float force_N = 0.0f;
+};
+
 /// Both groups of a joint on one scale: as long as their longest muscle where the stronger one pulls with all it has.
-void draw_opposing_pulls(const Sheet& sheet) {
+std::vector<PullArrow> opposing_arrows(const Sheet& sheet) {
   const std::array colours = {ui::kFlexes, ui::kExtends};
   constexpr std::array kTexts = {"demonstrate.arrow_flexors", "demonstrate.arrow_extensors"};
   const auto groups = opposing_pulls(sheet.scene.specimen, sheet.scene.frame, sheet.scene.opposed_joint);
   const float full_N = std::max({groups[0].full_N, groups[1].full_N, 1.0f});
   const float longest_m = std::max(groups[0].longest_m, groups[1].longest_m);
+  std::vector<PullArrow> arrows;
   for (std::size_t i = 0; i < groups.size(); ++i) {
-    const auto from = seen_at(sheet, groups[i].place_m);
+    const auto from = seen_at(sheet, groups[i].place_m), other = seen_at(sheet, groups[1 - i].place_m);
     const auto to = seen_at(sheet, groups[i].place_m + longest_m / full_N * groups[i].force_N);
     if (!from || !to || glm::distance(*from, *to) < 0.7f * sheet.em()) continue;
-    draw_arrow(sheet, *from, *to, colours[i]);
-    const float force_N = glm::length(groups[i].force_N);
-    const std::string text = ui::tr(kTexts[i], force_N);
-    const glm::vec2 size = sheet.size_of(text), other = seen_at(sheet, groups[1 - i].place_m).value_or(*from);
-    const float side = other.x > from->x ? -size.x - 1.2f * sheet.em() : 1.2f * sheet.em();
-    const glm::vec2 corner(std::clamp(from->x + side, sheet.area.x, sheet.area.x + sheet.area.width - size.x), from->y);
-    sheet.paper(corner - 0.2f * sheet.em(), size + 0.4f * sheet.em());
-    sheet.write(corner, text);
-    ui::note_place({kTexts[i], fmt::format("{:.1f}", force_N), corner.x, corner.y, size.x, size.y});
+    const float middle = 0.5f * (from->x + other.value_or(*from).x);
+    arrows.push_back({*from, *to, middle, colours[i], kTexts[i], glm::length(groups[i].force_N)});
   }
+  return arrows;
 }
 
 /// Anchors are found on a coarse grid: one that moves by no more than a few of its cells glides there.
@@ -245,12 +249,24 @@ std::vector<LabelWish> wishes_of(const Sheet& sheet, const SeenLimb& limb, std::
   return wishes;
 }
 
+/// Beside the names, so that neither hides the other; ids of parts are not negative.
+void add_wishes_of(const Sheet& sheet, const std::vector<PullArrow>& arrows, std::vector<std::string>& texts,
+                   std::vector<LabelWish>& wishes) {
+  const glm::vec2 pad(2.0f * kPad * sheet.em(), kPad * sheet.em());
+  for (std::size_t i = 0; i < arrows.size(); ++i) {
+    texts.push_back(ui::tr(arrows[i].text_key, arrows[i].force_N));
+    wishes.push_back(
+        {-1 - static_cast<int>(i), arrows[i].from, sheet.size_of(texts.back()) + pad, arrows[i].middle, 3.0f});
+  }
+}
+
 /// `below`: height at the area's bottom that is left free. `placed` and `before`: in the last picture; then in this
 /// one.
-void draw_labels(const Sheet& sheet, float below, std::vector<PlacedLabel>& placed, std::vector<LabelWish>& before) {
+void draw_labels(const Sheet& sheet, float below, const std::vector<PullArrow>& arrows,
+                 std::vector<PlacedLabel>& placed, std::vector<LabelWish>& before) {
   const ViewState& view = sheet.scene.view;
   const Part selected = selected_part(view);
-  const bool any = view.labels || selected || sheet.scene.hovered;
+  const bool any = view.labels || selected || sheet.scene.hovered || !arrows.empty();
   if (!any) {
     placed.clear();
     before.clear();
@@ -261,6 +277,7 @@ void draw_labels(const Sheet& sheet, float below, std::vector<PlacedLabel>& plac
                                    sheet.area.width / sheet.area.height);
   std::vector<std::string> texts;
   std::vector<LabelWish> wishes = wishes_of(sheet, limb, texts);
+  add_wishes_of(sheet, arrows, texts, wishes);
   steady(wishes, before, em);
   LabelArea room;
   room.lowest = glm::vec2(sheet.area.x, sheet.area.y) + kMargin * em;
@@ -294,8 +311,12 @@ void SceneOverlay::draw(const OverlaidScene& scene, const Area& area, ImDrawList
   Legend legend = legend_of(scene.specimen, scene.view);
   if (scene.tools_lag) legend.entries.push_back({"see.thread", {}, true});
   const float legend_height = draw_legend(sheet, legend);
-  if (!scene.view.names_hidden) draw_labels(sheet, legend_height, placed_, wishes_);
-  draw_opposing_pulls(sheet);
+  const std::vector<PullArrow> arrows = opposing_arrows(sheet);
+  if (!scene.view.names_hidden) draw_labels(sheet, legend_height, arrows, placed_, wishes_);
+  for (const PullArrow& arrow : arrows) {
+    draw_arrow(sheet, arrow.from, arrow.to, arrow.colour);
+    ui::note_place({arrow.text_key, fmt::format("{:.1f}", arrow.force_N), arrow.from.x, arrow.from.y});
+  }
   draw_scale_bar(sheet);
   list.PopClipRect();
 }

@@ -56,7 +56,8 @@ void draw_way_in(const ClassNews& news) {
 
 void draw_class_panel(PanelContext& context, const Area& scene) {
   const float gap = 0.5f * ImGui::GetFontSize();
-  ImGui::SetNextWindowPos(ImVec2(scene.x + gap, scene.y + 0.5f * scene.height), 0, ImVec2(0.0f, 0.5f));
+  constexpr float kAbove = 0.36f;  // the legend is below it, news above
+  ImGui::SetNextWindowPos(ImVec2(scene.x + gap, scene.y + kAbove * scene.height), 0, ImVec2(0.0f, kAbove));
   ImGui::Begin("class", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove);
   const auto watched = static_cast<std::size_t>(context.facts.joint);

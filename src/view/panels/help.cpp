@@ -31,8 +31,10 @@ void draw_row(const char* how, const char* what) {
 bool draw_help(bool& open, const std::vector<KeyBinding>& bindings, MousePreset mouse) {
   ImGui::SetNextWindowPos(ImVec2(0.5f * ImGui::GetIO().DisplaySize.x, 0.5f * ImGui::GetIO().DisplaySize.y),
                           ImGuiCond_Appearing, ImVec2(0.5f, 0.5f));
+  constexpr float kTwoPairs_em = 74.0f;  // two keys beside each other, with what they do, in any language
+  const int columns = ImGui::GetIO().DisplaySize.x < kTwoPairs_em * ImGui::GetFontSize() ? 2 : 4;
   ImGui::Begin(fmt::format("{}###help", ui::tr("help.title")).c_str(), &open, ImGuiWindowFlags_AlwaysAutoResize);
-  if (ImGui::BeginTable("keys", 4, ImGuiTableFlags_SizingFixedFit)) {
+  if (ImGui::BeginTable("keys", columns, ImGuiTableFlags_SizingFixedFit)) {
     for (const KeyBinding& binding : bindings) {
       ImGui::TableNextColumn();
       ImGui::TextUnformatted(name_of(binding).c_str());
@@ -42,7 +44,7 @@ bool draw_help(bool& open, const std::vector<KeyBinding>& bindings, MousePreset 
     ImGui::EndTable();
   }
   ImGui::Separator();
-  if (ImGui::BeginTable("mouse", 4, ImGuiTableFlags_SizingFixedFit)) {
+  if (ImGui::BeginTable("mouse", columns, ImGuiTableFlags_SizingFixedFit)) {
     for (const MouseRow& row : mouse_rows(mouse)) draw_row(row.how, row.what);
     for (const auto& [how, what] : kEveryMouse) draw_row(how, what);
     if (mouse == MousePreset::Blender) draw_row("mouse.number_pad", "mouse.views");

@@ -102,11 +102,11 @@ std::optional<StartChoice> StartPage::draw_joining() {
 std::optional<StartChoice> StartPage::draw(const Area& area) {
   if (!open_ || area.empty()) return {};
   const float em = ImGui::GetFontSize();
-  const float width = std::min(34.0f * em, area.width - em);
+  const float width = std::min(36.0f * em, area.width - em);
   ImGui::SetNextWindowPos(ImVec2(area.x + 0.5f * area.width, area.y + 0.5f * area.height), ImGuiCond_Always,
                           ImVec2(0.5f, 0.5f));
   ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0.0f), ImVec2(width, area.height));
-  ImGui::Begin("start", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::Begin("start", nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize);
   std::optional<StartChoice> choice;
   switch (side_) {
     case Side::Purposes: choice = draw_purposes(); break;

@@ -32,6 +32,11 @@ void draw_number(double K_Nm_rad) {
   ui::note_control("demonstrate.K", text);
 }
 
+/// Rounded to what is shown of it; what rounds to nothing has no sign.
+double shown(double value, double digit) {
+  return std::round(value / digit) * digit + 0.0;
+}
+
 /// From the middle to the sides, as long as the torque is large; the left over one stands in the middle.
 void draw_opposition(const messages::JointFrame& joint) {
   const OpposingTorques sides = opposing_torques(joint);
@@ -49,8 +54,8 @@ void draw_opposition(const messages::JointFrame& joint) {
   ImGui::Dummy(ImVec2(width, height));
   ui::note_control("demonstrate.opposition", fmt::format("{:.3f}", sides.flexing_Nm + sides.extending_Nm));
   constexpr double kDegrees = 57.29577951308232;
-  ui::paragraph(ui::tr("demonstrate.opposition", sides.flexing_Nm, -sides.extending_Nm, joint.torque_Nm,
-                       joint.angle_rad * kDegrees));
+  ui::paragraph(ui::tr("demonstrate.opposition", sides.flexing_Nm, -sides.extending_Nm, shown(joint.torque_Nm, 1e-3),
+                       shown(joint.angle_rad * kDegrees, 0.1)));
 }
 
 }  // namespace

@@ -9,6 +9,25 @@
 
 namespace myotact::view {
 
+namespace {
+
+/// In a narrow timeline with their icons alone: time is what it is for.
+void draw_keeping(PanelContext& context) {
+  constexpr float kNarrow_em = 40.0f;
+  const bool narrow = ImGui::GetContentRegionAvail().x < kNarrow_em * ImGui::GetFontSize();
+  const auto draw = [&](const char* key, bool on) {
+    const bool pressed = narrow && !on ? ui::icon_button(key) : ui::toggle_button(key, on);
+    ImGui::SameLine();
+    return pressed;
+  };
+  const bool recording = context.scene.state().recording;
+  if (draw(recording ? "keep.stop_recording" : "keep.record", recording)) context.asks.record = true;
+  if (draw(context.filming ? "keep.stop_film" : "keep.film", context.filming)) context.asks.film = true;
+  if (draw("keep.recordings", false)) context.asks.recordings = true;
+}
+
+}  // namespace
+
 const messages::SceneFrame& TimelinePanel::choose(const messages::SceneFrame& present) {
   history_.add(present);
   const bool begun_anew = present.time_s < newest_s_;
@@ -29,15 +48,7 @@ void TimelinePanel::step(int by) {
 
 void TimelinePanel::draw(PanelContext& context) {
   const bool paused = context.scene.state().paused;
-  const bool recording = context.scene.state().recording;
-  if (ui::toggle_button(recording ? "keep.stop_recording" : "keep.record", recording)) {
-    context.asks.record = true;
-  }
-  ImGui::SameLine();
-  if (ui::toggle_button(context.filming ? "keep.stop_film" : "keep.film", context.filming)) context.asks.film = true;
-  ImGui::SameLine();
-  if (ui::button("keep.recordings")) context.asks.recordings = true;
-  ImGui::SameLine();
+  draw_keeping(context);
   if (ui::icon_button("keep.step_back")) step(-1);
   ImGui::SameLine();
   if (ui::icon_button(paused ? "keep.play" : "keep.pause")) {
@@ -54,7 +65,7 @@ void TimelinePanel::draw(PanelContext& context) {
   ImGui::SameLine();
   double time_s = past_s_.value_or(newest_s_);
   const float em = ImGui::GetFontSize();
-  ImGui::SetNextItemWidth(std::max(ImGui::GetContentRegionAvail().x - em, 4.0f * em));
+  ImGui::SetNextItemWidth(std::max(ImGui::GetContentRegionAvail().x - em, 2.0f * em));
   const ui::Range range{static_cast<float>(history_.time_s(0)), static_cast<float>(newest_s_)};
   if (ui::slider("keep.time", time_s, range, "%.2f s")) {
     // The very end of the track is the present, which moves on under the pointer.

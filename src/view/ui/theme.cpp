@@ -22,6 +22,7 @@ constexpr std::array kPairs = {
     TextPair{ImGuiCol_Text, ImGuiCol_Tab},
     TextPair{ImGuiCol_Text, ImGuiCol_TabHovered},
     TextPair{ImGuiCol_Text, ImGuiCol_TabActive},
+    TextPair{ImGuiCol_Text, ImGuiCol_SliderGrab},  // the number passes over it
     TextPair{ImGuiCol_TextDisabled, ImGuiCol_WindowBg},
     TextPair{ImGuiCol_PlotHistogram, ImGuiCol_WindowBg},         // headings
     TextPair{ImGuiCol_PlotHistogramHovered, ImGuiCol_WindowBg},  // warnings
@@ -37,11 +38,11 @@ struct Palette {
 };
 
 constexpr Palette kDark = {0x16181B, 0x1E2125, 0x31363C, 0x23272C, 0x2D3238, 0x363C43, 0x2B3036,
-                           0x3A4149, 0x0F6F68, 0x4FD1C5, 0xE8EAED, 0x9AA3AD, 0xFFB057};
+                           0x3A4149, 0x117A72, 0x4FD1C5, 0xE8EAED, 0x9AA3AD, 0xFFB057};
 constexpr Palette kLight = {0xFAFAF9, 0xFFFFFF, 0xCFD4D9, 0xE9ECEF, 0xDFE3E7, 0xD3D9DE, 0xE3E7EA,
                             0xD3D9DE, 0x99D9D2, 0x0B655E, 0x1B1F23, 0x565E66, 0xA33A00};
 constexpr Palette kContrast = {0x000000, 0x000000, 0xD9D9D9, 0x1E2125, 0x2D3238, 0x363C43, 0x2B3036,
-                               0x3A4149, 0x0F6F68, 0x6FE8DC, 0xFFFFFF, 0xCCCCCC, 0xFFB057};
+                               0x3A4149, 0x117A72, 0x6FE8DC, 0xFFFFFF, 0xCCCCCC, 0xFFB057};
 
 ImVec4 colour_of(unsigned rgb, float opacity = 1.0f) {
   constexpr float kFull = 255.0f;
@@ -62,9 +63,9 @@ void apply(const Palette& palette) {
   set(palette.field_active, {ImGuiCol_FrameBgActive, ImGuiCol_ScrollbarGrabHovered, ImGuiCol_ResizeGripHovered});
   set(palette.button, {ImGuiCol_Button});
   set(palette.button_hovered, {ImGuiCol_ButtonHovered, ImGuiCol_HeaderHovered, ImGuiCol_TabHovered});
-  set(palette.chosen, {ImGuiCol_ButtonActive, ImGuiCol_HeaderActive, ImGuiCol_TabActive, ImGuiCol_TabUnfocusedActive});
-  set(palette.accent, {ImGuiCol_CheckMark, ImGuiCol_SliderGrab, ImGuiCol_SliderGrabActive, ImGuiCol_PlotHistogram,
-                       ImGuiCol_PlotLines, ImGuiCol_NavHighlight, ImGuiCol_SeparatorHovered, ImGuiCol_SeparatorActive,
+  set(palette.chosen, {ImGuiCol_ButtonActive, ImGuiCol_HeaderActive, ImGuiCol_TabActive, ImGuiCol_TabUnfocusedActive,
+                       ImGuiCol_SliderGrab, ImGuiCol_SliderGrabActive});
+  set(palette.accent, {ImGuiCol_CheckMark, ImGuiCol_PlotHistogram, ImGuiCol_PlotLines, ImGuiCol_NavHighlight, ImGuiCol_SeparatorHovered, ImGuiCol_SeparatorActive,
                        ImGuiCol_ScrollbarGrabActive, ImGuiCol_ResizeGripActive, ImGuiCol_DragDropTarget});
   set(palette.text, {ImGuiCol_Text});
   set(palette.faint_text, {ImGuiCol_TextDisabled});

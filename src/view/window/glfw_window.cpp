@@ -27,6 +27,16 @@ GLFWwindow* open_window(const char* title, int width, int height, int samples) {
   return window;
 }
 
+/// A window that is larger than its screen hides its edges there.
+void fit_to_screen(int& width, int& height) {
+  GLFWmonitor* screen = glfwGetPrimaryMonitor();
+  if (screen == nullptr) return;
+  int x = 0, y = 0, room_across = 0, room_down = 0;
+  glfwGetMonitorWorkarea(screen, &x, &y, &room_across, &room_down);
+  if (room_across > 0) width = std::min(width, room_across);
+  if (room_down > 0) height = std::min(height, room_down);
+}
+
 /// Mesa's renderers without a graphics card, and Chromium's.
 bool draws_in_software() {
   const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
@@ -64,6 +74,7 @@ GlfwWindow::GlfwWindow(const char* title, int width, int height) {
   // By these a desktop knows the program, and shows the name and icon of its menu entry.
   glfwWindowHintString(GLFW_X11_CLASS_NAME, "Myotact");
   glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "myotact");
+  fit_to_screen(width, height);
   window_ = open_window(title, width, height, kSamples);
   if (window_ != nullptr && draws_in_software()) {
     // There the samples cost three times the whole picture.

@@ -53,6 +53,8 @@ ShownScene::ShownScene(const anatomy::Specimen& specimen, const WindowSettings& 
       feel_(specimen),
       work_(settings.work) {
   controls_.hand_world_m = settings.hand_start_world_m;
+  // Anatomy speaks Latin where it does not speak English; there are no other names.
+  if (ui::language() != "en") state_.view.names = NameStyle::Latin;
   marks_ = marks_or_none(marks_file(specimen.name), message);
 }
 
@@ -225,7 +227,9 @@ void ShownScene::draw_areas(PanelContext& context) {
     if (big_type_) set_big_type(false);
   }
   works_.draw(context);
-  if (const auto choice = start_.draw(layout_.scene)) begin_with(*choice);
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const float below_toolbar = layout_.toolbar.height;  // what stops the forces stays in reach
+  if (const auto choice = start_.draw({0.0f, below_toolbar, display.x, display.y - below_toolbar})) begin_with(*choice);
   if (!start_.is_open()) guide(context);
 }
 
