@@ -8,6 +8,7 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -59,6 +60,23 @@ class WindowReport {
  private:
   std::optional<std::filesystem::path> path_;
   std::chrono::steady_clock::time_point next_;
+};
+
+/// How long pictures take, for whoever asks by --log-level debug.
+class PictureTimes {
+ public:
+  void add(std::chrono::steady_clock::duration drawing) {
+    constexpr std::size_t kPictures = 100;
+    taken_ms_.push_back(std::chrono::duration<double, std::milli>(drawing).count());
+    if (taken_ms_.size() < kPictures) return;
+    std::sort(taken_ms_.begin(), taken_ms_.end());
+    spdlog::debug("of {} pictures the quickest took {:.1f} ms, half at most {:.1f} ms", kPictures, taken_ms_.front(),
+                  taken_ms_[kPictures / 2]);
+    taken_ms_.clear();
+  }
+
+ private:
+  std::vector<double> taken_ms_;
 };
 
 /// What the person asked for, as the command line would have said it.
@@ -187,7 +205,9 @@ class WindowApp {
     if (camera_) follow_camera();
     const view::ViewControls& controls = window_.draw(frame_);
     if (shown_) report_.write(window_, frame_);
-    leave_time_to_the_simulation(std::chrono::steady_clock::now() - since);
+    const auto drawing = std::chrono::steady_clock::now() - since;
+    times_.add(drawing);
+    leave_time_to_the_simulation(drawing);
     lead(controls);
     if (const auto wish = window_.take_wish(); wish && !next_.valid()) follow(*wish);
     return !last;
@@ -230,6 +250,7 @@ class WindowApp {
   Options building_;                     // of the newest stage
   std::optional<view::SavedWork> work_;  // that it is to begin with
   WindowReport report_;
+  PictureTimes times_;
   std::unique_ptr<Stage> shown_;              // none before the first is built
   std::future<std::unique_ptr<Stage>> next_;  // being built
   view::Window window_;                       // after the stages: it shows their specimens

@@ -81,11 +81,14 @@ TEST_F(MirrorWindowTest, AClassIsJoinedFromTheStartPage) {
   const ServerProgram server(0);
   ASSERT_NE(server.port, 0);
   GuiProgram gui("start_join", "--set tissue.default=line");
+  const auto fill = [&](const char* field, const std::string& text) {
+    gui.click(field);
+    gui.type(text);
+    EXPECT_TRUE(gui.wait_until([&](const json&) { return gui.value_of(field) == text; })) << gui.value_of(field);
+  };
   gui.click("start.join");
-  gui.click("start.join.address");
-  gui.type("127.0.0.1:" + std::to_string(server.port));
-  gui.click("start.join.token");
-  gui.type("no token");
+  fill("start.join.address", "127.0.0.1:" + std::to_string(server.port));
+  fill("start.join.token", "no token");
   gui.screenshot("join");
   gui.click("start.join.now");
   EXPECT_TRUE(gui.wait_until([&](const json& s) {  // refused in a sentence, and the limb stays
@@ -93,8 +96,7 @@ TEST_F(MirrorWindowTest, AClassIsJoinedFromTheStartPage) {
   }));
   gui.click("toolbar.start");
   gui.click("start.join");
-  gui.click("start.join.address");
-  gui.type("127.0.0.1:" + std::to_string(server.port));
+  fill("start.join.address", "127.0.0.1:" + std::to_string(server.port));
   gui.tap("Return");
   EXPECT_TRUE(gui.wait_until([](const json& s) { return s["scene_name"] == "particle" && time_s(s) > 0.2; }));
 }

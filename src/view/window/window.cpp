@@ -63,7 +63,8 @@ struct Window::Impl {
     int width = 0, height = 0;
     glfwGetFramebufferSize(window.get(), &width, &height);
     glViewport(0, 0, width, height);
-    glClearColor(0.0f, 0.0f, 0.0f, 1.0f);
+    const ImVec4& panel = ImGui::GetStyleColorVec4(ImGuiCol_WindowBg);  // panels draw no ground of their own
+    glClearColor(panel.x, panel.y, panel.z, 1.0f);
     glClear(GL_COLOR_BUFFER_BIT);
     if (scene) scene->draw_limb(width, height);
     imgui.end();
