@@ -124,7 +124,7 @@ void draw_scene_choice(PanelContext& context) {
 }
 
 /// Same picture, different feel: two states to switch between.
-void draw_stored(SceneControls& scene, std::array<std::optional<SceneState>, 2>& stored) {
+void draw_stored(SceneControls& scene, KeptStates& stored) {
   constexpr std::array kStore = {"demonstrate.store_a", "demonstrate.store_b"};
   constexpr std::array kShow = {"demonstrate.show_a", "demonstrate.show_b"};
   for (std::size_t i = 0; i < stored.size(); ++i) {

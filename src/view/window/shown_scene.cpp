@@ -63,6 +63,7 @@ void ShownScene::take_over(const ShownScene& before) {
   controls_ = before.controls_;
   controls_.hand_world_m = start.hand_world_m;
   scene_.restore(state_.scene);  // from where the scene begins
+  demonstrate_.keep(before.demonstrate_.kept());
   pointer_ = before.pointer_;
   message = before.message;
   layout_ = before.layout_;

@@ -62,8 +62,8 @@ void ShownScene::report_missing(const std::vector<std::string>& parts) {
 }
 
 void ShownScene::save(const std::string& name) {
-  SavedWork work{lasting_name(facts_),           facts_.tissue, specimen_->name, saved_view(state_.view, *specimen_),
-                 scene_state_of(scene_.state()), marks_};
+  SavedWork work{lasting_name(facts_),           facts_.tissue, specimen_->name,    saved_view(state_.view, *specimen_),
+                 scene_state_of(scene_.state()), marks_,        demonstrate_.kept()};
   if (transition_.share < 1.0f) work.view.look.camera = transition_.to;
   try {
     message = ui::tr("session.saved", save_work(work, name).string());
@@ -90,6 +90,7 @@ void ShownScene::begin_with(const SavedWork& work) {
   message = ui::tr("session.opened");
   report_missing(show(work.view, *specimen_, state_.view));
   scene_.restore(work.state);
+  if (work.kept != KeptStates{}) demonstrate_.keep(work.kept);  // else the person's own stay
   transition_.share = 1.0f;
   timeline_.back_to_now();
   const JoinedMarks both = joined(marks_, work.marks);
