@@ -96,6 +96,15 @@ TEST_F(SessionTest, ASavedWorkABookmarkAndANoteComeBack) {
   EXPECT_TRUE(gui.wait_until(
       [&](const json&) { return gui.value_of("news.message").find(saved_file(gui)) != std::string::npos; }));
   EXPECT_TRUE(looks_as(gui.state()["view"], changed));
+
+  gui.key("ctrl+6");
+  gui.click("comfort.language");
+  gui.click("comfort.language.de");
+  gui.key("ctrl+o");
+  gui.click("session.work.0");
+  EXPECT_TRUE(gui.wait_until(
+      [&](const json&) { return gui.value_of("news.message").find("zuletzt gelesen") != std::string::npos; }));
+  gui.screenshot("german");
 }
 
 TEST_F(SessionTest, TheTwoStatesThatAreFeltInTurnComeBackWithTheWork) {

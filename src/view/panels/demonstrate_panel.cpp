@@ -92,7 +92,7 @@ void draw_joint(PanelContext& context, std::optional<double>& shove_began_s) {
   const auto& joint = context.frame.joints[static_cast<std::size_t>(context.facts.joint)];
   const JointReadings& readings = context.readings;
   draw_parts(joint);
-  if (joint.preview) ui::paragraph(messages::kPreviewMark);
+  if (joint.preview) ui::paragraph(ui::tr("demonstrate.preview"));
   if (!readings.why.empty()) ui::paragraph(ui::retold(readings.why));
   draw_shove(context, shove_began_s);
 }

@@ -9,6 +9,7 @@
 #include "core/file.h"
 #include "core/json_reader.h"
 #include "core/user_folder.h"
+#include "view/ui/retold.h"
 #include "view/ui/text.h"
 #include "view/ui/theme.h"
 
@@ -56,8 +57,8 @@ Settings settings_or_defaults(const std::filesystem::path& file, std::string& me
     return read_settings(file);
   } catch (const Error& failure) {
     const auto aside = set_aside(file);
-    message = aside ? ui::tr("comfort.set_aside", failure.what(), aside->string())
-                    : ui::tr("comfort.unusable", failure.what(), file.string() + ".broken");
+    message = aside ? ui::tr("comfort.set_aside", ui::retold(failure.what()), aside->string())
+                    : ui::tr("comfort.unusable", ui::retold(failure.what()), file.string() + ".broken");
     return {};
   }
 }

@@ -19,6 +19,7 @@
 #include "view/panels/toolbar.h"
 #include "view/pictures/window_pictures.h"
 #include "view/ui/controls.h"
+#include "view/ui/retold.h"
 #include "view/ui/text.h"
 #include "view/ui/theme.h"
 #include "view/window/description.h"
@@ -183,7 +184,7 @@ void ShownScene::begin_or_end_recording() {
     wish = SceneWish{facts_.file, facts_.tissue, file};
     message = ui::tr("keep.recording_begins", file.string());
   } catch (const Error& failure) {
-    message = failure.what();
+    message = ui::retold(failure.what());
   }
 }
 

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "view/ui/controls.h"
+#include "view/ui/retold.h"
 #include "view/ui/text.h"
 #include "view/window/shown_scene.h"
 
@@ -48,7 +49,7 @@ void ShownScene::keep_marks() {
   try {
     write_marks(marks_, specimen_->name, marks_file(specimen_->name));
   } catch (const std::exception& failure) {  // the window may be gone, and its message with it
-    message = ui::tr("session.marks_not_kept", std::string(failure.what()));
+    message = ui::tr("session.marks_not_kept", ui::retold(failure.what()));
     std::fprintf(stderr, "myotact: %s\n", message.c_str());
   }
 }
@@ -68,7 +69,7 @@ void ShownScene::save(const std::string& name) {
   try {
     message = ui::tr("session.saved", save_work(work, name).string());
   } catch (const Error& failure) {
-    message = ui::tr("session.not_saved", std::string(failure.what()));
+    message = ui::tr("session.not_saved", ui::retold(failure.what()));
   }
   works_.refresh();
 }
@@ -82,7 +83,7 @@ void ShownScene::open(const std::filesystem::path& file) {
       wish = SceneWish{work.scene, work.tissue, {}, work};
     }
   } catch (const Error& failure) {
-    message = ui::tr("session.not_opened", std::string(failure.what()));
+    message = ui::tr("session.not_opened", ui::retold(failure.what()));
   }
 }
 
