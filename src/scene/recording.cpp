@@ -262,11 +262,14 @@ void RecordingWriter::close() {
 }
 
 Recording read_recording(const std::filesystem::path& path) {
-  const std::string bytes = read_file(path);
+  return parse_recording(read_file(path), path.string());
+}
+
+Recording parse_recording(std::string_view bytes, const std::string& file) {
   std::string_view rest = bytes;
   if (!rest.starts_with(kMagic)) {
     const bool other = rest.starts_with(kMagic.substr(0, 6));
-    throw bad_data(path.string(), "byte 0",
+    throw bad_data(file, "byte 0",
                    other
                        ? fmt::format("is a recording of another version, \"{}\"; this program reads \"{}\". Record it "
                                      "again, or take the program that wrote it",
@@ -275,12 +278,14 @@ Recording read_recording(const std::filesystem::path& path) {
   }
   rest.remove_prefix(kMagic.size());
   const auto header = take_chunk(rest);
-  if (!header || header->type != kHeader) throw bad_data(path.string(), "byte 8", "the header chunk is damaged");
+  if (!header || header->type != kHeader) throw bad_data(file, "byte 8", "the header chunk is damaged");
   Recording recording;
   recording.header_json = header->payload;
-  while (const auto chunk = take_chunk(rest)) {
-    if (!read_chunk(*chunk, recording))
-      throw bad_data(path.string(), "", "a chunk is shorter than its content; recorded by another version?");
+  for (std::size_t at = bytes.size() - rest.size(); const auto chunk = take_chunk(rest);
+       at = bytes.size() - rest.size()) {
+    if (read_chunk(*chunk, recording)) continue;
+    throw bad_data(file, fmt::format("byte {}", at),
+                   "a chunk is shorter than its content; recorded by another version?");
   }
   return recording;
 }

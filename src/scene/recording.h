@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/vector.h"
@@ -79,5 +80,7 @@ class RecordingWriter {
 
 /// Throws Error NoInput, or BadData when the file is no recording or its first chunk is damaged.
 Recording read_recording(const std::filesystem::path& path);
+/// The same from its bytes; `file` is only named in errors.
+Recording parse_recording(std::string_view bytes, const std::string& file);
 
 }  // namespace myotact::scene

@@ -113,6 +113,12 @@ void require_fit(const Recording& recording, const Scene& scene, const std::file
                       "recording with --set specimen=FOLDER",
                       step.excitations.size(), step.joint_torques_Nm.size(), muscle_count, joint_count));
     }
+    if (!step.gravity_m_s2.allFinite()) {
+      throw bad_data(
+          file.string(), place,
+          fmt::format("has a gravity of {} {} {} m/s2; all must be finite. The file is damaged: record it again",
+                      step.gravity_m_s2.x(), step.gravity_m_s2.y(), step.gravity_m_s2.z()));
+    }
     if (step.tools.size() != scene.tools.size()) {
       throw bad_data(file.string(), place,
                      fmt::format("is of {} tools; the scene has {}", step.tools.size(), scene.tools.size()));

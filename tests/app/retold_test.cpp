@@ -1,5 +1,5 @@
 // The sentences that the simulation builds at run time of faults, stiffness, shoves and its posture are told in the
-// languages of the window. Those of files and connections are not: they name paths and addresses.
+// languages of the window.
 
 #include "view/ui/retold.h"
 
@@ -99,6 +99,19 @@ TEST_F(Retold, WhatAScenesNoticesSay) {
     EXPECT_TRUE(known) << text;
   }
   EXPECT_GE(pieces, 6);
+}
+
+/// Each text with values in it, as a sentence, is found again among all of them.
+TEST_F(Retold, EachTextIsFoundAmongAll) {
+  const Catalogue german = load_catalogue("de");
+  const auto with_values = [](std::string text) {
+    for (std::size_t at; (at = text.find("{}")) != std::string::npos;) text.replace(at, 2, "7");
+    return text;
+  };
+  for (const auto& [key, english] : english_texts()) {
+    if (!key.starts_with("said.")) continue;
+    EXPECT_EQ(retold(with_values(english)), with_values(german.at(key))) << key;
+  }
 }
 
 TEST_F(Retold, WhatIsNotKnownStaysAsItIsAndEnglishIsItself) {

@@ -96,6 +96,40 @@ TEST_F(SessionTest, ASavedWorkABookmarkAndANoteComeBack) {
   EXPECT_TRUE(gui.wait_until(
       [&](const json&) { return gui.value_of("news.message").find(saved_file(gui)) != std::string::npos; }));
   EXPECT_TRUE(looks_as(gui.state()["view"], changed));
+
+  gui.key("ctrl+6");
+  gui.click("comfort.language");
+  gui.click("comfort.language.de");
+  gui.key("ctrl+o");
+  gui.click("session.work.0");
+  EXPECT_TRUE(gui.wait_until(
+      [&](const json&) { return gui.value_of("news.message").find("zuletzt gelesen") != std::string::npos; }));
+  gui.screenshot("german");
+}
+
+TEST_F(SessionTest, TheTwoStatesThatAreFeltInTurnComeBackWithTheWork) {
+  const auto common_is = [](double wanted) {
+    return [wanted](const json& s) { return s["scene"]["common"] == wanted; };
+  };
+  const std::filesystem::path kept = std::filesystem::path(MYOTACT_GUI_PICTURES) / "kept_work.json";
+  {
+    GuiProgram gui("kept", "elbow --set tissue.default=line");
+    gui.click("tasks.demonstrate");
+    gui.click("demonstrate.store_a");
+    gui.click("demonstrate.preset.firm");
+    ASSERT_TRUE(gui.wait_until(common_is(1.0)));
+    gui.click("demonstrate.store_b");
+    gui.click("tasks.see");
+    gui.click("session.save_now");
+    ASSERT_TRUE(gui.wait_until([&](const json&) { return !saved_file(gui).empty(); }));
+    std::filesystem::copy_file(saved_file(gui), kept, std::filesystem::copy_options::overwrite_existing);
+  }
+  GuiProgram gui("kept_again", "--session " + kept.string());
+  ASSERT_TRUE(gui.wait_until(common_is(1.0)));
+  gui.key("F4");
+  EXPECT_TRUE(gui.wait_until(common_is(0.0)));
+  gui.key("F4");
+  EXPECT_TRUE(gui.wait_until(common_is(1.0)));
 }
 
 TEST_F(SessionTest, AWorkOfAnotherSceneOpensThatSceneWithItsMarks) {

@@ -1,6 +1,7 @@
 #include "scene/recording.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -126,6 +127,26 @@ TEST(Recording, MustFitTheSpecimen) {
   recording.steps[1].excitations.push_back(1.0);
   EXPECT_THAT(testing::complaint(ExitStatus::BadData, [&] { require_fit(recording, scene, "r"); }),
               ::testing::HasSubstr("step 1: is for 3 muscles and 1 joints; the specimen has 2 and 1"));
+}
+
+TEST(Recording, MustHoldNumbersThatCanBeSimulated) {
+  Recording recording;
+  recording.steps = {sample_step(0)};
+  recording.steps[0].gravity_m_s2.y() = std::nan("");
+  Scene scene;
+  scene.specimen.muscles.resize(2);
+  scene.specimen.joints.resize(1);
+  scene.tools.resize(1);
+  EXPECT_THAT(testing::complaint(ExitStatus::BadData, [&] { require_fit(recording, scene, "r"); }),
+              ::testing::HasSubstr("step 0: has a gravity of 0 nan -9.81 m/s2"));
+}
+
+TEST(Recording, NamesThePlaceOfAChunkThatIsTooShort) {
+  std::string bytes = "MYOREC01";
+  append_chunk(bytes, std::string("\1\0\0\0", 4) + "{}");
+  append_chunk(bytes, std::string("\7\0\0\0\1", 5));
+  EXPECT_THAT(testing::complaint(ExitStatus::BadData, [&] { parse_recording(bytes, "r"); }),
+              ::testing::HasSubstr("r: byte 22: a chunk is shorter than its content"));
 }
 
 TEST(Recording, RefusesAFileThatIsNone) {

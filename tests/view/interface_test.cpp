@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <imgui.h>
 
+#include "anatomy/part_facts.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "support/source_folder.h"
@@ -78,6 +79,22 @@ TEST(Languages, HoldEveryKeyThatTheSourcesName) {
     }
   }
   EXPECT_GT(keys, 100);
+}
+
+/// What the card of a part shows; its file has them in English.
+TEST(Languages, HoldEveryFactOfTheParts) {
+  const ui::Catalogue english = ui::load_catalogue("en");
+  int facts = 0;
+  for (const auto& [part, of_part] : anatomy::load_part_facts(kRoot / "assets" / "canine" / "names.json")) {
+    for (const std::string& fact : {of_part.origin, of_part.insertion, of_part.action, of_part.innervation}) {
+      if (fact.empty()) continue;
+      ++facts;
+      const auto found = english.find("fact." + fact);
+      ASSERT_NE(found, english.end()) << part << ": assets/languages lack fact." << fact;
+      EXPECT_EQ(found->second, fact);
+    }
+  }
+  EXPECT_GT(facts, 100);
 }
 
 TEST(Languages, NoTextOfThePanelsStandsInTheSources) {

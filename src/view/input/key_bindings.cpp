@@ -9,6 +9,8 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include "view/ui/text.h"
+
 namespace myotact::view {
 
 namespace {
@@ -55,6 +57,25 @@ std::string key_name(int key, int mods) {
 
 std::string name_of(const KeyBinding& binding) {
   return fmt::format("{}{}", key_name(binding.key, binding.mods), is_held(binding.action) ? " (hold)" : "");
+}
+
+std::string shown_key(int key, int mods) {
+  const auto shown = [](const std::string& name) {
+    const std::string text = "key." + name;
+    return ui::has_text(text) ? std::string(ui::tr(text)) : name;
+  };
+  const std::string bare = bare_name(key);
+  if (bare.empty()) return "";
+  std::string name;
+  if ((mods & GLFW_MOD_CONTROL) != 0) name += shown("Ctrl") + "+";
+  if ((mods & GLFW_MOD_SHIFT) != 0) name += shown("Shift") + "+";
+  if ((mods & GLFW_MOD_ALT) != 0) name += shown("Alt") + "+";
+  return name + shown(bare);
+}
+
+std::string shown_name(const KeyBinding& binding) {
+  const std::string key = shown_key(binding.key, binding.mods);
+  return is_held(binding.action) ? ui::tr("key.hold", key) : key;
 }
 
 const std::vector<KeyBinding>& key_bindings() {

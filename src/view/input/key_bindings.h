@@ -78,6 +78,10 @@ std::string key_name(int key, int mods);
 /// As a person calls it: its key_name(), with " (hold)" where that is how it works.
 std::string name_of(const KeyBinding& binding);
 
+/// key_name() and name_of() in the language of the window: "Strg+Z". Settings and documents have the English ones.
+std::string shown_key(int key, int mods);
+std::string shown_name(const KeyBinding& binding);
+
 /// Held down for as long as it is to last.
 bool is_held(KeyAction action);
 

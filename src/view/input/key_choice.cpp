@@ -55,7 +55,7 @@ std::vector<KeyBinding> bindings_with(const ChosenKeys& chosen) {
 }
 
 std::string refusal(const std::vector<KeyBinding>& bindings, KeyAction action, const KeyPressed& wanted) {
-  const std::string name = key_name(wanted.key, wanted.mods);
+  const std::string name = shown_key(wanted.key, wanted.mods);
   if (name.empty()) return ui::tr("comfort.key_unknown");
   if (is_fixed(action)) return ui::tr("comfort.key_fixed");
   if (is_held(action) && wanted.mods != 0) return ui::tr("comfort.key_held", name);

@@ -92,7 +92,7 @@ void draw_joint(PanelContext& context, std::optional<double>& shove_began_s) {
   const auto& joint = context.frame.joints[static_cast<std::size_t>(context.facts.joint)];
   const JointReadings& readings = context.readings;
   draw_parts(joint);
-  if (joint.preview) ui::paragraph(messages::kPreviewMark);
+  if (joint.preview) ui::paragraph(ui::tr("demonstrate.preview"));
   if (!readings.why.empty()) ui::paragraph(ui::retold(readings.why));
   draw_shove(context, shove_began_s);
 }
@@ -124,7 +124,7 @@ void draw_scene_choice(PanelContext& context) {
 }
 
 /// Same picture, different feel: two states to switch between.
-void draw_stored(SceneControls& scene, std::array<std::optional<SceneState>, 2>& stored) {
+void draw_stored(SceneControls& scene, KeptStates& stored) {
   constexpr std::array kStore = {"demonstrate.store_a", "demonstrate.store_b"};
   constexpr std::array kShow = {"demonstrate.show_a", "demonstrate.show_b"};
   for (std::size_t i = 0; i < stored.size(); ++i) {

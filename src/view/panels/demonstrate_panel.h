@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 
 #include "view/panels/panel.h"
@@ -16,11 +15,14 @@ class DemonstratePanel {
   void observe(const PanelContext& context);
   /// B where A is in force, else A. False, and nothing is done, where that one has not been kept.
   bool feel_other(SceneControls& scene);
+  const KeptStates& kept() const { return stored_; }
+  /// In place of those that are kept.
+  void keep(const KeptStates& states) { stored_ = states; }
 
  private:
   StiffnessGauge gauge_;
-  std::array<std::optional<SceneState>, 2> stored_;  // A and B
-  std::optional<double> shove_began_s_;              // simulated time, while a shove test runs
+  KeptStates stored_;
+  std::optional<double> shove_began_s_;  // simulated time, while a shove test runs
 };
 
 }  // namespace myotact::view

@@ -36,10 +36,12 @@ std::string in_language(const char* what, const std::string& word) {
   return ui::has_text(key) ? ui::tr(key) : word;
 }
 
+/// Facts are English in their file; "fact." and the fact is the key of its translation.
 void fact(const char* key, const std::string& text) {
   if (text.empty()) return;
   ImGui::TextDisabled("%s", ui::tr(key));
-  ui::paragraph(text);
+  const std::string translated = "fact." + text;
+  ui::paragraph(ui::has_text(translated) ? ui::tr(translated) : text);
 }
 
 /// How strong it is, and what it does now.

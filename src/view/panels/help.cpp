@@ -37,7 +37,7 @@ bool draw_help(bool& open, const std::vector<KeyBinding>& bindings, MousePreset 
   if (ImGui::BeginTable("keys", columns, ImGuiTableFlags_SizingFixedFit)) {
     for (const KeyBinding& binding : bindings) {
       ImGui::TableNextColumn();
-      ImGui::TextUnformatted(name_of(binding).c_str());
+      ImGui::TextUnformatted(shown_name(binding).c_str());
       ImGui::TableNextColumn();
       ui::text(binding.what);
     }

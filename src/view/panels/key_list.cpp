@@ -40,7 +40,7 @@ bool KeyList::reset(const KeyBinding& binding, ChosenKeys& chosen) {
 bool KeyList::draw_row(const KeyBinding& binding, ChosenKeys& chosen) {
   const float width = 9.0f * ImGui::GetFontSize();
   const bool waiting = waiting_ && waiting_->action == binding.action;
-  const std::string shown = waiting ? ui::tr("comfort.key_press") : name_of(binding);
+  const std::string shown = waiting ? ui::tr("comfort.key_press") : shown_name(binding);
   bool changed = false;
   ImGui::BeginDisabled(is_fixed(binding.action));
   if (ImGui::Button(fmt::format("{}###key", shown).c_str(), ImVec2(width, 0.0f)) && !waiting) {

@@ -13,6 +13,7 @@
 #include "view/panels/learn_task.h"
 #include "view/panels/lesson_look.h"
 #include "view/ui/controls.h"
+#include "view/ui/retold.h"
 #include "view/ui/text.h"
 
 namespace myotact::view {
@@ -98,7 +99,7 @@ void LearnPanel::open(const learn::ListedLesson& lesson, const PanelContext& con
   try {
     open_ = std::make_unique<Open>(learn::load_lesson(lesson.path, context.specimen), context);
   } catch (const Error& error) {
-    message_ = ui::tr("learn.broken", error.what());
+    message_ = ui::tr("learn.broken", ui::retold(error.what()));
   }
 }
 
@@ -194,7 +195,7 @@ void LearnPanel::save_results() {
     write_file(file, learn::results_csv(open_->run));
     message_ = ui::tr("learn.saved", file.string());
   } catch (const Error& error) {
-    message_ = ui::tr("learn.not_saved", error.what());
+    message_ = ui::tr("learn.not_saved", ui::retold(error.what()));
   }
 }
 

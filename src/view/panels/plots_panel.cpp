@@ -11,6 +11,7 @@
 #include "view/charts/plot.h"
 #include "view/look/part_actions.h"
 #include "view/ui/controls.h"
+#include "view/ui/retold.h"
 #include "view/ui/text.h"
 
 namespace myotact::view {
@@ -71,7 +72,7 @@ void PlotsPanel::save_csv(const PanelContext& context, const std::vector<PlotShe
     write_file(path, csv_of(shown(), sheets, shown().first_within(window_s_)));
     message_ = ui::tr("plots.saved", path.string());
   } catch (const Error& error) {
-    message_ = ui::tr("plots.not_saved", error.what());
+    message_ = ui::tr("plots.not_saved", ui::retold(error.what()));
   }
 }
 
@@ -87,7 +88,7 @@ void PlotsPanel::save_svg(const PanelContext& context, const std::vector<PlotShe
     }
     message_ = ui::tr("plots.saved", saved);
   } catch (const Error& error) {
-    message_ = ui::tr("plots.not_saved", error.what());
+    message_ = ui::tr("plots.not_saved", ui::retold(error.what()));
   }
 }
 

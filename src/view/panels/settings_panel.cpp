@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "view/ui/controls.h"
+#include "view/ui/retold.h"
 #include "view/ui/text.h"
 
 namespace myotact::view {
@@ -71,7 +72,7 @@ void keep(const Settings& settings, std::string& message) {
   try {
     write_settings(settings, settings_file());
   } catch (const Error& failure) {
-    message = failure.what();
+    message = ui::retold(failure.what());
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/user_folder.h"
+#include "view/ui/retold.h"
 #include "view/ui/text.h"
 
 namespace myotact::view {
@@ -27,7 +28,7 @@ std::vector<std::uint8_t> pixels_of(const Viewport& box, int width, int height) 
 }
 
 std::string sentence_of(const FilmResult& result, bool resized) {
-  if (!result.fault.empty()) return ui::tr("keep.film_not_saved", result.fault);
+  if (!result.fault.empty()) return ui::tr("keep.film_not_saved", ui::retold(result.fault));
   if (!result.video) return ui::tr("keep.film_in_pictures", result.pictures, result.path.string());
   return ui::tr(resized ? "keep.film_resized" : "keep.film_saved", result.path.string());
 }
@@ -49,7 +50,7 @@ std::optional<std::string> Filming::take(const Viewport& box) {
     try {
       film_ = std::make_unique<Film>(new_user_path("films", std::exchange(wanted_, {}), ""), width, height);
     } catch (const Error& failure) {
-      return ui::tr("keep.film_not_saved", failure.what());
+      return ui::tr("keep.film_not_saved", ui::retold(failure.what()));
     }
     since_ = std::chrono::steady_clock::now();
     ending_ = resized_ = false;

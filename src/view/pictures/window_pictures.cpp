@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/user_folder.h"
 #include "view/pictures/offscreen.h"
+#include "view/ui/retold.h"
 #include "view/ui/text.h"
 
 namespace myotact::view {
@@ -25,7 +26,7 @@ std::string save_picture_for_person(const std::string& scene_name, const Viewpor
     save_framebuffer(path, box);
     return ui::tr("keep.picture_saved", path.string());
   } catch (const Error& error) {
-    return ui::tr("keep.picture_not_saved", error.what());
+    return ui::tr("keep.picture_not_saved", ui::retold(error.what()));
   }
 }
 

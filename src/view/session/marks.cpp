@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/user_folder.h"
+#include "view/ui/retold.h"
 #include "view/ui/text.h"
 
 namespace myotact::view {
@@ -147,8 +148,8 @@ Marks marks_or_none(const std::filesystem::path& file, std::string& message) {
     return read_marks(file);
   } catch (const Error& failure) {
     const auto aside = set_aside(file);
-    message = aside ? ui::tr("session.marks_set_aside", failure.what(), aside->string())
-                    : ui::tr("session.marks_unusable", failure.what(), file.string() + ".broken");
+    message = aside ? ui::tr("session.marks_set_aside", ui::retold(failure.what()), aside->string())
+                    : ui::tr("session.marks_unusable", ui::retold(failure.what()), file.string() + ".broken");
     return {};
   }
 }

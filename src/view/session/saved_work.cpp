@@ -1,6 +1,7 @@
 #include "view/session/saved_work.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <string_view>
 #include <utility>
@@ -53,6 +54,26 @@ SceneState parse_state(const JsonValue& json) {
   return state;
 }
 
+constexpr std::array<const char*, 2> kKept = {"a", "b"};
+
+nlohmann::json json_of(const KeptStates& kept) {
+  nlohmann::json states = nlohmann::json::object();
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (kept[i]) states[kKept[i]] = json_of(*kept[i]);
+  }
+  return states;
+}
+
+KeptStates parse_kept(const JsonValue& json) {
+  JsonObject object(json);
+  KeptStates kept;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (const auto state = object.find(kKept[i])) kept[i] = parse_state(*state);
+  }
+  object.finish();
+  return kept;
+}
+
 /// A name as a person writes it, as the beginning of a file's.
 std::string file_name_of(const std::string& name) {
   constexpr std::size_t kLongest =
@@ -98,6 +119,7 @@ SavedWork parse_work(const std::string& text, const std::string& file) {
   work.specimen = object.string_or("specimen", "");
   work.view = parse_view(object.at("view"));
   work.state = parse_state(object.at("settings"));
+  if (const auto kept = object.find("kept")) work.kept = parse_kept(*kept);
   work.marks = parse_marks(object);
   object.finish();
   return work;
@@ -116,6 +138,8 @@ SavedWork read_work(const std::filesystem::path& file, const std::vector<std::st
 std::string work_text(const SavedWork& work) {
   nlohmann::json json = {{"schema", kSchema},         {"scene", work.scene},        {"tissue", work.tissue},
                          {"specimen", work.specimen}, {"view", json_of(work.view)}, {"settings", json_of(work.state)}};
+  if (work.kept != KeptStates{})
+    json["kept"] = json_of(work.kept);  // works without it were written before it was known
   put_marks(work.marks, json);
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }

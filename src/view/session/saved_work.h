@@ -19,6 +19,7 @@ struct SavedWork {
   SavedView view;
   SceneState state;
   Marks marks;
+  KeptStates kept = {};
 
   bool operator==(const SavedWork&) const = default;
 };

@@ -9,6 +9,7 @@
 #include "core/file.h"
 #include "core/json_reader.h"
 #include "core/user_folder.h"
+#include "view/ui/retold.h"
 #include "view/ui/text.h"
 #include "view/ui/theme.h"
 
@@ -27,10 +28,14 @@ std::filesystem::path settings_file() {
 }
 
 Settings read_settings(const std::filesystem::path& file) {
+  if (file.empty() || !std::filesystem::exists(file)) return {};
+  return parse_settings(read_file(file), file.string());
+}
+
+Settings parse_settings(const std::string& text, const std::string& file) {
   Settings settings;
-  if (file.empty() || !std::filesystem::exists(file)) return settings;
-  const nlohmann::json json = read_json(file);
-  JsonObject object{JsonValue(json, file.string())};
+  const nlohmann::json json = parse_json(text, file);
+  JsonObject object{JsonValue(json, file)};
   object.at("schema").integer_between(kSchema, kSchema);
   if (const auto language = object.find("language")) settings.language = language->one_of(ui::languages());
   if (const auto theme = object.find("theme")) settings.light = theme->one_of({"dark", "light"}) == "light";
@@ -52,8 +57,8 @@ Settings settings_or_defaults(const std::filesystem::path& file, std::string& me
     return read_settings(file);
   } catch (const Error& failure) {
     const auto aside = set_aside(file);
-    message = aside ? ui::tr("comfort.set_aside", failure.what(), aside->string())
-                    : ui::tr("comfort.unusable", failure.what(), file.string() + ".broken");
+    message = aside ? ui::tr("comfort.set_aside", ui::retold(failure.what()), aside->string())
+                    : ui::tr("comfort.unusable", ui::retold(failure.what()), file.string() + ".broken");
     return {};
   }
 }
@@ -63,6 +68,10 @@ void write_settings(const Settings& settings, const std::filesystem::path& file)
     throw Error(ExitStatus::InputOutput, "there is no folder for your settings: set HOME or XDG_CONFIG_HOME to one");
   }
   make_writable_folder(file.parent_path());
+  write_file(file, settings_text(settings));
+}
+
+std::string settings_text(const Settings& settings) {
   const nlohmann::json json = {{"schema", kSchema},
                                {"language", settings.language},
                                {"theme", settings.light ? "light" : "dark"},
@@ -72,7 +81,7 @@ void write_settings(const Settings& settings, const std::filesystem::path& file)
                                {"tour_done", settings.tour_done},
                                {"mouse", kMice[static_cast<std::size_t>(settings.mouse)]},
                                {"keys", settings.keys}};
-  write_file(file, json.dump(2) + "\n");
+  return json.dump(2) + "\n";
 }
 
 void apply(const Settings& settings) {

@@ -29,6 +29,10 @@ std::filesystem::path settings_file();
 
 /// The defaults where there is no such file. Throws Error BadData, or what reading throws.
 Settings read_settings(const std::filesystem::path& file);
+/// The same from the text of one; `file` is only named in errors.
+Settings parse_settings(const std::string& text, const std::string& file);
+/// What write_settings() writes.
+std::string settings_text(const Settings& settings);
 /// As read_settings(), but a file that cannot be used is renamed to FILE.broken and `message` reports it.
 Settings settings_or_defaults(const std::filesystem::path& file, std::string& message);
 /// Makes the folder. Throws Error InputOutput.

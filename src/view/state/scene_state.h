@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "messages/control_state.h"
 
 namespace myotact::view {
@@ -18,5 +21,8 @@ struct SceneState {
 
   bool operator==(const SceneState&) const = default;
 };
+
+/// A and B, which a person feels in turn; empty: not kept.
+using KeptStates = std::array<std::optional<SceneState>, 2>;
 
 }  // namespace myotact::view

@@ -1,5 +1,7 @@
 #include "view/ui/retold.h"
 
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "view/ui/text.h"
@@ -8,7 +10,7 @@ namespace myotact::view::ui {
 
 namespace {
 
-constexpr std::string_view kPlace = "{}", kSaid = "said.";
+constexpr std::string_view kPlace = "{}", kAfterName = ": ", kBetweenClauses = "; ";
 
 std::vector<std::string> literals_of(std::string_view pattern) {
   std::vector<std::string> literals;
@@ -20,9 +22,8 @@ std::vector<std::string> literals_of(std::string_view pattern) {
   return literals;
 }
 
-/// What stands at the places of the pattern; empty where the text is another.
-std::optional<std::vector<std::string>> values_in(std::string_view text, std::string_view pattern) {
-  const std::vector<std::string> literals = literals_of(pattern);
+/// What stands at the places between the literals; empty where the text is another.
+std::optional<std::vector<std::string>> values_in(std::string_view text, const std::vector<std::string>& literals) {
   if (!text.starts_with(literals.front())) return std::nullopt;
   text.remove_prefix(literals.front().size());
   std::vector<std::string> values;
@@ -35,7 +36,9 @@ std::optional<std::vector<std::string>> values_in(std::string_view text, std::st
     text.remove_prefix(end + literals[i].size());
   }
   if (!text.empty()) return std::nullopt;
-  return values;
+  // A place that begins a text does not swallow the names before it: they end before another beginning.
+  const bool has_names = !values.empty() && values.front().find(kAfterName) != std::string::npos;
+  return literals.front().empty() && has_names ? std::nullopt : std::optional(values);
 }
 
 std::string filled(std::string_view pattern, const std::vector<std::string>& values) {
@@ -45,21 +48,98 @@ std::string filled(std::string_view pattern, const std::vector<std::string>& val
   return text;
 }
 
-/// Of one text "said.*"; of several that fit, the one whose places swallow least of what others name.
-std::optional<std::string> retold_sentence(const std::string& text) {
-  std::optional<std::string> best;
-  std::size_t least = text.size() + 1;
+struct Pattern {
+  std::string key;
+  std::vector<std::string> literals;
+};
+
+/// Of the English texts with such keys.
+std::vector<Pattern> patterns_of(std::string_view begin_of_key) {
+  std::vector<Pattern> all;
   const Catalogue& english = english_texts();
-  for (auto it = english.lower_bound(kSaid); it != english.end() && it->first.starts_with(kSaid); ++it) {
-    const auto values = values_in(text, it->second);
+  for (auto it = english.lower_bound(begin_of_key); it != english.end() && it->first.starts_with(begin_of_key); ++it) {
+    all.push_back({it->first, literals_of(it->second)});
+  }
+  return all;
+}
+
+/// Of the pattern whose places swallow least of what others name.
+std::optional<std::string> told_by(const std::vector<Pattern>& patterns, const std::string& text) {
+  const Pattern* best = nullptr;
+  std::vector<std::string> best_values;
+  std::size_t least = text.size() + 1;
+  for (const Pattern& pattern : patterns) {
+    auto values = values_in(text, pattern.literals);
     if (!values) continue;
     std::size_t swallowed = 0;
     for (const std::string& value : *values) swallowed += value.size();
     if (swallowed >= least) continue;
     least = swallowed;
-    best = filled(tr(it->first), *values);
+    best = &pattern;
+    best_values = std::move(*values);
   }
-  return best;
+  if (best == nullptr) return std::nullopt;
+  return filled(tr(best->key), best_values);
+}
+
+/// Of one text "said.*", or the hint of a driver.
+std::optional<std::string> told_as_a_text(const std::string& text) {
+  static const std::vector<Pattern> kSaid =
+      patterns_of("said.");  // taken apart once: notices are told in every picture
+  const std::string hint = "hint." + text;
+  return has_text(hint) ? std::optional<std::string>(tr(hint)) : told_by(kSaid, text);
+}
+
+/// "step 3": of a file or a part, before what is wrong there.
+std::string told_as_a_place(const std::string& text) {
+  static const std::vector<Pattern> kPlaces = patterns_of("place.");
+  return told_by(kPlaces, text).value_or(text);
+}
+
+/// Errors end without a full stop, until another sentence follows.
+std::optional<std::string> told_with_or_without_stop(const std::string& text) {
+  if (auto told = told_as_a_text(text)) return told;
+  if (!text.ends_with('.')) return std::nullopt;
+  const auto told = told_as_a_text(text.substr(0, text.size() - 1));
+  return told ? std::optional(*told + ".") : std::nullopt;
+}
+
+std::vector<std::string> parts_of(const std::string& text, std::string_view between) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  for (std::size_t end; (end = text.find(between, begin)) != std::string::npos; begin = end + between.size()) {
+    parts.push_back(text.substr(begin, end - begin));
+  }
+  parts.push_back(text.substr(begin));
+  return parts;
+}
+
+/// Also where files and places stand before it: "FILE: PLACE: TEXT".
+std::optional<std::string> told_after_names(const std::string& text) {
+  constexpr std::size_t kMostNames = 8;  // no text has more; bounds the time that any other takes
+  const std::vector<std::string> parts = parts_of(text, kAfterName);
+  std::string names;
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < std::min(parts.size(), kMostNames); ++i) {
+    if (const auto told = told_with_or_without_stop(text.substr(begin))) return names + *told;
+    names += told_as_a_place(parts[i]);
+    names += kAfterName;
+    begin += parts[i].size() + kAfterName.size();
+  }
+  return std::nullopt;
+}
+
+/// Clause by clause, "CAUSE; REMEDY", where all are texts of their own; else a place at the end of one would swallow
+/// those that follow.
+std::optional<std::string> retold_sentence(const std::string& text) {
+  std::string all;
+  for (const std::string& clause : parts_of(text, kBetweenClauses)) {
+    const auto told = told_after_names(clause);
+    if (!told) return told_after_names(text);
+    if (!all.empty()) all += kBetweenClauses;
+    all += *told;
+  }
+  return all;
 }
 
 /// Sentences with the blanks between them: each ends where a full stop is followed by a blank or by nothing.

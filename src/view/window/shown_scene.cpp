@@ -19,6 +19,7 @@
 #include "view/panels/toolbar.h"
 #include "view/pictures/window_pictures.h"
 #include "view/ui/controls.h"
+#include "view/ui/retold.h"
 #include "view/ui/text.h"
 #include "view/ui/theme.h"
 #include "view/window/description.h"
@@ -66,6 +67,7 @@ void ShownScene::take_over(const ShownScene& before) {
   controls_ = before.controls_;
   controls_.hand_world_m = start.hand_world_m;
   scene_.restore(state_.scene);  // from where the scene begins
+  demonstrate_.keep(before.demonstrate_.kept());
   pointer_ = before.pointer_;
   message = before.message;
   layout_ = before.layout_;
@@ -205,7 +207,7 @@ void ShownScene::begin_or_end_recording() {
     wish = SceneWish{facts_.file, facts_.tissue, file};
     message = ui::tr("keep.recording_begins", file.string());
   } catch (const Error& failure) {
-    message = failure.what();
+    message = ui::retold(failure.what());
   }
 }
 

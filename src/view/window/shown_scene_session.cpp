@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "view/ui/controls.h"
+#include "view/ui/retold.h"
 #include "view/ui/text.h"
 #include "view/window/shown_scene.h"
 
@@ -48,7 +49,7 @@ void ShownScene::keep_marks() {
   try {
     write_marks(marks_, specimen_->name, marks_file(specimen_->name));
   } catch (const std::exception& failure) {  // the window may be gone, and its message with it
-    message = ui::tr("session.marks_not_kept", std::string(failure.what()));
+    message = ui::tr("session.marks_not_kept", ui::retold(failure.what()));
     std::fprintf(stderr, "myotact: %s\n", message.c_str());
   }
 }
@@ -62,13 +63,13 @@ void ShownScene::report_missing(const std::vector<std::string>& parts) {
 }
 
 void ShownScene::save(const std::string& name) {
-  SavedWork work{lasting_name(facts_),           facts_.tissue, specimen_->name, saved_view(state_.view, *specimen_),
-                 scene_state_of(scene_.state()), marks_};
+  SavedWork work{lasting_name(facts_),           facts_.tissue, specimen_->name,    saved_view(state_.view, *specimen_),
+                 scene_state_of(scene_.state()), marks_,        demonstrate_.kept()};
   if (transition_.share < 1.0f) work.view.look.camera = transition_.to;
   try {
     message = ui::tr("session.saved", save_work(work, name).string());
   } catch (const Error& failure) {
-    message = ui::tr("session.not_saved", std::string(failure.what()));
+    message = ui::tr("session.not_saved", ui::retold(failure.what()));
   }
   works_.refresh();
 }
@@ -82,7 +83,7 @@ void ShownScene::open(const std::filesystem::path& file) {
       wish = SceneWish{work.scene, work.tissue, {}, work};
     }
   } catch (const Error& failure) {
-    message = ui::tr("session.not_opened", std::string(failure.what()));
+    message = ui::tr("session.not_opened", ui::retold(failure.what()));
   }
 }
 
@@ -90,6 +91,7 @@ void ShownScene::begin_with(const SavedWork& work) {
   message = ui::tr("session.opened");
   report_missing(show(work.view, *specimen_, state_.view));
   scene_.restore(work.state);
+  if (work.kept != KeptStates{}) demonstrate_.keep(work.kept);  // else the person's own stay
   transition_.share = 1.0f;
   timeline_.back_to_now();
   const JoinedMarks both = joined(marks_, work.marks);

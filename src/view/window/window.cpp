@@ -16,6 +16,7 @@
 #include "view/session/settings.h"
 #include "view/sound/speaker.h"
 #include "view/ui/controls.h"
+#include "view/ui/retold.h"
 #include "view/ui/text.h"
 #include "view/window/glfw_window.h"
 #include "view/window/imgui_session.h"
@@ -80,7 +81,7 @@ struct Window::Impl {
       speaker->play(scene->share_of_force());
     } catch (const Error& failure) {
       scene->settings.tone = false;
-      scene->message = ui::tr("comfort.no_sound", failure.what());
+      scene->message = ui::tr("comfort.no_sound", ui::retold(failure.what()));
     }
   }
 
@@ -125,7 +126,7 @@ void Window::push_view(const std::array<double, 3>& cap) {
 }
 
 void Window::show_message(const std::string& message) {
-  (impl_->scene ? impl_->scene->message : impl_->message) = message;
+  (impl_->scene ? impl_->scene->message : impl_->message) = ui::retold(message);
 }
 
 std::optional<SceneWish> Window::take_wish() {

@@ -50,7 +50,7 @@ class Window {
   /// How far the cap of a device that rotates the view is pushed: right, up, towards the person, each -1 .. 1. Once a
   /// picture.
   void push_view(const std::array<double, 3>& cap);
-  /// A sentence for the person, shown until it has been read.
+  /// A sentence for the person, in English or in the language of the window, shown until it has been read.
   void show_message(const std::string& message);
   /// The scene that the person wants to be opened, once.
   std::optional<SceneWish> take_wish();

@@ -198,6 +198,17 @@ TEST_F(ClickedDemonstration, TwoStoredStatesAreSwitchedBetween) {
   EXPECT_TRUE(scene_.take_commands().empty()) << "it is that already";
 }
 
+TEST_F(ClickedDemonstration, StatesThatAWorkBringsAreFeltInTurn) {
+  hear(in_force(0.25, 0.75));
+  demonstrate_.keep({scene_state_of(in_force(0.25, 0.75)), scene_state_of(in_force(0.5, 0.0))});
+  EXPECT_TRUE(demonstrate_.feel_other(scene_));
+  const auto commands = scene_.take_commands();
+  ASSERT_EQ(commands.size(), 1u);
+  EXPECT_EQ(std::get<messages::CoContract>(commands[0].order).common, 0.5) << "A is in force";
+  click("demonstrate.store_b");
+  EXPECT_EQ(demonstrate_.kept()[1], scene_state_of(scene_.state()));
+}
+
 TEST_F(ClickedDemonstration, AReadyStateHoldsThePostureWhereBothSidesAreEqual) {
   for (const std::size_t i : {0u, 1u}) {
     const Preset& preset = facts_.presets[i];

@@ -40,7 +40,7 @@ ViewState unusual_view(const anatomy::Specimen& specimen) {
 
 SavedWork unusual_work() {
   const anatomy::Specimen specimen = limb();
-  SavedWork work{"elbow", "line", specimen.name, saved_view(unusual_view(specimen), specimen), {}, {}};
+  SavedWork work{"elbow", "line", specimen.name, saved_view(unusual_view(specimen), specimen), {}, {}, {}};
   work.state = {Drive::Balance, 0.125, 1.0, 1.0 / 3.0, -1.0, true, true};
   work.marks.notes["flexor"] = "zwei \"Köpfe\"\n";
   work.marks.bookmarks = {{"von vorn / 前", saved_view(start_view(specimen, 1.0f), specimen)}, {"b", work.view}};
@@ -102,6 +102,21 @@ TEST(SavedView, DoesNotNameWhatALessonAsksFor) {
 TEST(SavedWork, IsReadAsItWasWrittenToTheLastBit) {
   const SavedWork work = unusual_work();
   EXPECT_EQ(parse_work(work_text(work), "w.json"), work);
+}
+
+/// A and B with it, where they were kept; works of earlier versions know neither.
+TEST(SavedWork, KeepsTheTwoStatesThatAreFeltInTurn) {
+  SavedWork work = unusual_work();
+  EXPECT_EQ(work_text(work).find("kept"), std::string::npos);
+  EXPECT_EQ(parse_work(work_text(work), "w.json").kept, KeptStates{});
+  work.kept[1] = work.state;
+  EXPECT_EQ(parse_work(work_text(work), "w.json"), work);
+  work.kept[0] = SceneState{Drive::Levels, 0.5, 0.25, 0.0, 0.0, false, false};
+  const std::string text = work_text(work);
+  EXPECT_EQ(parse_work(text, "w.json"), work);
+  EXPECT_NE(complaint(replaced(text, "\"extensors\": 0.25", "\"extensors\": 2")).find("/kept/a/extensors: is 2"),
+            std::string::npos);
+  EXPECT_NE(complaint(replaced(text, "\"b\": {", "\"c\": {")).find("/kept"), std::string::npos);
 }
 
 TEST(SavedWork, CutAnywhereIsRefused) {
