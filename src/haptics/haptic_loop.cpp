@@ -48,7 +48,9 @@ HapticLoop::HapticLoop(device::Device& device, const HapticSettings& settings)
       effects_(settings_, device.profile()),
       ports_(device.profile()),
       gate_(device.profile(), settings_.gate),
-      notice_(settings.limit_stiffness ? stiffness_notice(device.profile(), settings.contact.stiffness_N_m) : "") {}
+      notice_(settings.limit_stiffness ? stiffness_notice(device.profile(), settings.contact.stiffness_N_m) : ""),
+      held_{settings.shape, settings.contact.radius_m},
+      chosen_(held_) {}
 
 void HapticLoop::prepare(std::uint64_t now_ns) {
   device_.open();
@@ -69,6 +71,7 @@ void HapticLoop::tick(std::uint64_t now_ns) noexcept {
   missed_ = false;
   const messages::DeviceState state = device_.read(now_ns);
   if ((state.buttons & messages::kStopButton) != 0) gate_.stop();
+  change_tool();
   const bool is_new = take_model();
   forces_ = {};
   device_is_sound_ = is_finite(state.stylus_position_world_m) && is_finite(state.stylus_velocity_world_m_s);
@@ -89,6 +92,14 @@ void HapticLoop::advance_clock(std::uint64_t now_ns) noexcept {
   dt_s_ = forwards ? std::clamp(1e-9 * static_cast<double>(now_ns - last_ns_), kShortestTick_s, kLongestTick_s) : 1e-3;
   ticked_ = true;
   last_ns_ = now_ns;
+}
+
+/// Not while anything of the old tool's force gets through: a sphere of another size has another force.
+void HapticLoop::change_tool() noexcept {
+  if (choices_.update()) chosen_ = choices_.front();
+  if (chosen_ == held_ || !gate_.is_shut()) return;
+  effects_.change_tool(chosen_.radius_m);
+  held_ = chosen_;
 }
 
 /// True: a new model is in use. An unsound one is left alone, and with it the surface: the reader's slot now holds it.
@@ -117,7 +128,7 @@ double HapticLoop::model_age_s() const noexcept {
 HandTick HapticLoop::hand_tick(const messages::DeviceState& state, bool is_new) const noexcept {
   HandTick hand;
   hand.hand = {to_vec3(state.stylus_position_world_m), to_vec3(state.stylus_velocity_world_m_s)};
-  hand.buttons = settings_.takes_bones_only ? of_clamp(state.buttons) : state.buttons;
+  hand.buttons = held_.shape == messages::ToolShape::Clamp ? of_clamp(state.buttons) : state.buttons;
   hand.model = model_;
   hand.is_new = is_new;
   hand.model_age_s = model_age_s();
@@ -155,6 +166,7 @@ Vec3 HapticLoop::gate_and_write(const Vec3& wanted_N, const messages::DeviceStat
   input.device_position_m = device_is_sound_ ? to_vec3(state.stylus_position_world_m) : nowhere;
   input.connected = device_.connected();
   input.cut = cut_;
+  input.changing = chosen_ != held_;
   input.clutched = (state.buttons & messages::kClutchButton) != 0;
   input.damping_Ns_m = ports_.damping_Ns_m();
   cut_ = false;
@@ -190,9 +202,10 @@ void HapticLoop::report(const messages::DeviceState& state) noexcept {
   last_.model_sequence = tool.model_sequence;
   last_.line_tension_N = notes.line_tension_N;
   last_.gate = gate_.state();
+  last_.chosen = chosen_.shape;
   ticks_.push(last_);
   if (notes.touch.contact.active) forces_.contact_normal = notes.touch.contact.normal;
-  felt_now_ = {tool, force_parts(forces_), last_.line_tension_N, model_age_s()};
+  felt_now_ = {tool, force_parts(forces_), last_.line_tension_N, model_age_s(), held_};
   felt_.publish(felt_now_);
 }
 

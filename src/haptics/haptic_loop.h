@@ -12,6 +12,7 @@
 #include "haptics/gate/haptic_ports.h"
 #include "haptics/haptic_settings.h"
 #include "messages/felt_tool.h"
+#include "messages/held_tool.h"
 #include "messages/local_model.h"
 #include "messages/tool_state.h"
 #include "realtime/bounded_fifo.h"
@@ -28,6 +29,7 @@ struct HapticTick {
   messages::ToolState tool;
   double line_tension_N = 0.0;  // of the line in hand, 0: none
   GateState gate = GateState::Off;
+  messages::ToolShape chosen = messages::ToolShape::Ball;  // asked for last; in hand once the force has faded out
 };
 
 /// One tool, once a millisecond: reads the device and the newest model, computes, gates and writes in the same tick.
@@ -61,6 +63,9 @@ class HapticLoop {
   realtime::LatestValue<messages::LocalModel>& models() noexcept { return models_; }     // written by the simulation
   realtime::LatestValue<messages::ToolState>& tool_states() noexcept { return tools_; }  // read by the simulation
   realtime::LatestValue<messages::FeltTool>& felt() noexcept { return felt_; }           // read for the drawing
+  /// Written by whoever obeys a person's choice: the tool that the hand is to hold. The force fades out, the tool
+  /// changes where nothing of it is felt, and the force comes back through the ramp.
+  realtime::LatestValue<messages::HeldTool>& chosen_tools() noexcept { return choices_; }
   realtime::BoundedFifo<HapticTick>& ticks() noexcept { return ticks_; }                 // read by the recorder
 
   // ---- after tick(), in the thread that calls it
@@ -68,9 +73,11 @@ class HapticLoop {
   const messages::ToolState& tool_state() const noexcept { return last_.tool; }
   const messages::FeltTool& felt_tool() const noexcept { return felt_now_; }
   GateState gate_state() const noexcept { return gate_.state(); }
+  const messages::HeldTool& held() const noexcept { return held_; }
   const HapticPorts& ports() const noexcept { return ports_; }
 
  private:
+  void change_tool() noexcept;
   bool take_model() noexcept;
   void advance_clock(std::uint64_t now_ns) noexcept;
   HandTick hand_tick(const messages::DeviceState& state, bool is_new) const noexcept;
@@ -84,6 +91,7 @@ class HapticLoop {
   realtime::LatestValue<messages::LocalModel> models_;
   realtime::LatestValue<messages::ToolState> tools_;
   realtime::LatestValue<messages::FeltTool> felt_;
+  realtime::LatestValue<messages::HeldTool> choices_;
   realtime::BoundedFifo<HapticTick> ticks_;
 
   Effects effects_;
@@ -99,6 +107,7 @@ class HapticLoop {
   bool ticked_ = false;
   bool missed_ = false;
   bool cut_ = false;
+  messages::HeldTool held_, chosen_;  // they differ while the force fades out
   // Of the last tick
   std::uint32_t faults_ = 0;
   bool device_is_sound_ = false;

@@ -7,6 +7,7 @@
 #include "haptics/force_method.h"
 #include "haptics/gate/force_gate.h"
 #include "haptics/proxy/contact_settings.h"
+#include "messages/held_tool.h"
 
 namespace myotact::haptics {
 
@@ -23,7 +24,7 @@ struct HapticSettings {
   /// Felt over simulated force: muscles pull with 10-1000 N, devices with 3-20 N. The tissue gets the unscaled force.
   double force_scale = 1.0;
   /// A clamp: either button takes the nearest bone, none a muscle line.
-  bool takes_bones_only = false;
+  messages::ToolShape shape = messages::ToolShape::Ball;
   /// Stiffnesses stay within what the device supports (stiffness_bound.h) and what the age of the simulation's answer
   /// leaves of it. False: for measurements of where a loop becomes unstable.
   bool limit_stiffness = true;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <type_traits>
 #include <variant>
 
@@ -42,9 +43,13 @@ struct Pause {
 struct SingleStep {};
 struct Reset {};  // back to the starting posture and the beginning of the script; what a person set stays
 struct EndRecording {};
+struct ChooseTool {  // by a hand, as soon as its force has faded out
+  int tool = 0;      // of the scene, 0 or 1
+  std::optional<ToolShape> shape = {};  // none: as the scene says
+};
 
 using Order = std::variant<SetLevels, CoContract, FollowScript, Activate, HoldPosture, SetGravity, Shove, TestShove,
-                           Pause, SingleStep, Reset, EndRecording>;
+                           Pause, SingleStep, Reset, EndRecording, ChooseTool>;
 
 /// Whether an order is one of these. Who leaves some orders to others names them, so that a new one is not forgotten.
 template <class T, class... These>

@@ -1,7 +1,12 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <type_traits>
+
+#include "messages/held_tool.h"
 
 namespace myotact::messages {
 
@@ -10,6 +15,12 @@ enum class Commander : std::uint8_t { Script, Window, Lesson, Network };
 
 /// Which of the controls drives the muscles of a co-contraction.
 enum class Drive : std::uint8_t { Script, Levels, Balance };
+
+/// A person has two hands.
+inline constexpr std::size_t kMostChosenTools = 2;
+
+/// What somebody chose of the tools of a scene, in its order; none: as the scene says.
+using ChosenTools = std::array<std::optional<ToolShape>, kMostChosenTools>;
 
 /// What is in force in a scene, whoever asked for it. Crosses threads and the network by value.
 struct ControlState {
@@ -24,6 +35,7 @@ struct ControlState {
   bool gravity = false;
   bool paused = false;
   bool recording = false;  // a recording is being written
+  ChosenTools tools{};     // asked for last; not on the wire: a ToolFrame states what is in the hand
 
   bool operator==(const ControlState&) const = default;
 };

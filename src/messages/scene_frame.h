@@ -6,11 +6,9 @@
 #include <vector>
 
 #include "messages/control_state.h"
+#include "messages/held_tool.h"
 
 namespace myotact::messages {
-
-/// What a tool looks and feels like: a fingertip, the tip of a stylus, a clamp that takes bones.
-enum class ToolShape { Ball, Point, Clamp };
 
 /// Of what the force on the hand is made [N, world]. The parts add up to ToolFrame::force_world_N.
 struct ForceParts {

@@ -13,6 +13,7 @@
 #include "remote/scene_message.h"
 #include "scene/model_writer.h"
 #include "scene/remote_hand.h"
+#include "scene/tool_choice.h"
 #include "scene/tool_frame.h"
 
 namespace myotact::remote {
@@ -134,6 +135,7 @@ bool LockstepServer::show(net::FrameStream& stream, const net::Wants& wants, con
     messages::FeltTool felt;
     felt.tool = state;
     felt.parts.contact = state.force_world_N;
+    felt.held = scene::tool_in_hand(scene_.tools[0], std::nullopt);
     frame.tools = {scene::tool_frame(felt, scene_, 0, run.simulation)};
     const auto scene = run.encoder.encode(frame);
     const auto frames = net::frames_to_send(*scene, run.shown.get(), wants);

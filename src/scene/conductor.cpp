@@ -294,6 +294,12 @@ void Conductor::obey(const messages::SetGravity& gravity, const When&) {
   gravity_m_s2_ = gravity.on ? down_m_s2 : Vec3::Zero();
 }
 
+/// What it means to a hand is the session's: it has the loop.
+void Conductor::obey(const messages::ChooseTool& choice, const When&) {
+  if (choice.tool < 0 || static_cast<std::size_t>(choice.tool) >= scene_->tools.size()) return;
+  tools_chosen_.at(static_cast<std::size_t>(choice.tool)) = choice.shape;
+}
+
 void Conductor::obey(const messages::Shove& shove, const When& when) {
   shoves_.push_back({shove, when.end_s});
 }
@@ -319,6 +325,7 @@ messages::ControlState Conductor::control() const {
   }
   state.hold_posture = hold_posture_;
   state.gravity = gravity_m_s2_.norm() > 0.0;
+  state.tools = tools_chosen_;
   return state;
 }
 

@@ -80,6 +80,7 @@ class Conductor {
   void obey(const messages::SetGravity& gravity, const When& when);
   void obey(const messages::Shove& shove, const When& when);
   void obey(const messages::TestShove& test, const When& when);
+  void obey(const messages::ChooseTool& choice, const When& when);
   void obey(const messages::Reset& reset, const When& when);
   void balance_by(const messages::CoContract& balance, const When& when);
   bool posture_is_held(double time_s) const;
@@ -111,6 +112,7 @@ class Conductor {
   bool starts_at_rest_ = true;
   std::vector<Push> shoves_;  // under way
   Vec3 gravity_m_s2_;
+  messages::ChosenTools tools_chosen_{};
   std::optional<TakePicture> picture_;
 };
 

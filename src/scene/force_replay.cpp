@@ -7,6 +7,7 @@
 
 #include "scene/lockstep_haptics.h"
 #include "scene/model_writer.h"
+#include "scene/tool_choice.h"
 
 namespace myotact::scene {
 
@@ -36,7 +37,7 @@ ToolReplay::ToolReplay(const Scene& scene, const Recording& recording, const dev
     : recording_(recording),
       tool_(tool),
       step_ns_(static_cast<std::uint64_t>(std::llround(scene.settings.dt_s * 1e9))),
-      report_radius_m_(report_radius_m(scene.tools[tool])),
+      settings_(scene.tools[tool]),
       device_(device_states(recording.tools[tool].ticks), device),
       loop_(device_, haptic_settings(scene.tools[tool])) {
   const std::vector<TickRecord>& ticks = recording.tools[tool].ticks;
@@ -60,13 +61,15 @@ void ToolReplay::publish(const ModelRecord& record, const simulation::Simulation
   messages::ToolState state;  // before the first step the hand touches nothing
   state.tool_position_world_m = state.proxy_position_world_m = record.tool_position_world_m;
   if (record.step > 0) state = recording_.steps[record.step - 1].tools[tool_];
-  write_model(simulation, {state, static_cast<int>(tool_), record, step_ns_, report_radius_m_}, loop_.models().back());
+  const double radius_m = report_radius_m(with_choice(settings_, record.chosen));
+  write_model(simulation, {state, static_cast<int>(tool_), record, step_ns_, radius_m}, loop_.models().back());
   loop_.models().publish();
 }
 
 void ToolReplay::tick(const TickRecord& record) {
   const bool stopped = loop_.gate_state() == haptics::GateState::Off;
   if (record.forces_stopped != stopped || next_tick_ == 0) loop_.stop_forces(record.forces_stopped);
+  loop_.chosen_tools().publish(tool_in_hand(settings_, record.chosen));
   loop_.tick(record.time_ns);
   const messages::ToolState& felt = loop_.tool_state();
   const std::vector<StepRecord>& steps = recording_.steps;

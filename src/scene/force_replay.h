@@ -39,7 +39,7 @@ class ToolReplay {
   const Recording& recording_;
   std::size_t tool_;
   std::uint64_t step_ns_;
-  double report_radius_m_;  // model_writer.h
+  const ToolSettings& settings_;  // of the scene's tool
   device::ReplayDevice device_;
   haptics::HapticLoop loop_;
   std::size_t steps_felt_ = 0;  // calls of feel()

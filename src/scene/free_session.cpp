@@ -15,6 +15,7 @@
 #include "realtime/real_time_thread.h"
 #include "scene/lockstep_haptics.h"
 #include "scene/model_writer.h"
+#include "scene/tool_choice.h"
 #include "scene/tool_frame.h"
 
 namespace myotact::scene {
@@ -143,7 +144,23 @@ void FreeSession::obey(const messages::Command& command) {
     end_recording();
   } else {
     conductor_.apply(command);
+    if (std::holds_alternative<messages::ChooseTool>(command.order)) hand_over_tools();
   }
+}
+
+void FreeSession::hand_over_tools() {
+  for (std::size_t t = 0; t < tools_.size(); ++t) {
+    const ToolSettings asked = settings_of(t);
+    if (tools_[t]->loop) tools_[t]->loop->chosen_tools().publish({asked.shape, asked.radius_m});
+  }
+}
+
+/// With the tool that was chosen for this hand. One whose loop runs elsewhere keeps the scene's, a third one is a
+/// guest's.
+ToolSettings FreeSession::settings_of(std::size_t tool) const {
+  const messages::ChosenTools chosen = conductor_.control().tools;
+  const bool can_choose = tools_[tool]->loop && tool < chosen.size();
+  return with_choice(scene_->tools[tool], can_choose ? chosen.at(tool) : std::nullopt);
 }
 
 /// A full disk ends the recording, not the session.
@@ -251,8 +268,8 @@ void FreeSession::publish_models() {
     RemoteHand& hand = tools_[t]->hand;
     const messages::ToolState& state = tools_[t]->newest;
     const ModelRecord model{++tools_[t]->model_sequence, realtime::steady_now_ns(), paused_,
-                            state.tool_position_world_m, 0};
-    write_model(*simulation_, {state, static_cast<int>(t), model, step_ns, report_radius_m(scene_->tools[t])},
+                            state.tool_position_world_m, 0, settings_of(t).shape};
+    write_model(*simulation_, {state, static_cast<int>(t), model, step_ns, report_radius_m(settings_of(t))},
                 hand.models->back());
     if (hand.forces != nullptr) hand.forces->publish({step_count_, force_on_hand_N(hand.models->back(), state)});
     hand.models->publish();
@@ -262,13 +279,15 @@ void FreeSession::publish_models() {
 }
 
 /// Of a remote hand only the force is known, not what it is made of.
-messages::FeltTool FreeSession::felt_by(const Tool& tool) const {
+messages::FeltTool FreeSession::felt_by(std::size_t index) const {
+  const Tool& tool = *tools_[index];
   if (tool.loop) {
     tool.loop->felt().update();
     return tool.loop->felt().front();
   }
   messages::FeltTool felt;
   felt.tool = tool.newest;
+  felt.held = tool_in_hand(scene_->tools[index], std::nullopt);
   (scene_->settings.tether ? felt.parts.tether : felt.parts.contact) = felt.tool.force_world_N;
   return felt;
 }
@@ -287,7 +306,7 @@ void FreeSession::publish_frame() {
   simulation_->write_frame(frame);
   frame.tools.clear();
   for (std::size_t t = 0; t < tools_.size(); ++t) {
-    const messages::FeltTool felt = felt_by(*tools_[t]);
+    const messages::FeltTool felt = felt_by(t);
     if (felt.tool.sequence > 0 || tools_[t]->loop) frame.tools.push_back(tool_frame(felt, *scene_, t, *simulation_));
   }
   RateMeter::Count count{realtime::steady_now_ns(), step_count_, 0, 0};

@@ -114,8 +114,10 @@ class FreeSession final : public Session {
   void simulate();
   void move_scripted_hands(double time_s);
   void hear(Tool& tool) const;
-  messages::FeltTool felt_by(const Tool& tool) const;
+  messages::FeltTool felt_by(std::size_t index) const;
   void obey(const messages::Command& command);
+  void hand_over_tools();
+  ToolSettings settings_of(std::size_t tool) const;
   void step();
   void publish_models();
   void publish_frame();

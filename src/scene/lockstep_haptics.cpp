@@ -18,7 +18,7 @@ haptics::HapticSettings haptic_settings(const ToolSettings& tool) {
   settings.contact.along_over_across = tool.along_over_across;
   settings.contact.viscous_Ns_m = tool.viscous_Ns_m;
   settings.snap.force_N = tool.line_snap_N;
-  settings.takes_bones_only = tool.shape == messages::ToolShape::Clamp;
+  settings.shape = tool.shape;
   settings.force_scale = tool.force_scale;
   settings.gate.force_limit = tool.force_limit;
   settings.texture = tool.texture;

@@ -84,6 +84,22 @@ std::string printable(std::string_view bytes) {
   return text;
 }
 
+// A flag and the tool that was chosen, in the byte that once held the flag alone: 0 or 1.
+constexpr std::uint8_t kFlag = 1;
+constexpr int kToolShift = 1;
+
+std::uint8_t with_tool(bool flag, const std::optional<messages::ToolShape>& tool) {
+  const int number = tool ? 1 + static_cast<int>(*tool) : 0;
+  return static_cast<std::uint8_t>((flag ? kFlag : 0) | (number << kToolShift));
+}
+
+std::optional<messages::ToolShape> tool_of(std::uint8_t byte, bool& ok) {
+  const int number = byte >> kToolShift;
+  ok = ok && number <= 1 + static_cast<int>(messages::ToolShape::Clamp);
+  if (!ok || number == 0) return std::nullopt;
+  return static_cast<messages::ToolShape>(number - 1);
+}
+
 std::uint32_t checksum(std::uint32_t type, std::string_view payload) {
   uLong crc = crc32(0L, Z_NULL, 0);
   crc = crc32(crc, reinterpret_cast<const Bytef*>(&type), sizeof type);
@@ -155,7 +171,9 @@ bool read_ticks(const Chunk& chunk, Recording& recording) {
     tick.model_sequence = cursor.take<std::uint64_t>();
     if (chunk.type != kUntimedTicksOfOne) {
       tick.time_ns = cursor.take<std::uint64_t>();
-      tick.forces_stopped = cursor.take<std::uint8_t>() != 0;
+      const auto byte = cursor.take<std::uint8_t>();
+      tick.forces_stopped = (byte & kFlag) != 0;
+      tick.chosen = tool_of(byte, cursor.ok);
     }
     if (cursor.ok) tool->ticks.push_back(tick);
   }
@@ -169,7 +187,9 @@ bool read_model(const Chunk& chunk, Recording& recording) {
   ModelRecord model;
   model.sequence = cursor.take<std::uint64_t>();
   model.published_at_ns = cursor.take<std::uint64_t>();
-  model.holds_still = cursor.take<std::uint8_t>() != 0;
+  const auto byte = cursor.take<std::uint8_t>();
+  model.holds_still = (byte & kFlag) != 0;
+  model.chosen = tool_of(byte, cursor.ok);
   model.tool_position_world_m = cursor.take<std::array<double, 3>>();
   model.step = recording.steps.size();
   if (cursor.ok) tool->models.push_back(model);
@@ -199,7 +219,7 @@ bool read_chunk(const Chunk& chunk, Recording& recording) {
 }  // namespace
 
 TickRecord record_of(const haptics::HapticTick& tick) {
-  return {tick.device, tick.model_sequence, tick.tool.time_ns, tick.gate == haptics::GateState::Off};
+  return {tick.device, tick.model_sequence, tick.tool.time_ns, tick.gate == haptics::GateState::Off, tick.chosen};
 }
 
 RecordingWriter::RecordingWriter(const std::filesystem::path& path, const std::string& header_json)
@@ -240,7 +260,7 @@ void RecordingWriter::add(std::size_t tool, const std::vector<TickRecord>& ticks
     append(payload, tick.device);
     append(payload, tick.model_sequence);
     append(payload, tick.time_ns);
-    append(payload, static_cast<std::uint8_t>(tick.forces_stopped));
+    append(payload, with_tool(tick.forces_stopped, tick.chosen));
   }
   write_chunk(kTicks, payload);
 }
@@ -250,7 +270,7 @@ void RecordingWriter::add(std::size_t tool, const ModelRecord& model) {
   append(payload, static_cast<std::uint32_t>(tool));
   append(payload, model.sequence);
   append(payload, model.published_at_ns);
-  append(payload, static_cast<std::uint8_t>(model.holds_still));
+  append(payload, with_tool(model.holds_still, model.chosen));
   append(payload, model.tool_position_world_m);
   write_chunk(kModel, payload);
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "core/vector.h"
 #include "haptics/haptic_loop.h"
 #include "messages/device.h"
+#include "messages/held_tool.h"
 #include "messages/tool_state.h"
 
 namespace myotact::scene {
@@ -35,6 +37,7 @@ struct TickRecord {
   std::uint64_t model_sequence = 0;
   std::uint64_t time_ns = 0;    // of the loop's clock
   bool forces_stopped = false;  // by a person or a caller
+  std::optional<messages::ToolShape> chosen = {};  // asked for in that tick; none: as the scene says
 };
 
 TickRecord record_of(const haptics::HapticTick& tick);
@@ -46,6 +49,7 @@ struct ModelRecord {
   bool holds_still = false;                       // the simulation paused
   std::array<double, 3> tool_position_world_m{};  // of the tool state for which it was written
   std::size_t step = 0;                           // steps before this one; by the place in the file
+  std::optional<messages::ToolShape> chosen = {};  // for which contacts are reported; none: as the scene says
 };
 
 /// What one tool's device and loop went through.

@@ -13,7 +13,8 @@ namespace myotact::scene {
 
 namespace {
 
-constexpr int kSchema = 2;  // 1 knew one tool: "device" in place of "devices"
+/// 1 knew one tool: "device" in place of "devices"; 2 did not know that a person chooses tools.
+constexpr int kSchema = 3;
 
 /// Keys of a device's profile in the header.
 struct ProfileKey {

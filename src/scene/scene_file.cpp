@@ -17,6 +17,7 @@
 #include "scene/fascia_file.h"
 #include "scene/tether_file.h"
 #include "scene/texture_file.h"
+#include "scene/tool_choice.h"
 #include "simulation/line/line_model.h"
 #include "simulation/skeleton/skeleton.h"
 
@@ -25,7 +26,7 @@ namespace myotact::scene {
 namespace {
 
 // Radii of tools: a blunt needle's and a ballpoint's, a thumb's.
-constexpr double kFinestPoint_m = 0.3e-3, kPointRadius_m = 0.5e-3, kThickestPoint_m = 1e-3, kThickestBall_m = 1e-2;
+constexpr double kFinestPoint_m = 0.3e-3, kThickestPoint_m = 1e-3, kThickestBall_m = 1e-2;
 
 std::filesystem::path scenes_folder() {
   return data_folder() / "assets" / "scenes";

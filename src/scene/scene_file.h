@@ -35,7 +35,7 @@ struct CoContraction {
   std::vector<CoContractionPreset> presets;
 };
 
-inline constexpr std::size_t kMostTools = 2;  // a person has two hands
+inline constexpr std::size_t kMostTools = messages::kMostChosenTools;  // a person has two hands
 
 struct ToolSettings {
   std::string device = "simulated";

@@ -13,8 +13,8 @@ messages::ToolFrame tool_frame(const messages::FeltTool& felt, const Scene& scen
   frame.tool_world_m = tool.tool_position_world_m;
   frame.proxy_world_m = tool.proxy_position_world_m;
   frame.force_world_N = tool.force_world_N;
-  frame.radius_m = settings.radius_m;
-  frame.shape = settings.shape;
+  frame.radius_m = felt.held.radius_m;
+  frame.shape = felt.held.shape;
   frame.left = settings.hand == "left";
   frame.in_contact = tool.contact.surface >= 0;
   const int bone = tool.contact.surface - simulation.muscle_count();  // surfaces: muscles, then bones

@@ -12,6 +12,8 @@ namespace {
 constexpr double kFelt_N = 0.02;    // less force than this moves no device: nothing can buzz
 constexpr double kSoften_s = 0.02;  // a stiffness that is too much is gone before a second swing
 constexpr double kStiffen_s = 0.5;  // and comes back without a push
+/// A hand without force against it stands where it wants to be (own choice); by then the ramp sends a third.
+constexpr double kComesToRest_s = 0.3;
 
 std::variant<ProxyTouch, ReportedTouch> chosen(const HapticSettings& settings) {
   if (settings.method == ForceMethod::Penetration) return ReportedTouch(PenetrationMethod(), settings.contact);
@@ -30,6 +32,12 @@ ContactEffect::ContactEffect(const HapticSettings& settings, const device::Devic
       method_(chosen(settings)),
       buzz_(profile.resolution_m) {}
 
+void ContactEffect::change_tool(double radius_m) noexcept {
+  std::visit([&](auto& method) { method.resize(radius_m); }, method_);
+  changing_s_ = kComesToRest_s;
+  stored_J_ = 0.0;
+}
+
 EffectTick ContactEffect::tick(const HandTick& hand, EffectNotes& notes) noexcept {
   EffectTick tick;
   tick.faults = soften(hand);
@@ -45,8 +53,18 @@ EffectTick ContactEffect::tick(const HandTick& hand, EffectNotes& notes) noexcep
   tick.port.environment_moved_m = felt.end_moved_m;
   tick.port.opens = !(stiffness_N_m > 0.0);  // what friction took pays for no later touch
   tick.port.stored_J = spring_energy_J(tick.force_N.norm(), stiffness_N_m, (felt.end_m - hand.hand.position_m).norm());
+  find_stored(tick.port, hand.dt_s);
   notes.touch = {felt.surface, felt.contact, force_N_, felt.end_moved_m, stiffness_N_m > 0.0};
   return tick;
+}
+
+/// A hand sinks in as the old tool's force fades out, against nothing; the ramp then lifts it out again.
+void ContactEffect::find_stored(PortTick& port, double dt_s) noexcept {
+  if (changing_s_ <= 0.0) return;
+  changing_s_ -= dt_s;
+  port.found_J = std::max(0.0, port.stored_J - stored_J_);
+  stored_J_ = port.stored_J;
+  port.opens = true;  // no surplus is kept of what is counted twice
 }
 
 std::uint32_t ContactEffect::soften(const HandTick& hand) noexcept {

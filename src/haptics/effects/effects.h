@@ -46,6 +46,8 @@ class Effects {
   /// `settings` as the device supports them. Allocates.
   Effects(const HapticSettings& settings, const device::DeviceProfile& profile);
 
+  /// Another tool touches from the next tick on; what is in hand stays there. Real-time safe.
+  void change_tool(double radius_m) noexcept { std::get<ContactEffect>(effects_).change_tool(radius_m); }
   /// Once a tick in which the device's numbers are finite.
   const EffectTicks& tick(const HandTick& hand) noexcept;
   /// Writes what the simulation must know of the last tick into `tool`, whose other members stay.

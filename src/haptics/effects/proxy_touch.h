@@ -21,6 +21,8 @@ class ProxyTouch {
  public:
   explicit ProxyTouch(const ContactSettings& settings);
 
+  void resize(double radius_m) noexcept { proxy_.resize(radius_m); }
+
   /// `share`: 0 .. 1, how much of the stiffness is allowed.
   TouchTick tick(const HandTick& hand, double share) noexcept;
   /// Writes the proxy's place and, if `share` > 0, the contact. The spring pulls the touched point with the opposite of

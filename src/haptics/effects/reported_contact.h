@@ -79,6 +79,8 @@ class PlaneMethod {
  public:
   explicit PlaneMethod(double radius_m) : radius_m_(radius_m) {}
 
+  void resize(double radius_m) noexcept { radius_m_ = radius_m; }
+
   /// The tool's middle in this tick.
   void move(const Vec3& tool_m) noexcept { tool_m_ = tool_m; }
   /// A new report, sound (moving_surface.h, is_sound).

@@ -5,6 +5,11 @@ namespace myotact::haptics {
 ReportedTouch::ReportedTouch(const Method& method, const ContactSettings& settings)
     : settings_(settings), method_(method) {}
 
+void ReportedTouch::resize(double radius_m) noexcept {
+  settings_.radius_m = radius_m;
+  if (auto* plane = std::get_if<PlaneMethod>(&method_)) plane->resize(radius_m);
+}
+
 /// A report that makes the spring jump from d0 to d1 changes its energy by k (d1^2 - d0^2) / 2; per force k d0, that is
 /// a motion of its end.
 TouchTick ReportedTouch::tick(const HandTick& hand, double share) noexcept {

@@ -18,6 +18,8 @@ class ReportedTouch {
 
   ReportedTouch(const Method& method, const ContactSettings& settings);
 
+  void resize(double radius_m) noexcept;
+
   /// `share`: 0 .. 1, how much of the stiffness is allowed.
   TouchTick tick(const HandTick& hand, double share) noexcept;
   /// Writes the sphere's place and, if `share` > 0, the contact that carries most, with the spring that has the

@@ -126,12 +126,13 @@ void ForceGate::change_state(const GateInput& input, double dt_s) noexcept {
   const std::uint64_t fresh_ns = fresh_for_ns(input);
   const bool stale = !input.has_model || model_age_ns_ > fresh_ns;
   if (stale && input.has_model) faults_ |= bit(Fault::StaleModel);
-  if (stale && (state_ == GateState::Ramp || state_ == GateState::On)) {
+  const bool fades = stale || input.changing;
+  if (fades && (state_ == GateState::Ramp || state_ == GateState::On)) {
     fade_from_ = gain_;
     state_ = GateState::Fade;
-  } else if (!stale && state_ == GateState::Fade) {
+  } else if (!fades && state_ == GateState::Fade) {
     state_ = GateState::Ramp;
-  } else if (!stale && state_ == GateState::Armed && input.wanted_N.norm() < settings_.arm_below_N) {
+  } else if (!fades && state_ == GateState::Armed && input.wanted_N.norm() < settings_.arm_below_N) {
     state_ = GateState::Ramp;
   }
   if (state_ == GateState::Ramp) {
@@ -142,7 +143,8 @@ void ForceGate::change_state(const GateInput& input, double dt_s) noexcept {
     const double left = age_ns >= kZeroAfter_ns ? 0.0
                                                 : static_cast<double>(kZeroAfter_ns - age_ns) /
                                                       static_cast<double>(kZeroAfter_ns - fresh_ns);
-    gain_ = std::min(gain_, fade_from_ * left);
+    if (stale) gain_ = std::min(gain_, fade_from_ * left);
+    if (input.changing) gain_ = std::max(0.0, gain_ - dt_s / settings_.change_s);
   }
 }
 

@@ -16,6 +16,7 @@ struct GateSettings {
   double slew_N_s = 300.0;      // of rising |F|
   double cut_off_m_s = 1.0;     // a device that moves faster gets no force (own choice)
   double energy_store_J = 0.1;  // of what the hand put in and may get back: 3.3 N drawn 30 mm
+  double change_s = 0.1;        // from the full force to none, for another tool (own choice: as with an old model)
   double active_power_W = 0.1;  // muscles do real work on the hand; this much a second is no instability
 };
 
@@ -26,6 +27,7 @@ struct GateInput {
   Vec3 device_position_m = Vec3::Zero();
   bool connected = true;
   bool cut = false;           // a watchdog took the force away
+  bool changing = false;      // the hand is to get another tool, which it may not feel at once
   bool clutched = false;      // the hand moves without the tool, whose force must not drive it
   double damping_Ns_m = 0.0;  // already in the wanted force; device supports only so much
   bool has_model = false;
@@ -39,7 +41,7 @@ struct GateInput {
 ///   enable()        |F| < 0.2 N            full
 ///   OFF ---> ARMED -------------> RAMP ----------> ON
 ///    ^ stop()  ^ lost, clutched    ^                | no new model for max(30 ms, 2 steps); zero at 100 ms
-///              |                   '---- FADE <-----'
+///              |                   '---- FADE <-----'  or while the tool is to change
 ///
 /// A tick: finite check, ramp and fade, clamp, slew limit on rising |F|, passivity on the force really sent, clamp.
 /// Faults of device, numbers and stop give zero in the same tick: a device that moves faster than any hand (20 m/s) is
@@ -61,6 +63,8 @@ class ForceGate {
   double limit_N() const noexcept { return heat_.limit_N(); }
 
   GateState state() const noexcept { return state_; }
+  /// Nothing of what is wanted gets through, whatever it is. Haptic thread.
+  bool is_shut() const noexcept { return gain_ <= 0.0; }
   /// Of the last admit, what the passivity of the sent force added [N].
   const Vec3& damping_N() const noexcept { return damping_N_; }
   std::uint32_t faults() const noexcept { return faults_; }  // bits of Fault raised by the last admit

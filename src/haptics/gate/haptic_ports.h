@@ -32,7 +32,7 @@ class HapticPorts {
   void book(const Vec3& sent_N) noexcept;
 
   double damping_Ns_m() const noexcept;                 // added in the last tick, all ports
-  double found_J() const noexcept { return found_J_; }  // stored in lines, grips and tethers as they began, so far
+  double found_J() const noexcept { return found_J_; }  // stored in lines, grips, tethers and tools as they began
   double missing_J() const noexcept;                    // what came out and should not have, in the worst port
   const EnergyPort& port(std::size_t effect) const noexcept { return ports_[effect]; }
 

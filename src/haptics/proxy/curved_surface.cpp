@@ -22,6 +22,11 @@ constexpr double kSettled = 1e-3;
 
 }  // namespace
 
+void CurvedSurface::resize(double radius_m) noexcept {
+  shortest_m_ = kShortest * radius_m;
+  ++version_;
+}
+
 void CurvedSurface::begin_tick(const MovingSurface& surface) noexcept {
   const bool is_linked = surface_ == &surface && linked_list_ == surface.list_count();
   surface_ = &surface;

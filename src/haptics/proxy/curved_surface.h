@@ -34,6 +34,8 @@ class CurvedSurface {
 
   explicit CurvedSurface(double radius_m) noexcept : shortest_m_(kShortest * radius_m) {}
 
+  /// For another sphere from the next tick on.
+  void resize(double radius_m) noexcept;
   void begin_tick(const MovingSurface& surface) noexcept;
   /// The point of the patch over a triangle that is nearest to `p_m`, by Gauss-Newton from the triangle's own.
   NearestPoint nearest(const NearestPoint& on_triangle, const Vec3& p_m) noexcept;

@@ -16,6 +16,12 @@ constexpr double kMostGrowth = 0.25;
 
 }  // namespace
 
+void NearSurface::resize(double radius_m, const StandOff& stand_off) noexcept {
+  radius_m_ = radius_m;
+  stand_off_ = stand_off;
+  enclosed_list_ = 0;  // what stands on the triangles is other now
+}
+
 void NearSurface::begin_tick(const MovingSurface& surface, const messages::LocalModel& model) noexcept {
   surface_ = &surface;
   coverage_centre_m_ = to_vec3(model.coverage_centre_world_m);

@@ -35,6 +35,8 @@ class NearSurface {
   };
   NearSurface(double radius_m, const StandOff& stand_off) noexcept : radius_m_(radius_m), stand_off_(stand_off) {}
 
+  /// Another sphere from the next tick on.
+  void resize(double radius_m, const StandOff& stand_off) noexcept;
   /// Starts a tick on this surface, which stays where it is until the next call.
   void begin_tick(const MovingSurface& surface, const messages::LocalModel& model) noexcept;
   /// Takes the triangles that a centre may meet that goes at most `travel_m` from `p_m` while the surface moves.

@@ -39,15 +39,26 @@ constexpr double kUsualWay = 0.02;
 /// Longer ways that a tick may be allowed.
 constexpr int kMostWays = 3;
 
+NearSurface::StandOff stand_off_for(double radius_m) {
+  return {4.0 / 3.0 * CurvedSurface::kHighest_m, CurvedSurface::kSteepest, CurvedSurface::kShortest * radius_m};
+}
+
 }  // namespace
 
 Proxy::Proxy(const ContactSettings& settings)
     : settings_(settings),
       friction_(settings),
-      near_(std::max(settings.radius_m, kPoint_m), {4.0 / 3.0 * CurvedSurface::kHighest_m, CurvedSurface::kSteepest,
-                                                    CurvedSurface::kShortest * std::max(settings.radius_m, kPoint_m)}),
+      near_(std::max(settings.radius_m, kPoint_m), stand_off_for(std::max(settings.radius_m, kPoint_m))),
       skin_(std::max(settings.radius_m, kPoint_m)) {
   settings_.radius_m = std::max(settings.radius_m, kPoint_m);
+}
+
+void Proxy::resize(double radius_m) noexcept {
+  settings_.radius_m = std::max(radius_m, kPoint_m);
+  near_.resize(settings_.radius_m, stand_off_for(settings_.radius_m));
+  skin_.resize(settings_.radius_m);
+  anchor_ = {};
+  friction_.release();
 }
 
 void Proxy::follow(const Vec3& position_m) noexcept {

@@ -84,6 +84,9 @@ class Proxy {
     settings_.damping_Ns_m = damping_Ns_m;
     friction_.couple(stiffness_N_m);
   }
+  /// From now on the sphere is this large. Its middle stays outside where it is, and what comes to lie inside of a
+  /// larger sphere pushes it off in the next tick, into no other surface; what it stuck to is let go.
+  void resize(double radius_m) noexcept;
   /// Advances to the end of the surface's tick, `dt_s` > 0 long.
   void tick(const MovingSurface& surface, const messages::LocalModel& model, const ProxyGoal& goal,
             double dt_s) noexcept;

@@ -71,6 +71,19 @@ void draw_touched(const PanelContext& context, const messages::ToolFrame& tool) 
   ui::paragraph(ui::tr("feel.touches_bone", bones_of(context, tool.touched_body)));
 }
 
+/// Where the scene is simulated here: a server's hands are their own, and a recording's tools are what they were.
+void draw_choice(PanelContext& context, const messages::ToolFrame& tool, bool alone) {
+  constexpr std::array kShapes = {"feel.tool.ball", "feel.tool.point", "feel.tool.clamp"};  // as in ToolShape
+  const messages::ChosenTools chosen = context.scene.state().tools;
+  const auto hand = static_cast<std::size_t>(tool.hand);
+  if (context.facts.is_served || context.facts.replay_s > 0.0 || hand >= chosen.size()) return;
+  const char* key = alone ? "feel.tool" : tool.left ? "feel.tool_left" : "feel.tool_right";
+  int shape = static_cast<int>(chosen.at(hand).value_or(tool.shape));
+  if (ui::choice(key, shape, kShapes)) {
+    context.scene.push(messages::ChooseTool{tool.hand, static_cast<messages::ToolShape>(shape)});
+  }
+}
+
 struct PartOfForce {
   const char* key;
   double force_N;
@@ -143,6 +156,7 @@ void FeelPanel::draw_tools(PanelContext& context) {
   for (std::size_t t = 0; t < tools.size() && t < context.facts.device_peaks_N.size(); ++t) {
     draw_force(tools[t], context.facts.device_peaks_N[t], tools.size() == 1);
     draw_touched(context, tools[t]);
+    draw_choice(context, tools[t], tools.size() == 1);
   }
   if (tools.empty()) return;
   const messages::ToolFrame& tool = tools.front();

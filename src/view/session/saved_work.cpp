@@ -21,18 +21,36 @@ namespace {
 constexpr int kSchema = 1;
 constexpr const char* kFolder = "works";
 const std::vector<std::string> kDrives = {"script", "levels", "balance"};  // as in Drive
+/// Of a hand's tool: as the scene says, or as in ToolShape.
+const std::vector<std::string> kTools = {"scene", "ball", "point", "clamp"};
 const std::vector<std::string> kTissues = {"", "fem", "mass_spring", "line", "rigid"};
 
 nlohmann::json json_of(const SceneState& state) {
   // All members by name: a new one does not compile until it is saved.
-  const auto& [drive, flexors, extensors, common, difference, hold_posture, gravity] = state;
+  const auto& [drive, flexors, extensors, common, difference, hold_posture, gravity, tools] = state;
+  nlohmann::json tool_names = nlohmann::json::array();
+  for (const auto& tool : tools) tool_names.push_back(kTools.at(tool ? 1 + static_cast<std::size_t>(*tool) : 0));
   return {{"drive", kDrives.at(static_cast<std::size_t>(drive))},
           {"flexors", flexors},
           {"extensors", extensors},
           {"common", common},
           {"difference", difference},
           {"hold_posture", hold_posture},
-          {"gravity", gravity}};
+          {"gravity", gravity},
+          {"tools", tool_names}};
+}
+
+/// In the scene's order; those that the file does not name are as the scene says.
+messages::ChosenTools parse_tools(const JsonValue& json) {
+  messages::ChosenTools tools{};
+  std::size_t next = 0;
+  for (const JsonValue& name : json.elements()) {
+    if (next == tools.size()) throw name.error("is one more than a person has hands; name two at most");
+    const auto at = std::find(kTools.begin(), kTools.end(), name.one_of(kTools)) - kTools.begin();
+    if (at > 0) tools.at(next) = static_cast<messages::ToolShape>(at - 1);
+    ++next;
+  }
+  return tools;
 }
 
 SceneState parse_state(const JsonValue& json) {
@@ -50,6 +68,7 @@ SceneState parse_state(const JsonValue& json) {
   state.difference = level("difference", -1.0);
   state.hold_posture = object.boolean_or("hold_posture", state.hold_posture);
   state.gravity = object.boolean_or("gravity", state.gravity);
+  if (const auto tools = object.find("tools")) state.tools = parse_tools(*tools);
   object.finish();
   return state;
 }

@@ -31,6 +31,10 @@ void carry_out(const messages::Pause& pause, ControlState& state) {
 void carry_out(const messages::EndRecording&, ControlState& state) {
   state.recording = false;
 }
+void carry_out(const messages::ChooseTool& choice, ControlState& state) {
+  const auto tool = static_cast<std::size_t>(choice.tool);
+  if (tool < state.tools.size()) state.tools.at(tool) = choice.shape;
+}
 
 /// What is in force once the order is.
 ControlState after(const messages::Order& order, ControlState state) {
@@ -53,6 +57,9 @@ bool replaces(const messages::Order& later, const messages::Order& earlier) {
     return std::holds_alternative<messages::SetLevels>(order) || std::holds_alternative<messages::CoContract>(order) ||
            std::holds_alternative<messages::FollowScript>(order);
   };
+  const auto* tool = std::get_if<messages::ChooseTool>(&later);
+  const auto* tool_before = std::get_if<messages::ChooseTool>(&earlier);
+  if (tool != nullptr && tool_before != nullptr) return tool->tool == tool_before->tool;  // of the same hand
   return later.index() == earlier.index() || (drives(later) && drives(earlier));
 }
 
@@ -91,7 +98,7 @@ void SceneControls::show() {
 
 SceneState scene_state_of(const ControlState& state) {
   return {state.drive,      state.flexors,      state.extensors, state.common,
-          state.difference, state.hold_posture, state.gravity};
+          state.difference, state.hold_posture, state.gravity,   state.tools};
 }
 
 std::vector<messages::Order> orders_between(const SceneState& from, const SceneState& to) {
@@ -108,6 +115,9 @@ std::vector<messages::Order> orders_between(const SceneState& from, const SceneS
   }
   if (from.hold_posture != to.hold_posture) orders.emplace_back(messages::HoldPosture{to.hold_posture});
   if (from.gravity != to.gravity) orders.emplace_back(messages::SetGravity{to.gravity});
+  for (std::size_t t = 0; t < to.tools.size(); ++t) {
+    if (from.tools.at(t) != to.tools.at(t)) orders.emplace_back(messages::ChooseTool{static_cast<int>(t), to.tools.at(t)});
+  }
   return orders;
 }
 

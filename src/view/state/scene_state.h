@@ -18,6 +18,7 @@ struct SceneState {
   double difference = 0.0;                // Balance, -1 .. 1
   bool hold_posture = false;
   bool gravity = false;
+  messages::ChosenTools tools{};  // of the scene, in its order; none: as the scene says
 
   bool operator==(const SceneState&) const = default;
 };

@@ -60,6 +60,7 @@ Json frame_json(const PanelContext& context) {
     tools.push_back({{"force_world_N", tool.force_world_N},
                      {"tool_world_m", tool.tool_world_m},
                      {"proxy_world_m", tool.proxy_world_m},
+                     {"radius_m", tool.radius_m},
                      {"in_contact", tool.in_contact},
                      {"touched_muscle", key_of(context.specimen.muscles, tool.touched_muscle)},
                      {"grabbed_line", key_of(context.specimen.muscles, tool.grabbed_line)},

@@ -53,6 +53,20 @@ TEST(ForceGate, LimitsTheRiseOnly) {
   EXPECT_EQ(rig.tick(Vec3::Zero()).norm(), 0.0);  // letting go is never late
 }
 
+TEST(ForceGate, WhileTheToolChangesItFadesOutAndThenComesBackThroughTheRamp) {
+  Rig rig;
+  rig.open();
+  for (int i = 0; i < 20; ++i) rig.tick(Vec3(1, 0, 0));
+  rig.input.changing = true;
+  for (int i = 1; i < 100; ++i) EXPECT_NEAR(rig.tick(Vec3(1, 0, 0)).x(), 1.0 - 0.01 * i, 1e-9);
+  EXPECT_FALSE(rig.gate.is_shut());
+  for (int i = 0; i < 300; ++i) rig.tick(Vec3(1, 0, 0));
+  EXPECT_TRUE(rig.gate.is_shut());
+  EXPECT_EQ(rig.tick(Vec3(1, 0, 0)).norm(), 0.0);
+  rig.input.changing = false;
+  for (int i = 1; i <= 500; ++i) EXPECT_NEAR(rig.tick(Vec3(1, 0, 0)).x(), 1e-3 * i, 1e-9);
+}
+
 TEST(ForceGate, NotANumberGivesZeroAndComesBackThroughTheRamp) {
   Rig rig;
   rig.open();

@@ -6,6 +6,7 @@
 #include "view/hinge_window.h"
 #include "view/panels/bookmark_list.h"
 #include "view/panels/demonstrate_panel.h"
+#include "view/panels/feel_panel.h"
 #include "view/panels/find_panel.h"
 
 // What a person's clicks in panels ask for.
@@ -146,6 +147,41 @@ TEST_F(ClickedBookmarks, OneTooManyIsSaid) {
   click("session.bookmark_add");
   EXPECT_EQ(marks_.bookmarks.size(), kMostBookmarks);
   EXPECT_NE(asks_.message.find("200"), std::string::npos) << asks_.message;
+}
+
+class ClickedTools : public ClickedPanel {
+ protected:
+  ClickedTools() {
+    facts_.device_peaks_N = {3.3, 3.3};
+    frame_.tools.resize(2);
+    frame_.tools[1].hand = 1;
+    frame_.tools[1].shape = messages::ToolShape::Clamp;
+    frame_.tools[1].left = true;
+    panel_ = [this](PanelContext& context) { feel_.draw(context); };
+  }
+  FeelPanel feel_{specimen_};
+};
+
+TEST_F(ClickedTools, EachHandIsGivenTheOneThatIsChosenForIt) {
+  EXPECT_TRUE(places_of("feel.tool").empty()) << "two hands are told apart";
+  EXPECT_EQ(places_of("feel.tool_right").at(0).value, "feel.tool.ball");
+  EXPECT_EQ(places_of("feel.tool_left").at(0).value, "feel.tool.clamp") << "as the scene says";
+  click("feel.tool_left");
+  click("feel.tool.point");
+  const auto commands = scene_.take_commands();
+  ASSERT_EQ(commands.size(), 1u);
+  const auto& order = std::get<messages::ChooseTool>(commands[0].order);
+  EXPECT_EQ(order.tool, 1);
+  EXPECT_EQ(order.shape, messages::ToolShape::Point);
+  EXPECT_EQ(places_of("feel.tool_left").at(0).value, "feel.tool.point") << "at once";
+}
+
+TEST_F(ClickedTools, OfAServersSceneAndARecordingNoneIsOffered) {
+  facts_.is_served = true;
+  EXPECT_TRUE(places_of("feel.tool_right").empty());
+  facts_.is_served = false;
+  facts_.replay_s = 3.0;
+  EXPECT_TRUE(places_of("feel.tool_right").empty());
 }
 
 class ClickedDemonstration : public ClickedPanel {

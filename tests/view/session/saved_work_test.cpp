@@ -41,7 +41,7 @@ ViewState unusual_view(const anatomy::Specimen& specimen) {
 SavedWork unusual_work() {
   const anatomy::Specimen specimen = limb();
   SavedWork work{"elbow", "line", specimen.name, saved_view(unusual_view(specimen), specimen), {}, {}, {}};
-  work.state = {Drive::Balance, 0.125, 1.0, 1.0 / 3.0, -1.0, true, true};
+  work.state = {Drive::Balance, 0.125, 1.0, 1.0 / 3.0, -1.0, true, true, {std::nullopt, messages::ToolShape::Point}};
   work.marks.notes["flexor"] = "zwei \"Köpfe\"\n";
   work.marks.bookmarks = {{"von vorn / 前", saved_view(start_view(specimen, 1.0f), specimen)}, {"b", work.view}};
   return work;
@@ -136,6 +136,7 @@ TEST(SavedWork, WhatIsWrongIsToldWithPlaceAndRemedy) {
   told("\"schema\": 1", "\"schema\": 2", "/schema: is 2; this program reads 1: open the file with the Myotact that");
   told("\"tissue\": \"line\"", "\"tissue\": \"lime\"", "/tissue: is \"lime\"; must be one of");
   told("\"common\": 0.3333333333333333", "\"common\": 1.5", "/settings/common: is 1.5; must be between 0 and 1");
+  told("\"point\"", "\"pint\"", "/settings/tools/1: is \"pint\"; must be one of scene, ball, point, clamp");
   told("\"settings\"", "\"setings\"", "\"settings\" is missing");
   told("\"drive\": \"balance\"", "\"drive\": 3", "/settings/drive: is 3; must be a text");
   told("\"selected\"", "\"selektiert\"", "selektiert");

@@ -95,6 +95,23 @@ TEST_F(SceneControlsTest, OfTwoThatLeadTheMusclesTheLaterOneCounts) {
   EXPECT_TRUE(std::holds_alternative<messages::FollowScript>(commands[3].order));
 }
 
+TEST_F(SceneControlsTest, EachHandHasAToolOfItsOwnAndBothAreSetBack) {
+  using messages::ToolShape;
+  hear(0.0);
+  const SceneState before = scene_state_of(controls_.state());
+  controls_.push(messages::ChooseTool{0, ToolShape::Point});
+  controls_.push(messages::ChooseTool{1, ToolShape::Clamp});
+  controls_.push(messages::ChooseTool{1, ToolShape::Ball});
+  EXPECT_EQ(controls_.state().tools, (messages::ChosenTools{ToolShape::Point, ToolShape::Ball}));
+  controls_.take_commands();
+  controls_.restore(before);
+  const auto commands = controls_.take_commands();
+  ASSERT_EQ(commands.size(), 2u);
+  EXPECT_FALSE(std::get<messages::ChooseTool>(commands[0].order).shape) << "as the scene says";
+  EXPECT_EQ(std::get<messages::ChooseTool>(commands[1].order).tool, 1);
+  EXPECT_EQ(scene_state_of(controls_.state()), before);
+}
+
 TEST_F(SceneControlsTest, AServerThatBeganAnewIsHeardFromItsFirstFrame) {
   for (int i = 0; i < 500; ++i) hear(0.02 * i);
   frame_.sequence = 0;
