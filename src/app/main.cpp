@@ -74,6 +74,18 @@ CLI::App* add_view(CLI::App& program, Options& options) {
   return view;
 }
 
+void add_look(CLI::App& command, Options& options) {
+  command
+      .add_option("--view", options.view,
+                  "from where pictures look: lateral, medial, cranial, caudal, dorsal, palmar, or azimuth,elevation "
+                  "[degrees]")
+      ->capture_default_str();
+  command.add_option(
+      "--show", options.show,
+      "what pictures show: muscles=KEYS bones=KEYS faded=KEYS select=KEY layers=deep,bones colour=tension "
+      "names=latin section=cranial:0.5 labels=on lines=off fibres=on attachments=on");
+}
+
 CLI::App* add_run(CLI::App& program, Options& options) {
   CLI::App* run =
       add_scene_command(program, options, "run", "no window: a scripted hand acts, tables and a picture come out");
@@ -82,17 +94,33 @@ CLI::App* add_run(CLI::App& program, Options& options) {
   run->add_option("--png", options.png, "write a picture of the scene at the end to this file");
   run->add_option("--sheet", options.sheet,
                   "write small pictures from four sides, with each joint at both ends of its range, to this file");
-  run->add_option("--view", options.view,
-                  "from where pictures look: lateral, medial, cranial, caudal, dorsal, palmar, or azimuth,elevation "
-                  "[degrees]")
-      ->capture_default_str();
-  run->add_option("--show", options.show,
-                  "what pictures show: muscles=KEYS bones=KEYS faded=KEYS select=KEY layers=deep,bones colour=tension "
-                  "names=latin section=cranial:0.5 labels=on lines=off fibres=on attachments=on");
+  add_look(*run, options);
   run->add_option("--size", options.size, "of pictures [pixels]")->capture_default_str();
   run->add_option("--every", options.every, "keep every n-th tick in samples.csv")->check(CLI::Range(1, 1000000));
   add_levels(*run, options, "; none: no table");
   return run;
+}
+
+CLI::App* add_export(CLI::App& program, Options& options) {
+  CLI::App* command = program.add_subcommand("export", "the limb to print and to share: a poster");
+  command->add_option("scene", options.scene, "built-in scene or scene file")->capture_default_str();
+  command->add_option("-o,--out", options.file, "file to be written: .png, a poster with names")->required();
+  add_look(*command, options);
+  command->add_option("--size", options.export_size, "of the picture [pixels]; default: 3840x2160");
+  command->add_option("--language", options.language,
+                      "of what is written over a poster: en, de, ...; parts then have their Latin names in all but en, "
+                      "unless --show names= says otherwise");
+  command
+      ->add_option("--seconds", options.seconds,
+                   "play the scene's script so long first [s]; without: the limb as it is balanced at the start")
+      ->check(CLI::Range(0.0, 86400.0));
+  command->add_option("--set", options.set, "override a key of the scene: key=value");
+  command->add_option("--log-level", options.log_level, "trace, debug, info, warning, error, critical or off")
+      ->capture_default_str();
+  command->add_option("--workers", options.workers, "threads of a simulation step")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  return command;
 }
 
 CLI::App* add_stiffness(CLI::App& program, Options& options) {
@@ -217,6 +245,7 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
   };
   bind(add_view(program, options), myotact::app::view);
   bind(add_run(program, options), myotact::app::run);
+  bind(add_export(program, options), myotact::app::export_scene);
   bind(add_stiffness(program, options), myotact::app::stiffness);
   CLI::App* replay = program.add_subcommand("replay", "run a recording again and compare the states");
   replay->add_option("file", options.file, "recording")->required();

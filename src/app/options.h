@@ -33,6 +33,9 @@ struct Options {
   std::string view = "lateral";
   std::vector<std::string> show;
   std::string size = "900x1200";
+  std::optional<std::string> export_size;  // export, as the two below; without: what suits the file
+  std::optional<double> turn_s;            // of a film, once round the limb
+  std::optional<std::string> language;     // of what is written over pictures
   int every = 1;
   int workers = 2;
   std::string angles;  // stiffness: a number list, degrees; empty: the scene's own
@@ -40,7 +43,7 @@ struct Options {
   std::optional<std::string> joint;  // stiffness
   std::string shard;
   std::vector<std::filesystem::path> merge;
-  std::filesystem::path file;                // replay, solve, probe, lesson
+  std::filesystem::path file;                // replay, solve, probe, lesson; export: what is written
   std::optional<std::filesystem::path> vtk;  // solve
   std::string filter;                        // validate
   std::optional<std::filesystem::path> report;
@@ -103,6 +106,7 @@ std::unique_ptr<scene::RecordingWriter> open_recorder(const Options& options, co
 
 // One function a subcommand, in the file of its name. Each returns the exit status of the program or throws Error.
 int run(const Options& options);
+int export_scene(const Options& options);
 int view(const Options& options);
 int stiffness(const Options& options);
 int replay(const Options& options);

@@ -15,15 +15,6 @@ namespace {
 constexpr float kShareBesideNames = 0.62f;
 constexpr int kSheetWidth_px = 240, kSheetHeight_px = 320;  // of a picture on a sheet
 
-view::ViewState look_of(const scene::Scene& scene, const messages::SceneFrame& frame, const PictureWish& wish) {
-  const float aspect = static_cast<float>(wish.size.width) / static_cast<float>(wish.size.height);
-  view::ViewState look = view::start_view(scene.specimen, aspect);
-  view::apply_show_options(wish.show, scene.specimen, look);
-  const float limb_aspect = look.labels ? kShareBesideNames * aspect : aspect;
-  look.camera = view::camera_of(wish.view, scene.specimen, view::bounds_of(scene.specimen, frame), limb_aspect);
-  return look;
-}
-
 /// One pose a row: angles, one a joint.
 std::vector<std::vector<double>> poses_of_sheet(const scene::Scene& scene) {
   std::vector<double> own_rad;
@@ -41,6 +32,15 @@ std::vector<std::vector<double>> poses_of_sheet(const scene::Scene& scene) {
 }
 
 }  // namespace
+
+view::ViewState look_of(const scene::Scene& scene, const messages::SceneFrame& frame, const PictureWish& wish) {
+  const float aspect = static_cast<float>(wish.size.width) / static_cast<float>(wish.size.height);
+  view::ViewState look = view::start_view(scene.specimen, aspect);
+  view::apply_show_options(wish.show, scene.specimen, look);
+  const float limb_aspect = look.labels ? kShareBesideNames * aspect : aspect;
+  look.camera = view::camera_of(wish.view, scene.specimen, view::bounds_of(scene.specimen, frame), limb_aspect);
+  return look;
+}
 
 void check_picture(const scene::Scene& scene, const PictureWish& wish) {
   look_of(scene, {}, wish);

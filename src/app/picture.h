@@ -19,6 +19,9 @@ struct PictureWish {
   view::PictureSize size;
 };
 
+/// How the scene is looked at. Throws as check_picture().
+view::ViewState look_of(const scene::Scene& scene, const messages::SceneFrame& frame, const PictureWish& wish);
+
 /// Throws Error Usage when the wish cannot be met for this scene: before hours of simulation, not after.
 void check_picture(const scene::Scene& scene, const PictureWish& wish);
 

@@ -20,6 +20,7 @@ namespace {
 constexpr int kSamples = 4;  // of anti-aliasing
 // Of a picture's shorter side: it is looked at as a whole, on a page or a slide.
 constexpr float kFontShare = 0.019f, kSmallestFont_px = 13.0f;
+constexpr float kOnScreen_px = 900.0f;  // of a larger picture's shorter side all strokes are as wide as on such a one
 
 Error no_egl(const std::string& what) {
   return {ExitStatus::Unavailable, what + ": no picture can be drawn; install libegl1 and libgl1-mesa-dri"};
@@ -108,7 +109,9 @@ struct OffscreenRenderer::Impl {
 
   void draw_scene(const messages::SceneFrame& frame, const ViewState& view, const SceneExtras& extras) {
     glBindFramebuffer(GL_FRAMEBUFFER, sampled.frame());
-    renderer.draw(frame, view, {0, 0, width, height}, extras);
+    SceneExtras scaled = extras;
+    scaled.stroke_scale *= std::max(1.0f, static_cast<float>(std::min(width, height)) / kOnScreen_px);
+    renderer.draw(frame, view, {0, 0, width, height}, scaled);
   }
 
   const anatomy::Specimen* specimen;

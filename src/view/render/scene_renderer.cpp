@@ -137,12 +137,14 @@ void SceneRenderer::draw(const messages::SceneFrame& frame, const ViewState& vie
   for (int b = 0; b < static_cast<int>(specimen_->bones.size()); ++b) {
     picture.bones.push_back(opacity_of(view, superficial(), {PartKind::Bone, b}));
   }
+  if (extras.stroke_scale != 1.0f) glLineWidth(extras.stroke_scale);  // at most what the graphics card can
   begin(picture);
   move_limb(picture);
   draw_limb(picture);
   if (extras.hovered && extras.hovered != selected_part(view)) draw_outline(picture, extras.hovered, kHovered, 2.0f);
   if (const Part part = selected_part(view)) draw_outline(picture, part, kSelected, 3.0f);
   draw_marks(picture);
+  if (extras.stroke_scale != 1.0f) glLineWidth(1.0f);
   glDisable(GL_SCISSOR_TEST);
   statistics_.frame_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - since).count();
 }
@@ -360,7 +362,7 @@ void SceneRenderer::draw_outline(const Picture& picture, const Part& part, const
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glStencilFunc(GL_NOTEQUAL, 1, 0xff);
   // Each pixel once, though the grown part's far side covers it too.
-  outline_program_.set("grow", half + glm::vec3(0.0f, 0.0f, width_px));
+  outline_program_.set("grow", half + glm::vec3(0.0f, 0.0f, picture.extras.stroke_scale * width_px));
   limb_.draw(part);
   glDisable(GL_STENCIL_TEST);
   glEnable(GL_DEPTH_TEST);
