@@ -166,6 +166,14 @@ std::string lessons_json(const scene::Scene& scene) {
   return lessons.dump();
 }
 
+/// Without what only the window retells: half of all texts, which a whole class would load at once.
+view::ui::Catalogue texts_of_page(const std::string& language) {
+  view::ui::Catalogue texts = view::ui::load_catalogue(language);
+  std::erase_if(texts,
+                [](const auto& text) { return text.first.starts_with("said.") || text.first.starts_with("place."); });
+  return texts;
+}
+
 }  // namespace
 
 net::WebFiles class_page(const scene::Scene& scene) {
@@ -177,7 +185,7 @@ net::WebFiles class_page(const scene::Scene& scene) {
   files["/shade.bin"] = net::web_file("application/octet-stream", shade_bytes(shade));
   files["/lessons.json"] = net::web_file(kJson, lessons_json(scene));
   for (const std::string& language : view::ui::languages()) {
-    files["/languages/" + language + ".json"] = net::web_file(kJson, Json(view::ui::load_catalogue(language)).dump());
+    files["/languages/" + language + ".json"] = net::web_file(kJson, Json(texts_of_page(language)).dump());
   }
   return files;
 }
