@@ -69,7 +69,7 @@ void HapticLoop::tick(std::uint64_t now_ns) noexcept {
   advance_clock(now_ns);
   faults_ = missed_ ? bit(Fault::MissedDeadline) : 0;
   missed_ = false;
-  const messages::DeviceState state = device_.read(now_ns);
+  const messages::DeviceState state = read_device(now_ns);
   if ((state.buttons & messages::kStopButton) != 0) gate_.stop();
   change_tool();
   const bool is_new = take_model();
@@ -85,6 +85,15 @@ void HapticLoop::tick(std::uint64_t now_ns) noexcept {
   ports_.book(forces_.sent_N);
   forces_.gate_damping_N = gate_.damping_N();
   report(state);
+}
+
+/// In the device's own buttons, so that who records and repeats them need not know of it.
+messages::DeviceState HapticLoop::read_device(std::uint64_t now_ns) noexcept {
+  messages::DeviceState state = device_.read(now_ns);
+  if (held_off_.load(std::memory_order_relaxed)) {
+    state.buttons = (state.buttons & messages::kStopButton) | messages::kClutchButton;
+  }
+  return state;
 }
 
 void HapticLoop::advance_clock(std::uint64_t now_ns) noexcept {

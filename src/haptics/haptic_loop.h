@@ -51,6 +51,9 @@ class HapticLoop {
   /// Any thread: true: force zero from the next tick on, as the device's stop button does; it stays zero until false:
   /// the gate arms again and ramps up.
   void stop_forces(bool stopped) noexcept { stopped ? gate_.stop() : gate_.enable(); }
+  /// Any thread: true: no force, and the hand lets go, as while its clutch is held; false: the gate opens again where
+  /// little is wanted. Apart from any stop, which stays what it is. For a scene whose tissue is put elsewhere at once.
+  void hold_off(bool on) noexcept { held_off_.store(on, std::memory_order_relaxed); }
   /// Any thread.
   bool is_stopped() const noexcept { return gate_.is_stopped(); }
   /// Haptic thread: the next tick learns that a watchdog took the force away: it comes back through the ramp.
@@ -77,6 +80,7 @@ class HapticLoop {
   const HapticPorts& ports() const noexcept { return ports_; }
 
  private:
+  messages::DeviceState read_device(std::uint64_t now_ns) noexcept;
   void change_tool() noexcept;
   bool take_model() noexcept;
   void advance_clock(std::uint64_t now_ns) noexcept;
@@ -99,6 +103,7 @@ class HapticLoop {
   ForceGate gate_;
   std::string notice_;
 
+  std::atomic<bool> held_off_{false};
   const messages::LocalModel* model_ = nullptr;  // in use; null: none came yet, or the newest was unsound
   std::uint64_t model_arrived_ns_ = 0;
   std::uint64_t model_interval_ns_ = 0;  // between the last two models; 0: not known

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "messages/control_state.h"
+#include "messages/moment.h"
 
 namespace myotact::messages {
 
@@ -47,9 +48,12 @@ struct ChooseTool {  // by a hand, as soon as its force has faded out
   int tool = 0;      // of the scene, 0 or 1
   std::optional<ToolShape> shape = {};  // none: as the scene says
 };
+struct GoOn {  // from that moment: at rest in its posture, with its activations and with what was in force
+  Moment from;
+};
 
 using Order = std::variant<SetLevels, CoContract, FollowScript, Activate, HoldPosture, SetGravity, Shove, TestShove,
-                           Pause, SingleStep, Reset, EndRecording, ChooseTool>;
+                           Pause, SingleStep, Reset, EndRecording, ChooseTool, GoOn>;
 
 /// Whether an order is one of these. Who leaves some orders to others names them, so that a new one is not forgotten.
 template <class T, class... These>

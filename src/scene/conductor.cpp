@@ -194,6 +194,8 @@ void Conductor::trim_posture(double time_s) {
 }
 
 void Conductor::prepare_step(double simulated_s, StepRecord& input) {
+  if (!from_ && std::exchange(holds_from_there_, false)) apply({messages::HoldPosture{true}, holder_});
+  input.from = std::exchange(from_, std::nullopt);
   const double time_s = simulated_s - script_start_s_;
   const double half_step_s = 0.5 * scene_->settings.dt_s;  // an action due within this step's first half starts now
   while (next_action_ < scene_->script.size() && scene_->script[next_action_].start_s <= time_s + half_step_s) {
@@ -372,6 +374,7 @@ double Conductor::script_end_s() const {
 }
 
 void apply(const StepRecord& input, simulation::Simulation& simulation) {
+  if (input.from) simulation.settle(input.from->angles_rad, input.from->activations);
   for (std::size_t m = 0; m < input.excitations.size(); ++m) {
     simulation.set_excitation(static_cast<int>(m), input.excitations[m]);
   }

@@ -81,6 +81,7 @@ class Conductor {
   void obey(const messages::Shove& shove, const When& when);
   void obey(const messages::TestShove& test, const When& when);
   void obey(const messages::ChooseTool& choice, const When& when);
+  void obey(const messages::GoOn& go, const When& when);
   void obey(const messages::Reset& reset, const When& when);
   void balance_by(const messages::CoContract& balance, const When& when);
   bool posture_is_held(double time_s) const;
@@ -113,6 +114,8 @@ class Conductor {
   std::vector<Push> shoves_;  // under way
   Vec3 gravity_m_s2_;
   messages::ChosenTools tools_chosen_{};
+  std::optional<RestPosture> from_;  // where the next step is to begin
+  bool holds_from_there_ = false;    // the posture is to be held once the next step has begun there
   std::optional<TakePicture> picture_;
 };
 

@@ -142,10 +142,27 @@ void FreeSession::obey(const messages::Command& command) {
     ++single_steps_;
   } else if (std::holds_alternative<messages::EndRecording>(command.order)) {
     end_recording();
+  } else if (std::holds_alternative<messages::GoOn>(command.order)) {
+    go_on(command);
   } else {
     conductor_.apply(command);
     if (std::holds_alternative<messages::ChooseTool>(command.order)) hand_over_tools();
   }
+}
+
+/// What is set back jumps, and takes as long as a settle does: no hand feels it, and none drags at where things were.
+/// The step is made even if somebody asks for a pause in the same breath, or what is touched would not be what is
+/// recorded.
+void FreeSession::go_on(const messages::Command& command) {
+  hold_off_hands(true);
+  set_back_ = true;
+  conductor_.apply(command);
+  paused_ = false;
+  single_steps_ = std::max(single_steps_, 1);
+}
+
+void FreeSession::hold_off_hands(bool on) noexcept {
+  for (haptics::HapticLoop* loop : loops_) loop->hold_off(on);
 }
 
 void FreeSession::hand_over_tools() {
@@ -202,6 +219,7 @@ void FreeSession::simulate() {
       take_ticks();
     }
     publish_models();
+    if (std::exchange(set_back_, false)) hold_off_hands(false);
     publish_frame();
   }
 }
@@ -235,6 +253,7 @@ void FreeSession::step() {
   input_.tools.clear();
   for (const auto& tool : tools_) {
     hear(*tool);
+    if (set_back_) tool->newest = messages::let_go(tool->newest);
     input_.tools.push_back(tool->newest);
     layer::name_touched_triangle(*simulation_, input_.tools.back());
   }

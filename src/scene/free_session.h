@@ -117,6 +117,8 @@ class FreeSession final : public Session {
   messages::FeltTool felt_by(std::size_t index) const;
   void obey(const messages::Command& command);
   void hand_over_tools();
+  void go_on(const messages::Command& command);
+  void hold_off_hands(bool on) noexcept;
   ToolSettings settings_of(std::size_t tool) const;
   void step();
   void publish_models();
@@ -145,6 +147,7 @@ class FreeSession final : public Session {
   realtime::BoundedFifo<messages::Command> commands_;  // from the drawing to the simulation
   bool paused_ = false;
   int single_steps_ = 0;  // asked for and not made yet
+  bool set_back_ = false;  // the next step begins elsewhere than the last one ended
   bool starts_stopped_ = false;
   // From the simulation to the drawing: neither waits for the other.
   realtime::LatestValue<messages::SceneFrame> frames_;

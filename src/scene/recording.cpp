@@ -32,7 +32,8 @@ enum ChunkType : std::uint32_t {
   kTicksOfOne = 6,
   kStep = 7,
   kTicks = 8,
-  kModel = 9
+  kModel = 9,
+  kRestPosture = 10  // before the step that begins there
 };
 constexpr std::uint32_t kMostToolsInAFile = 16;  // two hands; a damaged count must not ask for memory
 
@@ -196,11 +197,26 @@ bool read_model(const Chunk& chunk, Recording& recording) {
   return cursor.ok;
 }
 
-bool read_chunk(const Chunk& chunk, Recording& recording) {
+RestPosture read_posture(std::string_view payload, bool& ok) {
+  Cursor cursor{payload};
+  RestPosture posture;
+  posture.angles_rad = cursor.take_numbers();
+  posture.activations = cursor.take_numbers();
+  ok = cursor.ok;
+  return posture;
+}
+
+bool read_chunk(const Chunk& chunk, std::optional<RestPosture>& from, Recording& recording) {
+  bool ok = true;
   switch (chunk.type) {
     case kStepOfOne:
     case kStep:
-      return read_step(chunk.payload, chunk.type == kStepOfOne, recording);
+      ok = read_step(chunk.payload, chunk.type == kStepOfOne, recording);
+      if (ok) recording.steps.back().from = std::exchange(from, std::nullopt);
+      return ok;
+    case kRestPosture:
+      from = read_posture(chunk.payload, ok);
+      return ok;
     case kUntimedTicksOfOne:
     case kTicksOfOne:
     case kTicks:
@@ -244,6 +260,12 @@ void RecordingWriter::write_chunk(std::uint32_t type, const std::string& payload
 
 void RecordingWriter::add(const StepRecord& step) {
   std::string payload;
+  if (step.from) {
+    append(payload, step.from->angles_rad);
+    append(payload, step.from->activations);
+    write_chunk(kRestPosture, payload);
+    payload.clear();
+  }
   append(payload, step.excitations);
   append(payload, step.joint_torques_Nm);
   append(payload, to_array(step.gravity_m_s2));
@@ -301,9 +323,10 @@ Recording parse_recording(std::string_view bytes, const std::string& file) {
   if (!header || header->type != kHeader) throw bad_data(file, "byte 8", "the header chunk is damaged");
   Recording recording;
   recording.header_json = header->payload;
+  std::optional<RestPosture> from;
   for (std::size_t at = bytes.size() - rest.size(); const auto chunk = take_chunk(rest);
        at = bytes.size() - rest.size()) {
-    if (read_chunk(*chunk, recording)) continue;
+    if (read_chunk(*chunk, from, recording)) continue;
     throw bad_data(file, fmt::format("byte {}", at),
                    "a chunk is shorter than its content; recorded by another version?");
   }

@@ -22,8 +22,15 @@ namespace myotact::scene {
 // payload}, little-endian. After a crash it is readable up to the last whole chunk. Files of the first version, which
 // knew one tool, are read as well.
 
+/// A posture in which everything is put at rest.
+struct RestPosture {
+  std::vector<double> angles_rad;   // one a joint
+  std::vector<double> activations;  // one a muscle, 0 .. 1
+};
+
 /// The inputs of the simulation before a step, and the state that followed.
 struct StepRecord {
+  std::optional<RestPosture> from = {};  // the step begins at rest there; none: where the last one ended
   std::vector<double> excitations;       // one a muscle
   std::vector<double> joint_torques_Nm;  // one a joint
   Vec3 gravity_m_s2 = Vec3::Zero();

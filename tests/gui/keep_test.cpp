@@ -1,4 +1,5 @@
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -46,6 +47,35 @@ TEST_F(KeepTest, LookingBackStaysInThePastWhileTheSimulationGoesOn) {
   EXPECT_TRUE(gui.wait_until([&](const json&) { return shown_time_s(gui) < past_s; }));
   gui.click("keep.now");
   EXPECT_TRUE(gui.wait_until([&](const json&) { return shown_time_s(gui) > now_s; }));
+}
+
+TEST_F(KeepTest, APersonGoesOnFromAnEarlierMomentAndTakesThatBack) {
+  GuiProgram gui("go_on", "elbow --set tissue.default=line");
+  const auto angle_rad = [](const json& state) { return state["frame"]["joints"]["elbow"]["angle_rad"].get<double>(); };
+  ASSERT_TRUE(gui.wait_until([](const json& state) { return state["frame"]["time_s"] > 2.0; }));
+  const double then_rad = angle_rad(gui.state());
+  gui.click("tasks.demonstrate");
+  gui.drag_slider("demonstrate.difference", 0.5, 0.9);
+  ASSERT_TRUE(gui.wait_until([&](const json& state) { return std::abs(angle_rad(state) - then_rad) > 0.1; }));
+  const double now_s = gui.state()["newest_s"];
+  ASSERT_TRUE(gui.wait_until([&](const json& state) { return state["newest_s"] > now_s + 1.0; }));
+  const double gone_rad = angle_rad(gui.state());
+  gui.drag_slider("keep.time", 0.95, 0.05);
+  ASSERT_TRUE(gui.wait_until([&](const json& state) { return std::abs(angle_rad(state) - then_rad) < 0.02; }));
+  gui.click("keep.go_on");
+  EXPECT_TRUE(gui.wait_until([&](const json& state) {
+    return state["newest_s"] == state["frame"]["time_s"] && state["scene"]["difference"] == 0.0 &&
+           std::abs(angle_rad(state) - then_rad) < 0.02;
+  }));
+  gui.screenshot("went_on");
+  gui.click("toolbar.undo");
+  EXPECT_TRUE(gui.wait_until([&](const json& state) {
+    return state["scene"]["difference"] > 0.1 && std::abs(angle_rad(state) - gone_rad) < 0.05;
+  }));
+  gui.click("toolbar.redo");
+  EXPECT_TRUE(gui.wait_until([&](const json& state) {
+    return state["scene"]["difference"] == 0.0 && std::abs(angle_rad(state) - then_rad) < 0.02;
+  }));
 }
 
 TEST_F(KeepTest, TablesAndPicturesGoIntoThePersonsOwnFolder) {

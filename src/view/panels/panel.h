@@ -8,6 +8,7 @@
 #include "anatomy/part_facts.h"
 #include "anatomy/specimen.h"
 #include "messages/device_report.h"
+#include "messages/moment.h"
 #include "messages/scene_frame.h"
 #include "view/look/part.h"
 #include "view/look/view_state.h"
@@ -107,6 +108,7 @@ struct WindowAsks {
   std::optional<Camera> turn_to;                   // the view to rotate to
   std::optional<std::string> save_work;            // under this name; empty: the scene's
   std::optional<std::filesystem::path> open_work;  // a saved work
+  std::optional<messages::Moment> go_on;           // from this earlier moment
   bool recordings = false;                         // their list to be shown or hidden
   bool works = false;                              // their list to be shown or hidden
   std::string message;                             // a sentence for the person to read

@@ -4,6 +4,7 @@
 
 #include <imgui.h>
 
+#include "view/state/moment.h"
 #include "view/ui/controls.h"
 #include "view/ui/text.h"
 
@@ -60,6 +61,13 @@ void TimelinePanel::draw(PanelContext& context) {
   if (ui::icon_button("keep.step_forward")) step(1);
   ImGui::SameLine();
   if (ui::icon_button("keep.now")) back_to_now();
+  ImGui::SameLine();
+  ImGui::BeginDisabled(context.facts.is_served);  // a server's scene has no past here
+  if (ui::icon_button("keep.go_on") && looks_back()) {
+    context.asks.go_on = moment_of(past_);
+    back_to_now();
+  }
+  ImGui::EndDisabled();
   ImGui::EndDisabled();
   if (history_.size() < 2) return;
   ImGui::SameLine();

@@ -12,6 +12,7 @@ namespace myotact::view {
 struct WorkState {
   ViewState view;
   SceneState scene;
+  std::size_t turns = 0;  // how often the person went on from an earlier moment
 
   bool operator==(const WorkState&) const = default;
 };

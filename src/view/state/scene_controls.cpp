@@ -36,6 +36,20 @@ void carry_out(const messages::ChooseTool& choice, ControlState& state) {
   if (tool < state.tools.size()) state.tools.at(tool) = choice.shape;
 }
 
+/// What the script has on its way, a frame states.
+void carry_out(const messages::GoOn& go, ControlState& state) {
+  const ControlState& from = go.from.control;
+  if (from.drive == Drive::Script) carry_out(messages::FollowScript{}, state);
+  if (from.drive == Drive::Levels) {
+    carry_out(messages::CoContract{from.common, from.difference}, state);
+    carry_out(messages::SetLevels{from.flexors, from.extensors}, state);
+  }
+  if (from.drive == Drive::Balance) carry_out(messages::CoContract{from.common, from.difference}, state);
+  state.hold_posture = from.hold_posture;
+  state.gravity = from.gravity;
+  state.paused = false;
+}
+
 /// What is in force once the order is.
 ControlState after(const messages::Order& order, ControlState state) {
   std::visit(

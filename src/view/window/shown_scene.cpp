@@ -18,6 +18,7 @@
 #include "view/panels/status_bar.h"
 #include "view/panels/toolbar.h"
 #include "view/pictures/window_pictures.h"
+#include "view/state/moment.h"
 #include "view/ui/controls.h"
 #include "view/ui/retold.h"
 #include "view/ui/text.h"
@@ -122,11 +123,25 @@ void ShownScene::push(const std::array<double, 3>& cap) {
   push_view(state_.view.camera, cap, ImGui::GetIO().DeltaTime);
 }
 
+/// The posture comes before the settings, which go on from there.
 void ShownScene::restore(const WorkState& earlier) {
+  if (earlier.turns < state_.turns) scene_.push(messages::GoOn{turns_[earlier.turns].from});
+  if (earlier.turns > state_.turns) scene_.push(messages::GoOn{turns_[earlier.turns - 1].to});
   for (const messages::Order& order : orders_between(state_.scene, earlier.scene)) scene_.push(order);
   state_ = earlier;
   restored_ = true;
   transition_.share = 1.0f;
+}
+
+/// Undo takes the posture back too, as it was when the person went away from it.
+void ShownScene::go_on(const messages::Moment& to, const messages::SceneFrame& now) {
+  const auto from = moment_of(now);
+  if (!from) return;
+  turns_.resize(state_.turns);  // what was undone is given up
+  turns_.push_back({*from, to});
+  state_.turns = turns_.size();
+  scene_.push(messages::GoOn{to});
+  message = ui::tr("keep.went_on");
 }
 
 /// `before`: what was set when the picture began. What the script or others changed is no step of the person's.
@@ -294,6 +309,7 @@ void ShownScene::draw_panels(const messages::SceneFrame& now, GlfwWindow& window
   menu_.draw(present);
   hovered_ = pointer_.hovered() ? pointer_.hovered() : find_.hovered();
   obey(asks, shown);
+  if (asks.go_on) go_on(*asks.go_on, now);
   go_on_turning();
   note_changes(before);
   if (replays()) lead_replay();

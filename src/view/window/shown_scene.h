@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "anatomy/part_facts.h"
 #include "anatomy/specimen.h"
@@ -108,7 +109,12 @@ class ShownScene {
   void open(const std::filesystem::path& file);
   void begin_with(const SavedWork& work);
   void obey(const WindowAsks& asks, const messages::SceneFrame& frame);
+  void go_on(const messages::Moment& to, const messages::SceneFrame& now);
 
+  /// From the present to an earlier moment, from which it went on.
+  struct Turn {
+    messages::Moment from, to;
+  };
   /// On the way from one view to another.
   struct Transition {
     Camera from, to;
@@ -123,6 +129,7 @@ class ShownScene {
   Layout layout_;
   WorkState state_;
   History history_;
+  std::vector<Turn> turns_;  // those that can be undone or done again
   const messages::SceneFrame* shown_ = nullptr;  // now, or an earlier one
   ViewControls controls_;
   SceneControls scene_;

@@ -8,6 +8,7 @@
 #include "view/panels/demonstrate_panel.h"
 #include "view/panels/feel_panel.h"
 #include "view/panels/find_panel.h"
+#include "view/panels/timeline_panel.h"
 
 // What a person's clicks in panels ask for.
 
@@ -31,7 +32,7 @@ class ClickedPanel : public myotact::testing::HingeWindow {
       scene_.hear(frame_, 0.0);
       PanelContext context = HingeWindow::context();
       ImGui::SetNextWindowPos(ImVec2(100.0f, 0.0f));
-      ImGui::SetNextWindowSize(ImVec2(460.0f, 800.0f));
+      ImGui::SetNextWindowSize(ImVec2(width_, 800.0f));
       ImGui::Begin("panel");
       panel_(context);
       ImGui::End();
@@ -77,6 +78,7 @@ class ClickedPanel : public myotact::testing::HingeWindow {
 
   static constexpr int kEnter = 13, kNumberPadEnter = 14;
   std::function<void(PanelContext&)> panel_;
+  float width_ = 460.0f;
 };
 
 class ClickedBookmarks : public ClickedPanel {
@@ -182,6 +184,47 @@ TEST_F(ClickedTools, OfAServersSceneAndARecordingNoneIsOffered) {
   facts_.is_served = false;
   facts_.replay_s = 3.0;
   EXPECT_TRUE(places_of("feel.tool_right").empty());
+}
+
+class ClickedTimeline : public ClickedPanel {
+ protected:
+  ClickedTimeline() {
+    panel_ = [this](PanelContext& context) { timeline_.draw(context); };
+    width_ = 1100.0f;
+    frame_.joints.resize(1);
+    for (int i = 0; i < 10; ++i) {
+      frame_.time_s = 0.02 * i;
+      frame_.sequence = static_cast<std::uint64_t>(i) + 1;
+      frame_.joints[0].angle_rad = 0.1 * i;
+      frame_.control.drive = Drive::Levels;
+      frame_.control.flexors = 0.1 * i;
+      timeline_.choose(frame_);
+    }
+  }
+  TimelinePanel timeline_;
+};
+
+TEST_F(ClickedTimeline, OfTheMomentThatIsLookedAtAllIsAskedForThatIsKnown) {
+  click("keep.go_on");
+  EXPECT_FALSE(asks_.go_on) << "the present is no earlier moment";
+  timeline_.step(-4);
+  timeline_.choose(frame_);
+  click("keep.go_on");
+  ASSERT_TRUE(asks_.go_on);
+  EXPECT_EQ(asks_.go_on->joints, 1u);
+  EXPECT_DOUBLE_EQ(asks_.go_on->angles_rad[0], 0.5);
+  EXPECT_EQ(asks_.go_on->muscles, frame_.activations.size());
+  EXPECT_DOUBLE_EQ(asks_.go_on->control.flexors, 0.5);
+  EXPECT_FALSE(timeline_.looks_back());
+}
+
+TEST_F(ClickedTimeline, AServersSceneIsNotSetBackFromHere) {
+  facts_.is_served = true;
+  timeline_.step(-4);
+  timeline_.choose(frame_);
+  click("keep.go_on");
+  EXPECT_FALSE(asks_.go_on);
+  EXPECT_TRUE(timeline_.looks_back());
 }
 
 class ClickedDemonstration : public ClickedPanel {
