@@ -69,7 +69,7 @@ class HapticLoop {
   /// Written by whoever obeys a person's choice: the tool that the hand is to hold. The force fades out, the tool
   /// changes where nothing of it is felt, and the force comes back through the ramp.
   realtime::LatestValue<messages::HeldTool>& chosen_tools() noexcept { return choices_; }
-  realtime::BoundedFifo<HapticTick>& ticks() noexcept { return ticks_; }                 // read by the recorder
+  realtime::BoundedFifo<HapticTick>& ticks() noexcept { return ticks_; }  // read by the recorder
 
   // ---- after tick(), in the thread that calls it
   const HapticTick& last_tick() const noexcept { return last_; }
