@@ -21,6 +21,10 @@ bool is_finite(const std::array<double, 3>& v) {
   return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
 }
 
+/// A hand that is held off stays so for two steps after the end was asked for: a scene may be put elsewhere between two
+/// ticks, and the way of the surface is played over the step after.
+constexpr int kEndingTicks = 20;
+
 /// What a port may lack before it is called a fault: a count of an encoder at 5 N.
 constexpr double kReportedEnergy_J = 0.1e-3;
 
@@ -90,9 +94,13 @@ void HapticLoop::tick(std::uint64_t now_ns) noexcept {
 /// In the device's own buttons, so that who records and repeats them need not know of it.
 messages::DeviceState HapticLoop::read_device(std::uint64_t now_ns) noexcept {
   messages::DeviceState state = device_.read(now_ns);
-  if (held_off_.load(std::memory_order_relaxed)) {
-    state.buttons = (state.buttons & messages::kStopButton) | messages::kClutchButton;
-  }
+  HoldOff hold = held_off_.load(std::memory_order_acquire);
+  if (hold == HoldOff::No) return state;
+  state.buttons = (state.buttons & messages::kStopButton) | messages::kClutchButton;
+  ending_ticks_ = hold == HoldOff::Ending ? ending_ticks_ + 1 : 0;
+  if (ending_ticks_ < kEndingTicks) return state;
+  ending_ticks_ = 0;
+  held_off_.compare_exchange_strong(hold, HoldOff::No);  // unless somebody asks again just now
   return state;
 }
 

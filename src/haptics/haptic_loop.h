@@ -53,7 +53,7 @@ class HapticLoop {
   void stop_forces(bool stopped) noexcept { stopped ? gate_.stop() : gate_.enable(); }
   /// Any thread: true: no force, and the hand lets go, as while its clutch is held; false: the gate opens again where
   /// little is wanted. Apart from any stop, which stays what it is. For a scene whose tissue is put elsewhere at once.
-  void hold_off(bool on) noexcept { held_off_.store(on, std::memory_order_relaxed); }
+  void hold_off(bool on) noexcept { held_off_.store(on ? HoldOff::Yes : HoldOff::Ending, std::memory_order_release); }
   /// Any thread.
   bool is_stopped() const noexcept { return gate_.is_stopped(); }
   /// Haptic thread: the next tick learns that a watchdog took the force away: it comes back through the ramp.
@@ -69,7 +69,7 @@ class HapticLoop {
   /// Written by whoever obeys a person's choice: the tool that the hand is to hold. The force fades out, the tool
   /// changes where nothing of it is felt, and the force comes back through the ramp.
   realtime::LatestValue<messages::HeldTool>& chosen_tools() noexcept { return choices_; }
-  realtime::BoundedFifo<HapticTick>& ticks() noexcept { return ticks_; }                 // read by the recorder
+  realtime::BoundedFifo<HapticTick>& ticks() noexcept { return ticks_; }  // read by the recorder
 
   // ---- after tick(), in the thread that calls it
   const HapticTick& last_tick() const noexcept { return last_; }
@@ -103,7 +103,9 @@ class HapticLoop {
   ForceGate gate_;
   std::string notice_;
 
-  std::atomic<bool> held_off_{false};
+  enum class HoldOff : std::uint8_t { No, Yes, Ending };
+  std::atomic<HoldOff> held_off_{HoldOff::No};
+  int ending_ticks_ = 0;                         // for which the end was asked for
   const messages::LocalModel* model_ = nullptr;  // in use; null: none came yet, or the newest was unsound
   std::uint64_t model_arrived_ns_ = 0;
   std::uint64_t model_interval_ns_ = 0;  // between the last two models; 0: not known

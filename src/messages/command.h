@@ -44,8 +44,8 @@ struct Pause {
 struct SingleStep {};
 struct Reset {};  // back to the starting posture and the beginning of the script; what a person set stays
 struct EndRecording {};
-struct ChooseTool {  // by a hand, as soon as its force has faded out
-  int tool = 0;      // of the scene, 0 or 1
+struct ChooseTool {                     // by a hand, as soon as its force has faded out
+  int tool = 0;                         // of the scene, 0 or 1
   std::optional<ToolShape> shape = {};  // none: as the scene says
 };
 struct GoOn {  // from that moment: at rest in its posture, with its activations and with what was in force

@@ -286,8 +286,9 @@ void FreeSession::publish_models() {
   for (std::size_t t = 0; t < tools_.size(); ++t) {
     RemoteHand& hand = tools_[t]->hand;
     const messages::ToolState& state = tools_[t]->newest;
-    const ModelRecord model{++tools_[t]->model_sequence, realtime::steady_now_ns(), paused_,
-                            state.tool_position_world_m, 0, settings_of(t).shape};
+    const ModelRecord model{
+        ++tools_[t]->model_sequence, realtime::steady_now_ns(), paused_, state.tool_position_world_m, 0,
+        settings_of(t).shape};
     write_model(*simulation_, {state, static_cast<int>(t), model, step_ns, report_radius_m(settings_of(t))},
                 hand.models->back());
     if (hand.forces != nullptr) hand.forces->publish({step_count_, force_on_hand_N(hand.models->back(), state)});

@@ -146,7 +146,7 @@ class FreeSession final : public Session {
   std::exception_ptr failure_;
   realtime::BoundedFifo<messages::Command> commands_;  // from the drawing to the simulation
   bool paused_ = false;
-  int single_steps_ = 0;  // asked for and not made yet
+  int single_steps_ = 0;   // asked for and not made yet
   bool set_back_ = false;  // the next step begins elsewhere than the last one ended
   bool starts_stopped_ = false;
   // From the simulation to the drawing: neither waits for the other.

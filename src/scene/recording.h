@@ -42,8 +42,8 @@ struct StepRecord {
 struct TickRecord {
   messages::DeviceState device;
   std::uint64_t model_sequence = 0;
-  std::uint64_t time_ns = 0;    // of the loop's clock
-  bool forces_stopped = false;  // by a person or a caller
+  std::uint64_t time_ns = 0;                       // of the loop's clock
+  bool forces_stopped = false;                     // by a person or a caller
   std::optional<messages::ToolShape> chosen = {};  // asked for in that tick; none: as the scene says
 };
 
@@ -53,9 +53,9 @@ TickRecord record_of(const haptics::HapticTick& tick);
 struct ModelRecord {
   std::uint64_t sequence = 0;
   std::uint64_t published_at_ns = 0;
-  bool holds_still = false;                       // the simulation paused
-  std::array<double, 3> tool_position_world_m{};  // of the tool state for which it was written
-  std::size_t step = 0;                           // steps before this one; by the place in the file
+  bool holds_still = false;                        // the simulation paused
+  std::array<double, 3> tool_position_world_m{};   // of the tool state for which it was written
+  std::size_t step = 0;                            // steps before this one; by the place in the file
   std::optional<messages::ToolShape> chosen = {};  // for which contacts are reported; none: as the scene says
 };
 

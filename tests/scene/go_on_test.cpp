@@ -1,4 +1,5 @@
-// Going on from a moment of the past: what is as it was then, what the hand feels of it, and that a recording repeats it.
+// Going on from a moment of the past: what is as it was then, what the hand feels of it, and that a recording repeats
+// it.
 
 #include <chrono>
 #include <cmath>

@@ -61,13 +61,6 @@ void TimelinePanel::draw(PanelContext& context) {
   if (ui::icon_button("keep.step_forward")) step(1);
   ImGui::SameLine();
   if (ui::icon_button("keep.now")) back_to_now();
-  ImGui::SameLine();
-  ImGui::BeginDisabled(context.facts.is_served);  // a server's scene has no past here
-  if (ui::icon_button("keep.go_on") && looks_back()) {
-    context.asks.go_on = moment_of(past_);
-    back_to_now();
-  }
-  ImGui::EndDisabled();
   ImGui::EndDisabled();
   if (history_.size() < 2) return;
   ImGui::SameLine();
@@ -84,6 +77,21 @@ void TimelinePanel::draw(PanelContext& context) {
       past_s_ = time_s;
     }
   }
+}
+
+/// Below the banner, at the moment that it would go on from: the row of the timeline has no room left for its slider.
+void TimelinePanel::draw_go_on(PanelContext& context, const Area& scene) {
+  if (!looks_back() || scene.empty() || context.facts.is_served) return;  // a server's scene has no past here
+  const float below = 2.4f * ImGui::GetFontSize();                        // the banner's one line and its frame
+  ImGui::SetNextWindowPos(ImVec2(scene.x + 0.5f * scene.width, scene.y + below), 0, ImVec2(0.5f, 0.0f));
+  ImGui::Begin("go_on", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
+  if (ui::button("keep.go_on")) {
+    context.asks.go_on = moment_of(past_);
+    back_to_now();
+  }
+  ImGui::End();
 }
 
 void TimelinePanel::draw_past_banner(const Area& scene) const {

@@ -10,13 +10,15 @@
 namespace myotact::view {
 
 /// Below the scene: play and pause, and a way back to any time of the last minutes. Looking back changes what is drawn
-/// and nothing else: simulation, sliders and forces stay in the present.
+/// and nothing else: simulation, sliders and forces stay in the present, unless the person goes on from there.
 class TimelinePanel {
  public:
   /// Keeps the present frame; returns the one that is to be drawn: the present, or the past one that is looked at.
   /// Valid until the next call.
   const messages::SceneFrame& choose(const messages::SceneFrame& present);
   void draw(PanelContext& context);
+  /// Over the scene, while the past is looked at: to go on from there.
+  void draw_go_on(PanelContext& context, const Area& scene);
   /// Shows over the scene that this is the past.
   void draw_past_banner(const Area& scene) const;
 

@@ -130,7 +130,8 @@ std::vector<messages::Order> orders_between(const SceneState& from, const SceneS
   if (from.hold_posture != to.hold_posture) orders.emplace_back(messages::HoldPosture{to.hold_posture});
   if (from.gravity != to.gravity) orders.emplace_back(messages::SetGravity{to.gravity});
   for (std::size_t t = 0; t < to.tools.size(); ++t) {
-    if (from.tools.at(t) != to.tools.at(t)) orders.emplace_back(messages::ChooseTool{static_cast<int>(t), to.tools.at(t)});
+    if (from.tools.at(t) != to.tools.at(t))
+      orders.emplace_back(messages::ChooseTool{static_cast<int>(t), to.tools.at(t)});
   }
   return orders;
 }

@@ -233,6 +233,7 @@ void ShownScene::draw_areas(PanelContext& context) {
   in_area("find", layout_.find, [&] { find_.draw(context); });
   in_area("tasks", layout_.tasks, [&] { draw_tasks(context); });
   in_area("timeline", layout_.timeline, [&] { replays() ? replay_.draw(context) : timeline_.draw(context); });
+  if (!replays()) timeline_.draw_go_on(context, layout_.scene);
   draw_fold_handles();
   recordings_.draw(context);
   if (big_type_) draw_class_panel(context, layout_.scene);

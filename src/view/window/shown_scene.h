@@ -129,7 +129,7 @@ class ShownScene {
   Layout layout_;
   WorkState state_;
   History history_;
-  std::vector<Turn> turns_;  // those that can be undone or done again
+  std::vector<Turn> turns_;                      // those that can be undone or done again
   const messages::SceneFrame* shown_ = nullptr;  // now, or an earlier one
   ViewControls controls_;
   SceneControls scene_;
