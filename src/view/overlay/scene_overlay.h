@@ -27,6 +27,7 @@ struct OverlaidScene {
   glm::vec3 background{1.0f};  // text is dark on a light one
   int opposed_joint = -1;      // whose two groups are shown as they pull against each other; -1: none
   bool tools_lag = false;      // some may, behind hands that feel nothing: the legend explains what joins the two
+  bool legend = true;
 };
 
 /// What is written over the scene: names with leader lines, the legend of the colours, a scale bar. Between ImGui's
