@@ -101,7 +101,8 @@ Options options_of(const Options& given, const view::SceneWish& wish) {
 /// The window and what it shows: one stage that runs and, after a wish for another, the next one being built.
 class WindowApp {
  public:
-  explicit WindowApp(const Options& options) : options_(options), equipment_(options), report_(options.report_state), window_({}, options.offers_start) {
+  explicit WindowApp(const Options& options)
+      : options_(options), equipment_(options), report_(options.report_state), window_({}, options.offers_start) {
     if (options.camera && equipment_.has(*options.camera)) {
       throw Error(ExitStatus::Usage, "--camera " + *options.camera + ": moves a tool already (--device)");
     }
@@ -152,12 +153,12 @@ class WindowApp {
       window_.show_message(failure.what());
       return;
     }
-    end_session();
     const bool is_first = !shown_;
+    if (shown_) let_go(shown_->session());
     view::WindowSettings settings = built->window_settings(building_);
     settings.work = std::exchange(work_, std::nullopt);
     window_.open(built->scene().specimen, settings);
-    shown_ = std::move(built);
+    retire(std::exchange(shown_, std::move(built)));
     frame_ = {};
     start_session(is_first);
     heard_ = opened_ = std::chrono::steady_clock::now();
@@ -182,12 +183,32 @@ class WindowApp {
     }
   }
 
-  void end_session() {
-    if (!shown_) return;
-    scene::Session& session = shown_->session();
+  void let_go(scene::Session& session) {
     if (session.running()) stopped_ = session.forces_stopped();  // a scene that is opened does not bring them back
-    session.stop();
-    if (const std::string refused = shown_->refused(); !refused.empty()) spdlog::warn("{}", refused);
+    session.let_go();
+  }
+
+  static void end(Stage& stage) {
+    stage.session().stop();
+    if (const std::string refused = stage.refused(); !refused.empty()) spdlog::warn("{}", refused);
+  }
+
+  /// A step that hangs may keep its scene for as long as it likes: the next one does not wait for it.
+  void retire(std::unique_ptr<Stage> stage) {
+    if (!stage) return;
+    std::erase_if(retiring_,
+                  [](const auto& one) { return one.wait_for(std::chrono::seconds(0)) == std::future_status::ready; });
+    retiring_.push_back(std::async(std::launch::async, [stage = std::move(stage)] {
+      try {
+        end(*stage);
+      } catch (const std::exception& failure) {
+        spdlog::warn("the scene before ended with a fault: {}", failure.what());
+      }
+    }));
+  }
+
+  void end_session() {
+    if (shown_) end(*shown_);
   }
 
   /// One picture; false when it was the last.
@@ -252,6 +273,7 @@ class WindowApp {
   WindowReport report_;
   PictureTimes times_;
   std::unique_ptr<Stage> shown_;              // none before the first is built
+  std::vector<std::future<void>> retiring_;   // scenes before whose last step has not ended
   std::future<std::unique_ptr<Stage>> next_;  // being built
   view::Window window_;                       // after the stages: it shows their specimens
   messages::SceneFrame frame_;

@@ -88,6 +88,12 @@ void FreeSession::start() {
   });
 }
 
+void FreeSession::let_go() {
+  haptics::stop_forces(loops_, true);
+  running_ = false;
+  if (haptic_thread_) haptic_thread_->stop();
+}
+
 void FreeSession::stop() {
   haptics::stop_forces(loops_, true);  // now, not after the step that is under way
   running_ = false;

@@ -73,6 +73,7 @@ class FreeSession final : public Session {
   void start() override;
   /// Before start(): what the simulation's thread calls when the models of the hands are new.
   void on_models(std::function<void()> call) { on_models_ = std::move(call); }
+  void let_go() override;
   void stop() override;
   /// After stop().
   FreeTiming timing() const;

@@ -17,6 +17,9 @@ class Session {
   virtual void start_stopped() = 0;
   /// Throws Error where a device does not start: nothing runs then.
   virtual void start() = 0;
+  /// Forces to zero and devices free for another session, without waiting for a step that is under way; stop() is still
+  /// to come, on any one thread. What cannot hang just stops.
+  virtual void let_go() { stop(); }
   /// Forces to zero, threads joined. Rethrows what ended the session, if anything did.
   virtual void stop() = 0;
   virtual bool running() const = 0;

@@ -86,6 +86,21 @@ TEST_F(LivenessTest, PicturesGoOnWhateverTheSimulationDoes) {
   EXPECT_FALSE(gui.shows("news.silence"));  // a pause is no hang
 }
 
+TEST_F(LivenessTest, AnotherSceneOpensThoughAStepHangs) {
+  GuiProgram gui("hung_scene", "elbow --set tissue.default=line");
+  ASSERT_TRUE(gui.wait_until([](const json& state) { return state["newest_s"] > 0.5; }));
+  const pid_t simulation = testing::thread_named(gui.program().id(), "simulation");
+  ASSERT_GT(simulation, 0);
+  std::optional<HeldThread> held(simulation);
+  gui.click("tasks.demonstrate");
+  gui.click("demonstrate.scene");
+  gui.click("particle");
+  EXPECT_TRUE(gui.wait_until([](const json& state) { return state["scene_name"] == "particle"; }));
+  EXPECT_TRUE(gui.wait_until([](const json& state) { return state["frame"]["time_s"] > 0.2; }));
+  held.reset();
+  EXPECT_TRUE(gui.program().running()) << gui.log();
+}
+
 TEST_F(LivenessTest, TheHandGoesOnWhateverTheWindowDoes) {
   GuiProgram gui("ticks", "elbow");
   ASSERT_TRUE(gui.wait_until([](const json& state) { return state["newest_s"] > 1.0; }));
