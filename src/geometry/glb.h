@@ -39,7 +39,7 @@ struct GlbScene {
   std::vector<GlbGroup> groups;
 };
 
-/// The scene as a glTF 2.0 file in one piece (Khronos Group, glTF 2.0 Specification, 2021, 4.4: GLB), in metres. glTF
+/// The scene as a glTF 2.0 file in one piece (Khronos 2021, 4.4: GLB), in metres. glTF
 /// has y up, z forward and x to the left of what looks forward: so up is y there, cranial z and left x. Nodes without
 /// triangles are left out. The same bytes each time. Throws Error BadData when it would be larger than 4 GB.
 std::string glb_bytes(const GlbScene& scene);

@@ -1,4 +1,4 @@
-// What is written is taken apart again as the specification states it (Khronos Group, glTF 2.0, 2021).
+// What is written is taken apart again as the specification states it (Khronos 2021).
 
 #include "geometry/glb.h"
 

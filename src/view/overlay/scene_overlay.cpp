@@ -244,7 +244,7 @@ void SceneOverlay::draw(const OverlaidScene& scene, const Area& area, ImDrawList
   list.PushClipRect(ImVec2(area.x, area.y), ImVec2(area.x + area.width, area.y + area.height));
   Legend legend = legend_of(scene.specimen, scene.view);
   if (scene.tools_lag) legend.entries.push_back({"see.thread", {}, true});
-  const float legend_height = draw_legend(sheet, legend);
+  const float legend_height = scene.legend ? draw_legend(sheet, legend) : 0.0f;
   if (!scene.view.names_hidden) draw_labels(sheet, legend_height, placed_, wishes_);
   draw_scale_bar(sheet);
   list.PopClipRect();

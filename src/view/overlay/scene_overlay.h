@@ -26,6 +26,7 @@ struct OverlaidScene {
   Part hovered;
   glm::vec3 background{1.0f};  // text is dark on a light one
   bool tools_lag = false;      // some may, behind hands that feel nothing: the legend explains what joins the two
+  bool legend = true;
 };
 
 /// What is written over the scene: names with leader lines, the legend of the colours, a scale bar. Between ImGui's

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "view/pictures/offscreen.h"
+#include "view/pictures/video_file.h"
 #include "view/pictures/video_pipe.h"
 
 namespace myotact::view {
@@ -38,35 +39,6 @@ class PictureFolder {
 
   std::filesystem::path folder_;
   int width_, height_, count_ = 0;
-};
-
-/// A video whose file is there when it is whole.
-class VideoFile {
- public:
-  VideoFile(const std::filesystem::path& ffmpeg, const std::filesystem::path& video, int width, int height)
-      : video_(video), part_(video.parent_path() / ("unfinished_" + video.filename().string())) {
-    require_writable(video);
-    pipe_.emplace(ffmpeg, part_, width, height);
-  }
-  ~VideoFile() {
-    pipe_.reset();
-    std::error_code ignored;
-    std::filesystem::remove(part_, ignored);
-  }
-  VideoFile(const VideoFile&) = delete;
-  VideoFile& operator=(const VideoFile&) = delete;
-
-  void write(const std::vector<std::uint8_t>& rgb, int times) {
-    for (int i = 0; i < times; ++i) pipe_->write(rgb);
-  }
-  void close() {
-    pipe_->close();
-    std::filesystem::rename(part_, video_);
-  }
-
- private:
-  std::filesystem::path video_, part_;
-  std::optional<VideoPipe> pipe_;
 };
 
 }  // namespace

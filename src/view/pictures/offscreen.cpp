@@ -98,14 +98,14 @@ void append_bytes(void* context, void* data, int size) {
 }  // namespace
 
 struct OffscreenRenderer::Impl {
-  Impl(const anatomy::Specimen& given, int w, int h)
+  Impl(const anatomy::Specimen& given, int w, int h, float text_px)
       : specimen(&given),
         width(w),
         height(h),
         sampled(w, h, kSamples),
         plain(w, h, 0),
         renderer(given),
-        imgui(w, h, std::max(kSmallestFont_px, kFontShare * static_cast<float>(std::min(w, h)))) {}
+        imgui(w, h, text_px) {}
 
   void draw_scene(const messages::SceneFrame& frame, const ViewState& view, const SceneExtras& extras) {
     glBindFramebuffer(GL_FRAMEBUFFER, sampled.frame());
@@ -122,8 +122,11 @@ struct OffscreenRenderer::Impl {
   HeadlessImGui imgui;
 };
 
+OffscreenRenderer::OffscreenRenderer(const anatomy::Specimen& specimen, int width, int height, float text_px)
+    : impl_(std::make_unique<Impl>(specimen, width, height, text_px)) {}
+
 OffscreenRenderer::OffscreenRenderer(const anatomy::Specimen& specimen, int width, int height)
-    : impl_(std::make_unique<Impl>(specimen, width, height)) {}
+    : OffscreenRenderer(specimen, width, height, suitable_text_px(width, height)) {}
 
 OffscreenRenderer::~OffscreenRenderer() = default;
 
@@ -147,7 +150,9 @@ Image OffscreenRenderer::render_with_text(const messages::SceneFrame& frame, con
   impl_->draw_scene(frame, view, extras);
   const Area whole{0.0f, 0.0f, static_cast<float>(impl_->width), static_cast<float>(impl_->height)};
   impl_->imgui.draw([&](ImDrawList& list) {
-    SceneOverlay().draw({*impl_->specimen, frame, view, superficial(), extras.hovered, extras.background}, whole, list);
+    OverlaidScene scene{*impl_->specimen, frame, view, superficial(), extras.hovered, extras.background};
+    scene.legend = extras.legend;
+    SceneOverlay().draw(scene, whole, list);
   });
   return read_back();
 }
@@ -163,6 +168,10 @@ Image OffscreenRenderer::read_back() {
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
   return flipped(width, height, pixels);
+}
+
+float suitable_text_px(int width, int height) {
+  return std::max(kSmallestFont_px, kFontShare * static_cast<float>(std::min(width, height)));
 }
 
 Image flipped(int width, int height, const std::vector<std::uint8_t>& rgb) {

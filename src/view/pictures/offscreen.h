@@ -20,7 +20,10 @@ struct Image {
 /// Draws scenes without a display, by EGL without a surface; a software renderer is enough.
 class OffscreenRenderer {
  public:
-  /// Throws Error Unavailable when there is no EGL or no OpenGL 3.3, with what to install.
+  /// `text_px`: height of what is written. Throws Error Unavailable when there is no EGL or no OpenGL 3.3, with what to
+  /// install.
+  OffscreenRenderer(const anatomy::Specimen& specimen, int width, int height, float text_px);
+  /// With text of a height that suits a picture of this size.
   OffscreenRenderer(const anatomy::Specimen& specimen, int width, int height);
   ~OffscreenRenderer();
 
@@ -37,6 +40,9 @@ class OffscreenRenderer {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Height of text that suits a picture of this size [pixels].
+float suitable_text_px(int width, int height);
 
 std::string png_bytes(const Image& image);
 /// The same as text, for a page that holds its pictures: src="data:image/png;base64,...".

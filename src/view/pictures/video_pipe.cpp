@@ -24,9 +24,6 @@ namespace myotact::view {
 
 namespace {
 
-/// A second of video takes an old computer about as long; what takes ten times that is stuck.
-constexpr std::chrono::seconds kPatience(10);
-
 Error failure(const std::filesystem::path& video, const std::string& what) {
   return Error(ExitStatus::InputOutput,
                fmt::format("{}: {}. Look whether the disk is full, and whether ffmpeg works.", video.string(), what));
@@ -123,8 +120,9 @@ std::optional<std::filesystem::path> program_on_path(const std::string& name) {
   return std::nullopt;
 }
 
-VideoPipe::VideoPipe(const std::filesystem::path& ffmpeg, const std::filesystem::path& video, int width, int height)
-    : video_(video) {
+VideoPipe::VideoPipe(const std::filesystem::path& ffmpeg, const std::filesystem::path& video, int width, int height,
+                     std::chrono::seconds patience)
+    : video_(video), patience_(patience) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw failure(video_, std::strerror(errno));
   process_ = start(ffmpeg, arguments(video, width, height), ends[0]);
@@ -153,7 +151,7 @@ void VideoPipe::write(std::span<const std::uint8_t> rgb) {
   const NoPipeSignal guard;
   while (!rgb.empty()) {
     pollfd ready{input_, POLLOUT, 0};
-    const auto patience_ms = static_cast<int>(std::chrono::milliseconds(kPatience).count());
+    const auto patience_ms = static_cast<int>(std::chrono::milliseconds(patience_).count());
     if (::poll(&ready, 1, patience_ms) == 0) throw failure(video_, "ffmpeg takes no more pictures");
     const ssize_t written = ::write(input_, rgb.data(), rgb.size());
     if (written >= 0) {
@@ -166,7 +164,7 @@ void VideoPipe::write(std::span<const std::uint8_t> rgb) {
 
 void VideoPipe::close() {
   close_input();
-  const auto end = std::chrono::steady_clock::now() + kPatience;
+  const auto end = std::chrono::steady_clock::now() + patience_;
   int status = 0;
   while (::waitpid(process_, &status, WNOHANG) == 0) {
     if (std::chrono::steady_clock::now() > end) throw failure(video_, "ffmpeg does not come to an end");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -18,15 +19,19 @@ std::optional<std::filesystem::path> program_on_path(const std::string& name);
 class VideoPipe {
  public:
   static constexpr int kPictures_hz = 25;
+  /// A second of a window's video takes an old computer about as long; what takes ten times that is stuck.
+  static constexpr std::chrono::seconds kPatience{10};
 
-  /// Starts `ffmpeg` on pictures of width x height pixels, both even. Throws Error InputOutput.
-  VideoPipe(const std::filesystem::path& ffmpeg, const std::filesystem::path& video, int width, int height);
+  /// Starts `ffmpeg` on pictures of width x height pixels, both even. `patience`: for one of them, and for the end.
+  /// Throws Error InputOutput.
+  VideoPipe(const std::filesystem::path& ffmpeg, const std::filesystem::path& video, int width, int height,
+            std::chrono::seconds patience = kPatience);
   ~VideoPipe();  // ends ffmpeg without waiting for what it has not written
   VideoPipe(const VideoPipe&) = delete;
   VideoPipe& operator=(const VideoPipe&) = delete;
 
   /// 3 bytes a pixel, bottom row first, as OpenGL reads them. Throws Error InputOutput when ffmpeg died, or took
-  /// nothing for ten seconds.
+  /// nothing for so long.
   void write(std::span<const std::uint8_t> rgb);
   /// Waits until ffmpeg has written the video. Throws Error InputOutput when it could not, or takes too long.
   void close();
@@ -35,6 +40,7 @@ class VideoPipe {
   void close_input();
 
   std::filesystem::path video_;
+  std::chrono::seconds patience_;
   int input_ = -1;  // write end of its standard input
   pid_t process_ = -1;
 };

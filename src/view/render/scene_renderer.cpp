@@ -12,16 +12,13 @@
 #include "view/look/visibility.h"
 #include "view/render/ground_shadow.h"
 #include "view/render/spring_drawing.h"
+#include "view/render/tissue_colours.h"
 #include "view/render/tool_drawing.h"
 
 namespace myotact::view {
 
 namespace {
 
-// What is under the tints: fresh muscle, tendon and bone, as in a preparation and not as in wax.
-constexpr glm::vec3 kBelly{0.62f, 0.225f, 0.18f}, kTendon{0.89f, 0.85f, 0.77f}, kBone{0.92f, 0.87f, 0.76f};
-/// Muscles differ a little in brightness, or neighbours would run into one another.
-constexpr float kBellyVariation = 0.08f;
 constexpr glm::vec4 kLine{0.13f, 0.13f, 0.22f, 1.0f};  // darker than flesh, tendon and all that is laid over them
 constexpr glm::vec4 kFibre{0.98f, 0.92f, 0.84f, 0.60f};
 constexpr glm::vec4 kSelected{0.76f, 0.18f, 0.52f, 1.0f}, kHovered{0.36f, 0.36f, 0.42f, 0.9f};
@@ -59,13 +56,6 @@ DrawMesh grid_mesh(const ViewBox& bounds) {
 /// Over the viewer's left shoulder, from above: what stands out is lit from the upper left, as in atlases.
 glm::vec3 key_light_of(const Camera& camera) {
   return glm::normalize(-0.75f * camera.forward_world() - 0.45f * camera.right_world() + 0.65f * camera.up_world());
-}
-
-/// Evenly spread over the muscles, neighbours in the list far apart (golden ratio).
-glm::vec3 belly_colour(int muscle) {
-  const double place = 0.6180339887498949 * muscle;
-  const auto share = static_cast<float>(place - std::floor(place));
-  return kBelly * (1.0f + kBellyVariation * (2.0f * share - 1.0f));
 }
 
 /// Where tools press, the skin glows: place and radius, colour and strength.
@@ -246,8 +236,8 @@ void SceneRenderer::draw_part(const Picture& picture, const Part& part, float op
   const MuscleTint tint = bone ? MuscleTint{} : picture.tints[static_cast<std::size_t>(part.index)];
   const glm::vec3 belly = belly_colour(part.index);
   limb_program_.set("world_from_model", limb_.pose_of(part));
-  limb_program_.set("tissues[0]", bone ? kBone : belly);
-  limb_program_.set("tissues[1]", bone ? kBone : kTendon);
+  limb_program_.set("tissues[0]", bone ? kBoneColour : belly);
+  limb_program_.set("tissues[1]", bone ? kBoneColour : kTendonColour);
   limb_program_.set("overlay", glm::vec4(tint.colour, tint.share));
   limb_program_.set("mapped_share", !bone && !levels_.empty() ? kMapShare : 0.0f);
   limb_program_.set("opacity", opacity);

@@ -34,6 +34,7 @@ struct SceneExtras {
   std::span<const std::vector<float>> pressures_Pa;  // muscles x skin vertices, for MuscleColour::Pressure
   std::vector<bool> shows_force_only;                // as in SceneFacts
   glm::vec3 background{0.955f, 0.96f, 0.965f};
+  bool legend = true;         // of the colours, where there is text
   float stroke_scale = 1.0f;  // of widths in pixels: more for a picture that is printed at many
 };
 
