@@ -102,14 +102,22 @@ CLI::App* add_run(CLI::App& program, Options& options) {
 }
 
 CLI::App* add_export(CLI::App& program, Options& options) {
-  CLI::App* command = program.add_subcommand("export", "the limb to print and to share: a poster");
+  CLI::App* command =
+      program.add_subcommand("export", "the limb to print and to share: a poster, a film once round it, a 3D model");
   command->add_option("scene", options.scene, "built-in scene or scene file")->capture_default_str();
-  command->add_option("-o,--out", options.file, "file to be written: .png, a poster with names")->required();
+  command
+      ->add_option("-o,--out", options.file,
+                   "file to be written: .png (a poster with names), .mp4 (a film once round the limb, which begins "
+                   "again where it ends; needs ffmpeg) or .glb (3D model, glTF 2.0: every bone and muscle by name)")
+      ->required();
   add_look(*command, options);
-  command->add_option("--size", options.export_size, "of the picture [pixels]; default: 3840x2160");
+  command->add_option("--size", options.export_size,
+                      "of poster and film [pixels]; default: 3840x2160 of a poster, 1920x1080 of a film");
+  command->add_option("--turn", options.turn_s, "of a film: once round in this time [s]; default: 12")
+      ->check(CLI::Range(1.0, 600.0));
   command->add_option("--language", options.language,
-                      "of what is written over a poster: en, de, ...; parts then have their Latin names in all but en, "
-                      "unless --show names= says otherwise");
+                      "of what is written over a poster: en, de; parts have their Latin names in all but en, unless "
+                      "--show names= says otherwise");
   command
       ->add_option("--seconds", options.seconds,
                    "play the scene's script so long first [s]; without: the limb as it is balanced at the start")

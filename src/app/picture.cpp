@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "view/look/limb_bounds.h"
+#include "view/look/part.h"
 #include "view/look/start_view.h"
+#include "view/overlay/seen_parts.h"
 #include "view/pictures/contact_sheet.h"
 #include "view/pictures/offscreen.h"
 
@@ -14,6 +16,55 @@ namespace {
 /// Of the picture's width, for the limb when names stand at its sides.
 constexpr float kShareBesideNames = 0.62f;
 constexpr int kSheetWidth_px = 240, kSheetHeight_px = 320;  // of a picture on a sheet
+
+/// What a poster shows.
+struct Shown {
+  const scene::Scene& scene;
+  const messages::SceneFrame& frame;
+  view::ViewState look;
+};
+
+/// Both columns of a poster's names, in heights of the text.
+float columns_of_names(Shown shown, const std::string& side) {
+  constexpr float kCharacter = 0.5f;        // mean width of a character over the height of the text
+  constexpr float kRoomBesideNames = 4.0f;  // what view::SceneOverlay leaves free, and a little
+  const anatomy::Specimen& specimen = shown.scene.specimen;
+  std::size_t longest = 0;
+  const auto measure = [&](const view::Part& part, view::NameStyle style) {
+    longest = std::max(longest, view::name_of(specimen, part, style).size());
+  };
+  // What is seen of a limb hardly hangs on the picture's shape.
+  shown.look.camera = view::camera_of(side, specimen, view::bounds_of(specimen, shown.frame), 1.0f);
+  for (const view::SeenPart& seen : view::seen_parts(specimen, shown.frame, shown.look, {}, 1.0f).parts) {
+    if (shown.look.names != view::NameStyle::Latin) measure(seen.part, view::NameStyle::English);
+    if (shown.look.names != view::NameStyle::English) measure(seen.part, view::NameStyle::Latin);
+  }
+  return 2.0f * (kCharacter * static_cast<float>(longest) + kRoomBesideNames);
+}
+
+/// How a poster's width is shared between limb and names.
+struct PosterLayout {
+  float text_px = 0.0f;
+  float limb_share = 0.0f;
+};
+
+/// The names are the smaller the narrower the picture: they take little more than half of its width at most, and the
+/// limb the rest.
+PosterLayout layout_of_poster(const Shown& shown, const PictureWish& wish) {
+  constexpr float kMostForNames = 0.55f, kLeastForLimb = 0.3f, kSmallest_px = 8.0f;
+  const float columns = columns_of_names(shown, wish.view), width = static_cast<float>(wish.size.width);
+  const float text_px = std::max(kSmallest_px, std::min(view::suitable_text_px(wish.size.width, wish.size.height),
+                                                        kMostForNames * width / columns));
+  return {text_px, std::max(kLeastForLimb, 1.0f - columns * text_px / width)};
+}
+
+/// Colours of activation say nothing of a limb at rest.
+bool legend_explains(const messages::SceneFrame& frame, const view::ViewState& look) {
+  constexpr double kSeen = 0.05;  // less tints no muscle visibly
+  const auto active = [](double activation) { return activation > kSeen; };
+  return look.attachments || look.colour != view::MuscleColour::Activation ||
+         std::any_of(frame.activations.begin(), frame.activations.end(), active);
+}
 
 /// One pose a row: angles, one a joint.
 std::vector<std::vector<double>> poses_of_sheet(const scene::Scene& scene) {
@@ -37,7 +88,8 @@ view::ViewState look_of(const scene::Scene& scene, const messages::SceneFrame& f
   const float aspect = static_cast<float>(wish.size.width) / static_cast<float>(wish.size.height);
   view::ViewState look = view::start_view(scene.specimen, aspect);
   view::apply_show_options(wish.show, scene.specimen, look);
-  const float limb_aspect = look.labels ? kShareBesideNames * aspect : aspect;
+  const float share = wish.poster ? layout_of_poster({scene, frame, look}, wish).limb_share : kShareBesideNames;
+  const float limb_aspect = look.labels ? share * aspect : aspect;
   look.camera = view::camera_of(wish.view, scene.specimen, view::bounds_of(scene.specimen, frame), limb_aspect);
   return look;
 }
@@ -52,10 +104,19 @@ void write_picture(const scene::Scene& scene, const simulation::Simulation& simu
   messages::SceneFrame frame;
   simulation.write_frame(frame);
   frame.tools = tools;
+  write_picture(scene, frame, wish, path);
+}
+
+void write_picture(const scene::Scene& scene, const messages::SceneFrame& frame, const PictureWish& wish,
+                   const std::filesystem::path& path) {
   view::SceneExtras extras;
   extras.joint = watched_joint(scene);
-  view::OffscreenRenderer renderer(scene.specimen, wish.size.width, wish.size.height);
-  view::write_png(path, renderer.render_with_text(frame, look_of(scene, frame, wish), extras));
+  const view::ViewState look = look_of(scene, frame, wish);
+  extras.legend = !wish.poster || legend_explains(frame, look);
+  const float text_px = wish.poster ? layout_of_poster({scene, frame, look}, wish).text_px
+                                    : view::suitable_text_px(wish.size.width, wish.size.height);
+  view::OffscreenRenderer renderer(scene.specimen, wish.size.width, wish.size.height, text_px);
+  view::write_png(path, renderer.render_with_text(frame, look, extras));
 }
 
 void write_sheet(const scene::Scene& scene, const std::vector<std::string>& show, const std::filesystem::path& path) {

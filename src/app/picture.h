@@ -17,6 +17,7 @@ struct PictureWish {
   std::string view = "lateral";   // camera_of()
   std::vector<std::string> show;  // apply_show_options()
   view::PictureSize size;
+  bool poster = false;  // no name stands over the limb, and no legend where there is nothing that it explains
 };
 
 /// How the scene is looked at. Throws as check_picture().
@@ -24,6 +25,10 @@ view::ViewState look_of(const scene::Scene& scene, const messages::SceneFrame& f
 
 /// Throws Error Usage when the wish cannot be met for this scene: before hours of simulation, not after.
 void check_picture(const scene::Scene& scene, const PictureWish& wish);
+
+/// Draws a frame of the scene, as the one below.
+void write_picture(const scene::Scene& scene, const messages::SceneFrame& frame, const PictureWish& wish,
+                   const std::filesystem::path& path);
 
 /// Draws the scene as it is now: the limb as it stands fills the picture. Throws Error InputOutput when the file cannot
 /// be written, Unavailable without any OpenGL.
