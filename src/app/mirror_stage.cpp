@@ -24,7 +24,6 @@ bool takes_a_hand(const Options& options) {
               "--device: beside --connect the window takes the mouse or no device; `myotact feel` is for others");
 }
 
-
 net::Role role_of(const Options& options) {
   if (options.role == "instructor") return net::Role::Instructor;
   return options.role == "student" || takes_a_hand(options) ? net::Role::Student : net::Role::Viewer;

@@ -92,7 +92,8 @@ TEST_F(MirrorWindowTest, AClassIsJoinedFromTheStartPage) {
   gui.screenshot("join");
   gui.click("start.join.now");
   EXPECT_TRUE(gui.wait_until([&](const json& s) {  // refused in a sentence, and the limb stays
-    return gui.value_of("news.message").find("32 hexadecimal digits") != std::string::npos && s["scene_name"] == "elbow";
+    return gui.value_of("news.message").find("32 hexadecimal digits") != std::string::npos &&
+           s["scene_name"] == "elbow";
   }));
   gui.click("toolbar.start");
   gui.click("start.join");

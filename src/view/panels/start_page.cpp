@@ -64,8 +64,7 @@ std::optional<StartChoice> StartPage::draw_purposes() {
 
 /// It is a program of its own, which takes minutes: here are its commands, to be copied.
 void StartPage::draw_preparing() {
-  constexpr std::array kCommands = {"myotact-prepare LIMB.seg.nrrd --guess -o my_limb",
-                                    "myotact-prepare check my_limb",
+  constexpr std::array kCommands = {"myotact-prepare LIMB.seg.nrrd --guess -o my_limb", "myotact-prepare check my_limb",
                                     "myotact view elbow --set specimen=my_limb"};
   title("start.prepare");
   ui::paragraph(ui::tr("start.prepare.how"));
@@ -106,12 +105,19 @@ std::optional<StartChoice> StartPage::draw(const Area& area) {
   ImGui::SetNextWindowPos(ImVec2(area.x + 0.5f * area.width, area.y + 0.5f * area.height), ImGuiCond_Always,
                           ImVec2(0.5f, 0.5f));
   ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0.0f), ImVec2(width, area.height));
-  ImGui::Begin("start", nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::Begin("start", nullptr,
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize);
   std::optional<StartChoice> choice;
   switch (side_) {
-    case Side::Purposes: choice = draw_purposes(); break;
-    case Side::Prepare: draw_preparing(); break;
-    case Side::Join: choice = draw_joining(); break;
+    case Side::Purposes:
+      choice = draw_purposes();
+      break;
+    case Side::Prepare:
+      draw_preparing();
+      break;
+    case Side::Join:
+      choice = draw_joining();
+      break;
   }
   ImGui::End();
   if (choice) open_ = false;

@@ -48,7 +48,8 @@ void draw_opposition(const messages::JointFrame& joint) {
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddRectFilled(corner, ImVec2(corner.x + width, low), ImGui::GetColorU32(ImGuiCol_FrameBg));
   list->AddRectFilled(ImVec2(x_of(sides.flexing_Nm), corner.y), ImVec2(middle, low), ImGui::GetColorU32(ui::kFlexes));
-  list->AddRectFilled(ImVec2(middle, corner.y), ImVec2(x_of(sides.extending_Nm), low), ImGui::GetColorU32(ui::kExtends));
+  list->AddRectFilled(ImVec2(middle, corner.y), ImVec2(x_of(sides.extending_Nm), low),
+                      ImGui::GetColorU32(ui::kExtends));
   const float net = x_of(sides.flexing_Nm + sides.extending_Nm);
   list->AddLine(ImVec2(net, corner.y - 2.0f), ImVec2(net, low + 2.0f), ImGui::GetColorU32(ImGuiCol_Text), 3.0f);
   ImGui::Dummy(ImVec2(width, height));

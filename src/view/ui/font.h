@@ -13,8 +13,8 @@ inline constexpr const char* kBoldFont = "/usr/share/fonts/opentype/inter/Inter-
 /// Of fonts-fork-awesome: the icons of `icons.h`. Without it controls have their words alone.
 inline constexpr const char* kIconFont = "/usr/share/fonts/truetype/fork-awesome/forkawesome-webfont.ttf";
 
-/// Adds the font of the interface, with icons, to the current ImGui context; where there is none of these files, ImGui's
-/// own in the same height, and it returns false.
+/// Adds the font of the interface, with icons, to the current ImGui context; where there is none of these files,
+/// ImGui's own in the same height, and it returns false.
 bool add_font(float height_px, std::span<const char* const> files = kTextFonts);
 
 /// The sizes of type: text, the heading of a group, a title, a number that is read from the last row.

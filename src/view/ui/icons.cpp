@@ -14,7 +14,8 @@ constexpr ImWchar kEye = 0xf06e, kPointingHand = 0xf25a, kGrip = 0xf255, kFlatHa
 constexpr ImWchar kPlay = 0xf04b, kPause = 0xf04c, kSquare = 0xf04d, kToBegin = 0xf049, kToEnd = 0xf050;
 constexpr ImWchar kStepBack = 0xf048, kStepOn = 0xf051, kDisc = 0xf111, kFilm = 0xf008, kList = 0xf03a;
 constexpr ImWchar kDiskette = 0xf0c7, kFolder = 0xf07c, kUndo = 0xf0e2, kRedo = 0xf01e, kQuestion = 0xf059;
-constexpr ImWchar kHouse = 0xf015, kScales = 0xf24e, kGraduate = 0xf19d, kCube = 0xf1b2, kGroup = 0xf0c0, kBranch = 0xf126;
+constexpr ImWchar kHouse = 0xf015, kScales = 0xf24e, kGraduate = 0xf19d, kCube = 0xf1b2, kGroup = 0xf0c0,
+                  kBranch = 0xf126;
 
 constexpr std::array kIcons = {
     std::pair{std::string_view("toolbar.look"), kEye},

@@ -30,7 +30,7 @@ constexpr std::array kPairs = {
 
 /// Greys, and one accent: deep as a ground of text (what is chosen), bright as a line, a mark or a heading.
 struct Palette {
-  unsigned window, popup, border;         // 0xRRGGBB
+  unsigned window, popup, border;               // 0xRRGGBB
   unsigned field, field_hovered, field_active;  // that is filled in: sliders, boxes
   unsigned button, button_hovered;
   unsigned chosen, accent;
@@ -65,8 +65,9 @@ void apply(const Palette& palette) {
   set(palette.button_hovered, {ImGuiCol_ButtonHovered, ImGuiCol_HeaderHovered, ImGuiCol_TabHovered});
   set(palette.chosen, {ImGuiCol_ButtonActive, ImGuiCol_HeaderActive, ImGuiCol_TabActive, ImGuiCol_TabUnfocusedActive,
                        ImGuiCol_SliderGrab, ImGuiCol_SliderGrabActive});
-  set(palette.accent, {ImGuiCol_CheckMark, ImGuiCol_PlotHistogram, ImGuiCol_PlotLines, ImGuiCol_NavHighlight, ImGuiCol_SeparatorHovered, ImGuiCol_SeparatorActive,
-                       ImGuiCol_ScrollbarGrabActive, ImGuiCol_ResizeGripActive, ImGuiCol_DragDropTarget});
+  set(palette.accent,
+      {ImGuiCol_CheckMark, ImGuiCol_PlotHistogram, ImGuiCol_PlotLines, ImGuiCol_NavHighlight, ImGuiCol_SeparatorHovered,
+       ImGuiCol_SeparatorActive, ImGuiCol_ScrollbarGrabActive, ImGuiCol_ResizeGripActive, ImGuiCol_DragDropTarget});
   set(palette.text, {ImGuiCol_Text});
   set(palette.faint_text, {ImGuiCol_TextDisabled});
   set(palette.warning, {ImGuiCol_PlotHistogramHovered, ImGuiCol_PlotLinesHovered});

@@ -38,7 +38,8 @@ void in_area(const char* id, const Area& area, const Draw& draw) {
   ImGui::SetNextWindowSize(ImVec2(area.width, area.height));
   ImGui::Begin(id, nullptr,
                ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
-                   ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoBackground);
+                   ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                   ImGuiWindowFlags_NoBackground);
   draw();
   ImGui::End();
 }
