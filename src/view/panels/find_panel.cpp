@@ -1,6 +1,7 @@
 #include "view/panels/find_panel.h"
 
 #include <algorithm>
+#include <cctype>
 #include <string_view>
 #include <utility>
 
@@ -137,9 +138,25 @@ void FindPanel::select_first(PanelContext& context) {
   select(context.view, {found.front().bone ? PartKind::Bone : PartKind::Muscle, found.front().index});
 }
 
+/// Who looks for the stifle in the elbow looks for another scene.
+void FindPanel::offer_scenes(PanelContext& context) const {
+  constexpr std::size_t kTyped = 3;  // letters: fewer are in too many names
+  if (text_.size() < kTyped) return;
+  std::string wanted = text_;
+  std::transform(wanted.begin(), wanted.end(), wanted.begin(), [](unsigned char c) { return std::tolower(c); });
+  for (const std::string& scene : context.facts.scenes) {
+    if (scene == context.facts.name || !scene.starts_with(wanted)) continue;
+    if (ImGui::Button(ui::tr("find.open_scene", scene).c_str())) {
+      context.asks.wish = SceneWish{scene, context.facts.tissue, {}};
+    }
+    ui::note_control("find.open_scene", scene);
+  }
+}
+
 void FindPanel::draw_results(PanelContext& context) {
   const auto found = anatomy::find_parts(context.specimen, context.part_facts, text_);
   if (found.empty()) ui::paragraph(ui::tr("find.nothing", text_));
+  offer_scenes(context);
   for (const anatomy::FoundPart& part : found) {
     draw_row(context, {part.bone ? PartKind::Bone : PartKind::Muscle, part.index});
   }
@@ -150,17 +167,24 @@ void FindPanel::draw_region(PanelContext& context, const std::string& region) {
     return anatomy::facts_of(context.part_facts, key_of(context.specimen, part));
   };
   std::vector<Part> here;
-  std::vector<std::string> functions;  // of bones: none
+  std::vector<std::string> functions;  // of bones, and of muscles that none is known of: none
   for (const Part& part : all_parts(context.specimen)) {
     if (facts(part).region != region) continue;
     here.push_back(part);
     add_once(functions, facts(part).function);
   }
-  for (const std::string& function : functions) {
-    ImGui::TextDisabled("%s", function.empty() ? ui::tr("find.bones") : in_language("function", function).c_str());
+  const auto draw_group = [&](const std::string& heading, const std::string& function, PartKind kind) {
+    const auto belongs = [&](const Part& part) { return facts(part).function == function && part.kind == kind; };
+    if (std::none_of(here.begin(), here.end(), belongs)) return;
+    ImGui::TextDisabled("%s", heading.c_str());
     for (const Part& part : here) {
-      if (facts(part).function == function) draw_row(context, part);
+      if (belongs(part)) draw_row(context, part);
     }
+  };
+  for (const std::string& function : functions) {
+    const std::string muscles = function.empty() ? ui::tr("find.other_muscles") : in_language("function", function);
+    draw_group(muscles, function, PartKind::Muscle);
+    draw_group(ui::tr("find.bones"), function, PartKind::Bone);
   }
 }
 

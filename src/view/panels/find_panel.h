@@ -23,6 +23,7 @@ class FindPanel {
  private:
   void draw_row(PanelContext& context, const Part& part);
   void select_first(PanelContext& context);
+  void offer_scenes(PanelContext& context) const;
   void draw_results(PanelContext& context);
   void draw_tree(PanelContext& context);
   void draw_region(PanelContext& context, const std::string& region);

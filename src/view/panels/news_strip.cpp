@@ -63,8 +63,7 @@ void NewsStrip::draw(PanelContext& context, const Area& scene, std::string& mess
   const float em = ImGui::GetFontSize();
   constexpr float kWidest_em = 46.0f;  // a sentence in two lines or three
   const float width = std::min(scene.width, kWidest_em * em);
-  constexpr float kBanner_em = 2.2f;  // of the one that shows what moment is looked back on
-  ImGui::SetNextWindowPos(ImVec2(scene.x + 0.5f * scene.width, scene.y + kBanner_em * em), 0, ImVec2(0.5f, 0.0f));
+  ImGui::SetNextWindowPos(ImVec2(scene.x + 0.5f * scene.width, scene.y), 0, ImVec2(0.5f, 0.0f));
   ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0.0f), ImVec2(width, scene.height));
   ImGui::Begin("news", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize |

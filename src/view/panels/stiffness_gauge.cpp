@@ -21,15 +21,16 @@ constexpr double kApart_s = 0.04;  // samples, at most 500 of them
 const ImVec4 kUnstable(1.0f, 0.4f, 0.3f, 1.0f);
 
 void draw_number(double K_Nm_rad) {
+  ui::text("demonstrate.what_is_K");
   const bool unstable = K_Nm_rad < 0.0;
   ImGui::PushStyleColor(ImGuiCol_Text, unstable ? kUnstable : ImGui::GetStyleColorVec4(ImGuiCol_Text));
   ui::push_type(ui::Type::Number);
-  const char* key = unstable ? "demonstrate.K_unstable" : "demonstrate.K";
-  const std::string text = ui::tr(key, K_Nm_rad);
+  const std::string text = ui::tr("demonstrate.K", K_Nm_rad);
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopFont();
-  ImGui::PopStyleColor();
   ui::note_control("demonstrate.K", text);
+  if (unstable) ui::paragraph(ui::tr("demonstrate.unstable"));
+  ImGui::PopStyleColor();
 }
 
 /// Rounded to what is shown of it; what rounds to nothing has no sign.

@@ -239,7 +239,7 @@ void ShownScene::draw_areas(PanelContext& context) {
   recordings_.draw(context);
   if (big_type_) draw_class_panel(context, layout_.scene);
   in_area("status", layout_.status, [&] { draw_status_bar(context); });
-  news_strip_.draw(context, layout_.scene, message);
+  news_strip_.draw(context, news_room(context), message);
   if (help_ && draw_help(help_, keys_, settings.mouse)) {
     tour_on_ = true;
     sides_ = {};
@@ -250,7 +250,20 @@ void ShownScene::draw_areas(PanelContext& context) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float below_toolbar = layout_.toolbar.height;  // what stops the forces stays in reach
   if (const auto choice = start_.draw({0.0f, below_toolbar, display.x, display.y - below_toolbar})) begin_with(*choice);
-  if (!start_.is_open()) guide(context);
+  if (!start_.is_open() && !help_) guide(context);
+}
+
+/// Between the handles that fold the panels, so that a sentence leaves the limb alone; below a banner.
+Area ShownScene::news_room(const PanelContext& context) const {
+  constexpr float kHandle_em = 1.8f, kBanner_em = 2.2f;
+  const float em = ImGui::GetFontSize();
+  const bool banner = timeline_.looks_back() || replays() || is_clutched(context);
+  Area room = layout_.scene;
+  if (room.empty()) return room;
+  room.x += kHandle_em * em;
+  room.width = std::max(room.width - 2.0f * kHandle_em * em, em);
+  room.y += banner ? kBanner_em * em : 0.0f;
+  return room;
 }
 
 void ShownScene::guide(PanelContext& context) {

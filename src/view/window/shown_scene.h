@@ -50,6 +50,8 @@ class ShownScene {
   /// The page of what the program is for, as far as somebody is in it; or what was chosen there.
   void begin_with(const StartPage& page) { start_ = page; }
   void begin_with(const StartChoice& choice);
+  /// A newcomer who was led in another scene is led on from where he was.
+  void lead_on(const ShownScene& before) { first_steps_ = before.first_steps_; }
   /// The same scene from its start: what was set and shown stays.
   void take_over(const ShownScene& before);
 
@@ -98,6 +100,7 @@ class ShownScene {
   void hold_buttons(const GlfwWindow& window);
   void draw_areas(PanelContext& context);
   void draw_fold_handles();
+  Area news_room(const PanelContext& context) const;
   void guide(PanelContext& context);
   void begin_or_end_recording();
   void draw_tasks(PanelContext& context);

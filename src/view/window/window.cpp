@@ -104,6 +104,7 @@ Window::~Window() = default;
 void Window::open(const anatomy::Specimen& specimen, const WindowSettings& settings) {
   if (impl_->scene) impl_->scene->keep_marks();  // before they are read again
   auto opened = std::make_unique<ShownScene>(specimen, settings);
+  if (impl_->scene) opened->lead_on(*impl_->scene);
   if (impl_->scene && impl_->scene->facts().name == settings.facts.name) opened->take_over(*impl_->scene);
   opened->settings = impl_->scene ? impl_->scene->settings : impl_->settings;
   if (!impl_->settings_message.empty()) opened->message = std::exchange(impl_->settings_message, {});
