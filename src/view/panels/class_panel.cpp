@@ -59,13 +59,14 @@ void draw_class_panel(PanelContext& context, const Area& scene) {
   constexpr float kAbove = 0.36f;  // the legend is below it, news above
   ImGui::SetNextWindowPos(ImVec2(scene.x + gap, scene.y + kAbove * scene.height), 0, ImVec2(0.0f, kAbove));
   ImGui::Begin("class", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove);
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus);  // news has buttons, too
   const auto watched = static_cast<std::size_t>(context.facts.joint);
   if (watched < context.frame.joints.size()) {
     const messages::JointFrame& joint = context.frame.joints[watched];
     ui::text("class.stiffness");
     draw_headline(ui::tr("class.K", joint.stiffness_Nm_rad), "class.K");
-    ImGui::TextUnformatted(ui::tr("class.angle", joint.angle_rad * kDegrees).c_str());
+    ImGui::TextUnformatted(ui::tr("class.angle", std::round(joint.angle_rad * kDegrees) + 0.0).c_str());
   }
   const std::string common = ui::tr("class.common", 100.0 * context.scene.state().common_now);
   ImGui::TextUnformatted(common.c_str());

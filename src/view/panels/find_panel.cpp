@@ -104,6 +104,17 @@ void mark_note(const PanelContext& context, const std::string& part) {
   ImGui::EndTooltip();
 }
 
+/// A name that fits: heads of one muscle differ in what stands behind the comma, so that stays longest.
+std::string fitting(const std::string& name, float width) {
+  if (ImGui::CalcTextSize(name.c_str()).x <= width) return name;
+  constexpr std::string_view kMusculus = "Musculus ";
+  const std::string brief = name.starts_with(kMusculus) ? "M. " + name.substr(kMusculus.size()) : name;
+  const std::size_t comma = brief.find(", ");
+  if (comma == std::string::npos || ImGui::CalcTextSize(brief.c_str()).x <= width) return ui::shortened(brief, width);
+  const std::string head = brief.substr(comma + 1);
+  return ui::shortened(brief.substr(0, comma), 0.97f * (width - ImGui::CalcTextSize(head.c_str()).x)) + head;
+}
+
 }  // namespace
 
 void FindPanel::draw_row(PanelContext& context, const Part& part) {
@@ -119,7 +130,7 @@ void FindPanel::draw_row(PanelContext& context, const Part& part) {
   ImGui::SameLine();
   const bool selected = selected_part(view) == part;
   const std::string name = name_of(context.specimen, part, view);
-  const std::string fits = ui::shortened(name, ImGui::GetContentRegionAvail().x);
+  const std::string fits = fitting(name, ImGui::GetContentRegionAvail().x);
   if (ImGui::Selectable(fmt::format("{}###name", fits).c_str(), selected, ImGuiSelectableFlags_AllowDoubleClick)) {
     ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) ? isolate(view, part) : select(view, part);
   }
@@ -142,11 +153,15 @@ void FindPanel::select_first(PanelContext& context) {
 void FindPanel::offer_scenes(PanelContext& context) const {
   constexpr std::size_t kTyped = 3;  // letters: fewer are in too many names
   if (text_.size() < kTyped) return;
-  std::string wanted = text_;
-  std::transform(wanted.begin(), wanted.end(), wanted.begin(), [](unsigned char c) { return std::tolower(c); });
+  const auto lowered = [](std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+  };
+  const std::string wanted = lowered(text_);
   for (const std::string& scene : context.facts.scenes) {
-    if (scene == context.facts.name || !scene.starts_with(wanted)) continue;
-    if (ImGui::Button(ui::tr("find.open_scene", scene).c_str())) {
+    const bool named = scene.starts_with(wanted) || lowered(ui::tr(scene)).starts_with(wanted);
+    if (scene == context.facts.name || !named) continue;
+    if (ImGui::Button(ui::tr("find.open_scene", ui::tr(scene)).c_str())) {
       context.asks.wish = SceneWish{scene, context.facts.tissue, {}};
     }
     ui::note_control("find.open_scene", scene);

@@ -58,7 +58,12 @@ std::optional<StartChoice> StartPage::draw_purposes() {
   if (draw_tile("start.prepare")) side_ = Side::Prepare;
   if (draw_tile("start.join")) side_ = Side::Join;
   ImGui::Spacing();
-  if (ui::button("start.close")) open_ = false;
+  if (ui::button("start.close")) open_ = false, declined_ = true;
+  for (const std::string& code : ui::languages()) {
+    if (code == ui::language()) continue;
+    ImGui::SameLine();
+    if (ui::button(fmt::format("comfort.language.{}", code).c_str())) language_ = code;
+  }
   return {};
 }
 

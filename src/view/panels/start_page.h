@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "view/panels/panel.h"
 #include "view/ui/layout.h"
@@ -22,7 +23,12 @@ class StartPage {
   /// In the middle of `area`. A choice closes it.
   std::optional<StartChoice> draw(const Area& area);
 
+  /// Code of the language that was asked for, once.
+  std::optional<std::string> take_language() { return std::exchange(language_, std::nullopt); }
+
   bool is_open() const { return open_; }
+  /// Who closed it without a choice wants neither to be led.
+  bool was_declined() const { return declined_; }
   void open() { *this = StartPage(), open_ = true; }
 
  private:
@@ -32,9 +38,10 @@ class StartPage {
   void draw_preparing();
   std::optional<StartChoice> draw_joining();
 
-  bool open_ = false;
+  bool open_ = false, declined_ = false;
   Side side_ = Side::Purposes;
   ClassToJoin to_join_;
+  std::optional<std::string> language_;
 };
 
 }  // namespace myotact::view

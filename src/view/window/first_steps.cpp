@@ -48,9 +48,24 @@ void FirstSteps::go_on(const PanelContext& context) {
   was_let_go_ = was_let_go_ || !touches;
   const Step before = step_;
   if (step_ == Step::Press && touches) step_ = context.facts.presets.empty() ? Step::Learn : Step::Contract;
-  if (step_ == Step::Contract && context.scene.state().common_now >= kContracted) step_ = Step::PressAgain;
+  const bool contracted = step_ == Step::Contract && context.scene.state().common_now >= kContracted;
+  settles_ = contracted && !stands_stiffer(context);
+  if (contracted && !settles_) step_ = Step::PressAgain;
   if (step_ == Step::PressAgain && touches && was_let_go_) step_ = Step::Learn;
   if (step_ != before) was_let_go_ = !touches;
+  const auto joint = static_cast<std::size_t>(context.facts.joint);
+  if (step_ != Step::Press || joint >= context.frame.joints.size()) return;
+  angle_rad_ = context.frame.joints[joint].angle_rad;
+  K_Nm_rad_ = context.frame.joints[joint].stiffness_Nm_rad;
+}
+
+/// Whether what the next sentence says is seen: the joint stands where it stood, and is stiffer.
+bool FirstSteps::stands_stiffer(const PanelContext& context) const {
+  constexpr double kStill_rad = 0.0175;  // a degree, as much as is seen on the limb
+  const auto joint = static_cast<std::size_t>(context.facts.joint);
+  if (joint >= context.frame.joints.size()) return false;
+  const messages::JointFrame& now = context.frame.joints[joint];
+  return std::abs(now.angle_rad - angle_rad_) < kStill_rad && now.stiffness_Nm_rad > 1.5 * K_Nm_rad_;
 }
 
 void FirstSteps::glow_on_muscle(const PanelContext& context, const Area& scene, const std::vector<bool>& superficial) {
@@ -97,7 +112,7 @@ bool FirstSteps::draw(PanelContext& context, const Area& scene, const std::vecto
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoFocusOnAppearing);
   constexpr std::array kSentences = {"first.press", "first.contract", "first.press_again", "first.learn"};
-  const char* sentence = kSentences[static_cast<std::size_t>(step_)];
+  const char* sentence = settles_ ? "first.settles" : kSentences[static_cast<std::size_t>(step_)];
   ui::paragraph(ui::tr(sentence));
   ui::note_control(sentence);
   const bool over = ui::button(step_ == Step::Learn ? "first.done" : "first.skip");

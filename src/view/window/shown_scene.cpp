@@ -57,8 +57,6 @@ ShownScene::ShownScene(const anatomy::Specimen& specimen, const WindowSettings& 
       feel_(specimen),
       work_(settings.work) {
   controls_.hand_world_m = settings.hand_start_world_m;
-  // Anatomy speaks Latin where it does not speak English; there are no other names.
-  if (ui::language() != "en") state_.view.names = NameStyle::Latin;
   marks_ = marks_or_none(marks_file(specimen.name), message);
 }
 
@@ -76,6 +74,7 @@ void ShownScene::take_over(const ShownScene& before) {
   big_type_ = before.big_type_;
   sides_ = before.sides_;
   first_steps_ = before.first_steps_;
+  language_ = before.language_;
   tour_ = before.tour_;
   tour_on_ = before.tour_on_;
 }
@@ -158,11 +157,18 @@ void ShownScene::note_changes(const SceneState& before) {
 }
 
 void ShownScene::draw_tasks(PanelContext& context) {
-  if (!ImGui::BeginTabBar("tasks")) return;
+  constexpr float kTabPadding_em = 0.27f;  // so narrow that all tabs are read whole in any language
+  const ImVec2 padding(kTabPadding_em * ImGui::GetFontSize(), ImGui::GetStyle().FramePadding.y);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, padding);
+  const bool open_bar = ImGui::BeginTabBar("tasks");
+  ImGui::PopStyleVar();
+  if (!open_bar) return;
   const std::string wanted = std::exchange(open_task_, {});
   const auto tab = [&](const char* key, const auto& draw) {
     const ImGuiTabItemFlags flags = key == wanted ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, padding);
     const bool open = ImGui::BeginTabItem(fmt::format("{}###{}", ui::tr(key), key).c_str(), nullptr, flags);
+    ImGui::PopStyleVar();
     ui::note_control(key, open ? "on" : "off");
     if (!open) return;
     ImGui::BeginChild(key);
@@ -250,7 +256,11 @@ void ShownScene::draw_areas(PanelContext& context) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float below_toolbar = layout_.toolbar.height;  // what stops the forces stays in reach
   if (const auto choice = start_.draw({0.0f, below_toolbar, display.x, display.y - below_toolbar})) begin_with(*choice);
-  if (!start_.is_open() && !help_) guide(context);
+  if (const auto language = start_.take_language()) {
+    settings.language = *language;
+    keep(settings, message);
+  }
+  if (!start_.is_open() && !start_.was_declined() && !help_) guide(context);
 }
 
 /// Between the handles that fold the panels, so that a sentence leaves the limb alone; below a banner.
@@ -290,6 +300,10 @@ void ShownScene::draw_panels(const messages::SceneFrame& now, GlfwWindow& window
   layout_ = layout_of(display.x, display.y, ImGui::GetFontSize(), big_type_ ? SidePanels{false, false} : sides_);
   keys_ = bindings_with(settings.keys);
   if (big_type_) ui::apply_theme(ui::Theme::Contrast);  // settings that changed have set theirs
+  if (std::exchange(language_, ui::language()) != ui::language()) {
+    // Anatomy speaks Latin where it does not speak English; there are no other names.
+    state_.view.names = ui::language() == "en" ? NameStyle::English : NameStyle::Latin;
+  }
   if (first) {
     state_.view.camera = framed(state_.view.camera, bounds_of(*specimen_, now), scene_aspect());
     history_ = History(state_);

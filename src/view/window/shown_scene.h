@@ -162,7 +162,8 @@ class ShownScene {
   std::string open_task_;         // tab to be opened; empty: none
   int area_step_ = 0;             // to the area that the keyboard goes to; 0: it stays
   SidePanels sides_;
-  bool big_type_ = false;  // for a class in front of a projector
+  bool big_type_ = false;        // for a class in front of a projector
+  std::string language_ = "en";  // that names are in as the view was set up
   bool help_ = false;
   bool demonstrates_ = false;  // that panel is open, or was when the panels were folded
   WorksPanel works_;

@@ -11,6 +11,7 @@
 #include <imgui.h>
 
 #include "core/error.h"
+#include "view/panels/settings_panel.h"
 #include "view/panels/start_page.h"
 #include "view/pictures/window_pictures.h"
 #include "view/session/settings.h"
@@ -58,6 +59,10 @@ struct Window::Impl {
     } else {
       const ImVec2 display = ImGui::GetIO().DisplaySize;
       if (const auto choice = start.draw({0.0f, 0.0f, display.x, display.y})) chosen = choice;
+      if (const auto language = start.take_language()) {
+        settings.language = *language;
+        keep(settings, settings_message);
+      }
       if (!start.is_open()) draw_waiting(message);
     }
     ImGui::Render();
