@@ -49,7 +49,11 @@ export class KeyHand {
     if (this.hand.busy || !this.hand.able || selection === null) return;
     const place = this.view.placeOf(selection);
     const wanted = ({ part }: { part: Parameters<typeof isSolid>[0] }): boolean => isSolid(part, look);
-    const hit = place && this.view.hitAt(place.clientX, place.clientY, wanted);
+    if (place === null) return;
+    // At the edge of what is seen of it, a neighbour may lie a hair's breadth before it.
+    const hit =
+      this.view.hitAt(place.clientX, place.clientY, ({ part }) => part.key === selection) ??
+      this.view.hitAt(place.clientX, place.clientY, wanted);
     if (hit === null) return;
     if (mode === 'touch') this.hand.beginPress(hit, wanted);
     else if (mode !== 'pull' || !this.hand.beginPull(hit, towardsEye(this.view))) return;
