@@ -159,7 +159,7 @@ void FindPanel::offer_scenes(PanelContext& context) const {
   };
   const std::string wanted = lowered(text_);
   for (const std::string& scene : context.facts.scenes) {
-    const bool named = scene.starts_with(wanted) || lowered(ui::tr(scene)).starts_with(wanted);
+    const bool named = scene.starts_with(wanted) || lowered(ui::tr(scene)).find(wanted) != std::string::npos;
     if (scene == context.facts.name || !named) continue;
     if (ImGui::Button(ui::tr("find.open_scene", ui::tr(scene)).c_str())) {
       context.asks.wish = SceneWish{scene, context.facts.tissue, {}};

@@ -54,9 +54,16 @@ void FirstSteps::go_on(const PanelContext& context) {
   if (step_ == Step::PressAgain && touches && was_let_go_) step_ = Step::Learn;
   if (step_ != before) was_let_go_ = !touches;
   const auto joint = static_cast<std::size_t>(context.facts.joint);
-  if (step_ != Step::Press || joint >= context.frame.joints.size()) return;
+  const bool is_relaxed = context.scene.state().common_now < 0.1;
+  if (!is_relaxed || joint >= context.frame.joints.size()) return;
   angle_rad_ = context.frame.joints[joint].angle_rad;
   K_Nm_rad_ = context.frame.joints[joint].stiffness_Nm_rad;
+}
+
+void FirstSteps::enter_another_scene() {
+  if (step_ == Step::PressAgain) step_ = Step::Contract;
+  began_ = was_let_go_ = settles_ = false;
+  angle_rad_ = K_Nm_rad_ = 0.0;
 }
 
 /// Whether what the next sentence says is seen: the joint stands where it stood, and is stiffer.

@@ -13,6 +13,8 @@ class FirstSteps {
  public:
   /// `scene`: where the limb is drawn; `superficial`: as for seen_parts(). True when all is done, or he wants no more.
   bool draw(PanelContext& context, const Area& scene, const std::vector<bool>& superficial);
+  /// In another scene nothing is contracted yet, and the mouse looks.
+  void enter_another_scene();
 
  private:
   enum class Step { Press, Contract, PressAgain, Learn };

@@ -51,7 +51,10 @@ class ShownScene {
   void begin_with(const StartPage& page) { start_ = page; }
   void begin_with(const StartChoice& choice);
   /// A newcomer who was led in another scene is led on from where he was.
-  void lead_on(const ShownScene& before) { first_steps_ = before.first_steps_; }
+  void lead_on(const ShownScene& before) {
+    first_steps_ = before.first_steps_;
+    first_steps_.enter_another_scene();
+  }
   /// The same scene from its start: what was set and shown stays.
   void take_over(const ShownScene& before);
 
