@@ -198,12 +198,13 @@ class WindowApp {
     if (!stage) return;
     std::erase_if(retiring_,
                   [](const auto& one) { return one.wait_for(std::chrono::seconds(0)) == std::future_status::ready; });
-    retiring_.push_back(std::async(std::launch::async, [stage = std::move(stage)] {
+    retiring_.push_back(std::async(std::launch::async, [stage = std::move(stage)]() mutable {
       try {
         end(*stage);
       } catch (const std::exception& failure) {
         spdlog::warn("the scene before ended with a fault: {}", failure.what());
       }
+      stage.reset();  // now, and not with the future: a whole limb takes hundreds of megabytes
     }));
   }
 
