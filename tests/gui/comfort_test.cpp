@@ -147,6 +147,10 @@ TEST_F(ComfortTest, WhoNamesNoSceneIsAskedWhatFor) {
   GuiProgram gui("start", "--set tissue.default=line");
   ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.shows("start.touch"); }));
   gui.screenshot("start");
+  gui.click("comfort.language.de");
+  ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.value_of("start.touch") == "Eine Gliedmaße tasten"; }));
+  gui.click("comfort.language.en");
+  ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.value_of("start.touch") == "Touch a limb"; }));
   gui.click("start.prepare");
   ASSERT_TRUE(gui.wait_until([&](const json&) { return gui.shows("start.back") && !gui.shows("start.touch"); }));
   gui.screenshot("prepare");

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "view/panels/settings_panel.h"
 #include "view/ui/controls.h"
 #include "view/ui/font.h"
 #include "view/ui/icons.h"
@@ -46,6 +47,17 @@ bool draw_tile(const char* key) {
   return pressed;
 }
 
+/// The others, in the row of the button before.
+void draw_languages(Settings& settings, std::string& message) {
+  for (const std::string& code : ui::languages()) {
+    if (code == settings.language) continue;
+    ImGui::SameLine();
+    if (!ui::button(fmt::format("comfort.language.{}", code).c_str())) continue;
+    settings.language = code;
+    return keep(settings, message);
+  }
+}
+
 }  // namespace
 
 std::optional<StartChoice> StartPage::draw_purposes() {
@@ -59,11 +71,6 @@ std::optional<StartChoice> StartPage::draw_purposes() {
   if (draw_tile("start.join")) side_ = Side::Join;
   ImGui::Spacing();
   if (ui::button("start.close")) open_ = false, declined_ = true;
-  for (const std::string& code : ui::languages()) {
-    if (code == ui::language()) continue;
-    ImGui::SameLine();
-    if (ui::button(fmt::format("comfort.language.{}", code).c_str())) language_ = code;
-  }
   return {};
 }
 
@@ -103,7 +110,7 @@ std::optional<StartChoice> StartPage::draw_joining() {
   return StartChoice{Purpose::Join, to_join_};
 }
 
-std::optional<StartChoice> StartPage::draw(const Area& area) {
+std::optional<StartChoice> StartPage::draw(const Area& area, Settings& settings, std::string& message) {
   if (!open_ || area.empty()) return {};
   const float em = ImGui::GetFontSize();
   const float width = std::min(36.0f * em, area.width - em);
@@ -116,6 +123,7 @@ std::optional<StartChoice> StartPage::draw(const Area& area) {
   switch (side_) {
     case Side::Purposes:
       choice = draw_purposes();
+      draw_languages(settings, message);
       break;
     case Side::Prepare:
       draw_preparing();

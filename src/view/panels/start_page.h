@@ -2,9 +2,9 @@
 
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "view/panels/panel.h"
+#include "view/session/settings.h"
 #include "view/ui/layout.h"
 
 namespace myotact::view {
@@ -20,11 +20,9 @@ struct StartChoice {
 /// What the program is for, each a large button with a sentence: for those who start it without saying what they want.
 class StartPage {
  public:
-  /// In the middle of `area`. A choice closes it.
-  std::optional<StartChoice> draw(const Area& area);
-
-  /// Code of the language that was asked for, once.
-  std::optional<std::string> take_language() { return std::exchange(language_, std::nullopt); }
+  /// In the middle of `area`. A choice closes it. The language may be chosen as well, and is kept in `settings`;
+  /// `message` states why it cannot be.
+  std::optional<StartChoice> draw(const Area& area, Settings& settings, std::string& message);
 
   bool is_open() const { return open_; }
   /// Who closed it without a choice wants neither to be led.
@@ -41,7 +39,6 @@ class StartPage {
   bool open_ = false, declined_ = false;
   Side side_ = Side::Purposes;
   ClassToJoin to_join_;
-  std::optional<std::string> language_;
 };
 
 }  // namespace myotact::view

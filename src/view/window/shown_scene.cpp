@@ -255,11 +255,8 @@ void ShownScene::draw_areas(PanelContext& context) {
   works_.draw(context);
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float below_toolbar = layout_.toolbar.height;  // what stops the forces stays in reach
-  if (const auto choice = start_.draw({0.0f, below_toolbar, display.x, display.y - below_toolbar})) begin_with(*choice);
-  if (const auto language = start_.take_language()) {
-    settings.language = *language;
-    keep(settings, message);
-  }
+  const Area whole{0.0f, below_toolbar, display.x, display.y - below_toolbar};
+  if (const auto choice = start_.draw(whole, settings, message)) begin_with(*choice);
   if (!start_.is_open() && !start_.was_declined() && !help_) guide(context);
 }
 

@@ -11,7 +11,6 @@
 #include <imgui.h>
 
 #include "core/error.h"
-#include "view/panels/settings_panel.h"
 #include "view/panels/start_page.h"
 #include "view/pictures/window_pictures.h"
 #include "view/session/settings.h"
@@ -58,11 +57,8 @@ struct Window::Impl {
       sound_force();
     } else {
       const ImVec2 display = ImGui::GetIO().DisplaySize;
-      if (const auto choice = start.draw({0.0f, 0.0f, display.x, display.y})) chosen = choice;
-      if (const auto language = start.take_language()) {
-        settings.language = *language;
-        keep(settings, settings_message);
-      }
+      if (const auto choice = start.draw({0.0f, 0.0f, display.x, display.y}, settings, settings_message))
+        chosen = choice;
       if (!start.is_open()) draw_waiting(message);
     }
     ImGui::Render();
