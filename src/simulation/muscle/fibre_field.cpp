@@ -11,8 +11,16 @@ double point_weight_Nm(const TissueElement& element) {
   return element.point_volume_m3() * element.peak_Pa;
 }
 
-/// Force-velocity factor at a point and its slope against the stretch: the curve's tangent at the last step's speed,
-/// taken at the new speed, so that the damping of the fibres is implicit and one Newton step is enough.
+/// Least slope of the line that stands for the force-velocity curve in a step, over the slope at no speed, about the
+/// curve's steepest. The curve is flat where fibres move fast, and a line from there hardly damps: slack or jolted
+/// fibres then swung to and fro for ever, two steps a swing, and kept whole muscles from the rest that they have. With
+/// s the line's slope and F' the curve's, what a speed is off shrinks by |1 - F'/s| from step to step or faster, so
+/// that more than half of the steepest F' is enough. Sudden starts are felt one step late; steady speeds are the
+/// curve's.
+constexpr double kLeastSlope = 0.6;
+
+/// Force-velocity factor at a point and its slope against the stretch: a line through the curve at the last step's
+/// speed, taken at the new speed, so that the damping of the fibres is implicit and one Newton step is enough.
 struct SpeedFactor {
   double value = 1.0;
   double slope = 0.0;
@@ -23,9 +31,9 @@ SpeedFactor speed_factor(const FibreInputs& in, std::size_t point, double stretc
   const double to_speed = in.tissue.fibre_map.gain / kLargestShortening_lo_s;
   const double history = in.load.rule.history(in.state.last.stretch[point], in.state.before.stretch[point]);
   const double speed = to_speed * (in.load.rule.rate_1_s * stretch - history);
-  // The tangent is taken within the range in which the curve was measured.
+  // The line is laid within the range in which the curve was measured.
   const double known = std::clamp(to_speed * in.state.stretch_rate_1_s[point], -1.0, 1.0);
-  const double slope = force_velocity_slope(known);
+  const double slope = std::max(force_velocity_slope(known), kLeastSlope * force_velocity_slope(0.0));
   const double value = force_velocity(known) + slope * (speed - known);
   if (value <= 0.0) return {0.0, 0.0};  // a fibre never pushes
   return {value, slope * to_speed * in.load.rule.rate_1_s};
