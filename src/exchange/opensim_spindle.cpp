@@ -38,7 +38,7 @@ void add_wedge(int section, int corner, geometry::TetMesh& mesh) {
   // Diagonals from the lower of a and b, and from both to the middle above: neighbours agree.
   const int first = std::min(a, b), second = std::max(a, b);
   const std::array<std::array<int, 4>, 3> tets = {{{low + first, low + second, low + m, high + m},
-                                                   {low + first, low + second, high + second, high + m},
+                                                   {low + first, low + second, high + m, high + second},
                                                    {low + first, high + first, high + second, high + m}}};
   for (std::array<int, 4> tet : tets) {
     if (b != second) std::swap(tet[0], tet[1]);
