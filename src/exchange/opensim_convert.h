@@ -41,7 +41,8 @@ void add_wraps(const RawModel& raw, const Muscle& muscle, const std::vector<int>
                anatomy::MuscleLine& line);
 
 /// Gives the muscle a spindle of tets along its line, so that it can be seen and touched: as thick as its force and
-/// fibre length make it. False where the line folds back on itself.
+/// fibre length make it. Where the
+/// line folds back on itself it is straight from end to end; false where these are one place.
 bool draw_spindle(const anatomy::MuscleLine& line, anatomy::Muscle& muscle);
 
 /// Groups of the muscles that flex and extend each hinge, by their moment arms at the middle of its range.

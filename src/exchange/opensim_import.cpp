@@ -111,14 +111,15 @@ void drop_ground(anatomy::Specimen& specimen) {
   }
 }
 
-/// The joint with most muscles on the weaker of its sides.
+/// The joint with most muscles on the weaker of its sides; of several, that with most on both.
 int joint_to_show(const anatomy::Specimen& specimen) {
   int best = -1;
-  std::size_t most = 0;
+  std::pair<std::size_t, std::size_t> most{0, 0};
   for (const anatomy::MuscleGroup& group : specimen.groups) {
-    const std::size_t weaker = std::min(group.flexors.size(), group.extensors.size());
-    if (weaker <= most) continue;
-    most = weaker;
+    const std::size_t flexors = group.flexors.size(), extensors = group.extensors.size();
+    const std::pair here{std::min(flexors, extensors), flexors + extensors};
+    if (here.first == 0 || here <= most) continue;
+    most = here;
     best = group.joint;
   }
   return best;

@@ -141,7 +141,7 @@ int add_muscles(const RawModel& raw, bool tells, Placed& placed) {
       continue;
     }
     if (!draw_spindle(line, made)) {
-      leave(muscle, "left out: its path turns back on itself at the file pose");
+      leave(muscle, "left out: its path ends where it begins at the file pose");
       continue;
     }
     if (const std::string defect = defect_of(line, made, placed); !defect.empty()) {

@@ -114,6 +114,10 @@ void read_muscles(const Element& model, const Names& names, RawModel& raw) {
     muscle.activation_tau_s = element.number_or("activation_time_constant", usual.rise_s);
     muscle.deactivation_tau_s = element.number_or("deactivation_time_constant", usual.fall_s);
     if (!element.flag_or("appliesForce", true)) element.tell("applies no force in the model; here it does");
+    constexpr double kStretchingTendon_m = 1e-4;  // a shorter one is rigid in any case
+    if (element.flag_or("ignore_tendon_compliance", false) && muscle.tendon_slack_m >= kStretchingTendon_m) {
+      element.tell("its tendon is rigid in the model; here all are elastic, or rigid by the scene's tissue.tendon");
+    }
     read_path(element, names, muscle);
     raw.muscles.push_back(muscle);
   }

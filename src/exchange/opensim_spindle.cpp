@@ -98,10 +98,8 @@ void add_skin(anatomy::Muscle& muscle) {
   }
 }
 
-}  // namespace
-
-bool draw_spindle(const anatomy::MuscleLine& line, anatomy::Muscle& muscle) {
-  const std::vector<Vec3> middles = middles_of(simulation::line_points_L(line));
+/// False where that cannot be done, however thin.
+bool make_tets(const std::vector<Vec3>& middles, anatomy::Muscle& muscle, double& radius_m) {
   double length_m = 0.0;
   for (std::size_t s = 1; s < middles.size(); ++s) length_m += (middles[s] - middles[s - 1]).norm();
   if (!(length_m > 1e-4) || !std::isfinite(length_m)) return false;
@@ -111,13 +109,24 @@ bool draw_spindle(const anatomy::MuscleLine& line, anatomy::Muscle& muscle) {
   }
   // Where the line bends sharply, a thick spindle would fold; a thin one does not.
   constexpr int kMostHalvings = 12;
-  double radius_m = middle_radius_m(muscle, length_m);
+  radius_m = middle_radius_m(muscle, length_m);
   int halvings = 0;
   for (place_nodes(middles, radius_m, muscle.tets); !has_volume(muscle.tets) && halvings < kMostHalvings; ++halvings) {
     radius_m *= 0.5;
     place_nodes(middles, radius_m, muscle.tets);
   }
-  if (!has_volume(muscle.tets)) return false;
+  return has_volume(muscle.tets);
+}
+
+}  // namespace
+
+bool draw_spindle(const anatomy::MuscleLine& line, anatomy::Muscle& muscle) {
+  double radius_m = 0.0;
+  std::vector<Vec3> middles = middles_of(simulation::line_points_L(line));
+  if (!make_tets(middles, muscle, radius_m)) {  // a line that turns back on itself: straight from end to end
+    middles = middles_of({line.points.front().position_m, line.points.back().position_m});
+    if (!make_tets(middles, muscle, radius_m)) return false;
+  }
   for (std::size_t t = 0; t < muscle.tets.corners.size(); ++t) {
     const int section = static_cast<int>(t) / (3 * kCorners);
     const double here_m = radius_m * 0.5 * (profile(section) + profile(section + 1));

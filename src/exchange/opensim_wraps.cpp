@@ -141,16 +141,21 @@ void add_wraps(const RawModel& raw, const Muscle& muscle, const std::vector<int>
       throw wrap.element.error("its radii must be greater than 0");
     }
     const Pose X_LW = placed.X_LB[at(wrap.body)] * wrap.X_BW;
-    const Candidate best = deepest({wrap, X_LW.inverse(), first, last}, line, placed.specimen);
-    if (!(best.sum > 0.0)) {
-      path_wrap.element.tell("left out: over the joints' ranges the path never meets " + wrap.name);
+    Candidate best = deepest({wrap, X_LW.inverse(), first, last}, line, placed.specimen);
+    // One segment and one side leave nothing to find out: it may act where several joints move at once.
+    const bool certain = last == first + 1 && wrap.quadrant.norm() > 0.0;
+    if (certain) best.after = first;
+    if (!(best.sum > 0.0) && !certain) {
+      path_wrap.element.tell(
+          fmt::format("left out of {}: over the joints' ranges its path never meets {}", muscle.name, wrap.name));
       continue;
     }
     line.wraps.push_back(made_wrap(wrap, X_LW, best));
     const auto defects = anatomy::find_wrap_defects(line, "");
     if (defects.empty()) continue;
     line.wraps.pop_back();
-    path_wrap.element.tell("left out: " + defects.front().substr(defects.front().find("wrap")));
+    path_wrap.element.tell(
+        fmt::format("left out of {}: {}", muscle.name, defects.front().substr(defects.front().find("wrap"))));
   }
 }
 
