@@ -94,6 +94,20 @@ TEST(OpenSim, TheMomentArmIsThatOfPlaneGeometry) {
   }
 }
 
+TEST(OpenSim, FramesAreTurnedAboutXThenYThenZ) {
+  const double x = 0.3, y = -0.2, z = 0.5;
+  const std::string text = with(arm_text(), "<orientation>0 0 0", "<orientation>0.3 -0.2 0.5");
+  const Import import = parse_model(text, "arm.osim");
+  // The third column of Rx Ry Rz, which is where a pin's z axis points, in OpenSim's axes.
+  const Vec3 pin(std::sin(y), -std::sin(x) * std::cos(y), std::cos(x) * std::cos(y));
+  EXPECT_LT((import.specimen.joints[0].axes[0] - Vec3(pin.x(), -pin.z(), pin.y())).norm(), 1e-12);
+  // The forearm's frame is the joint's: its centre of mass lies along -y of that, the second column.
+  const Vec3 up(-std::cos(y) * std::sin(z), std::cos(x) * std::cos(z) - std::sin(x) * std::sin(y) * std::sin(z),
+                std::sin(x) * std::cos(z) + std::cos(x) * std::sin(y) * std::sin(z));
+  const Vec3 com = Vec3(0.0, -0.3, 0.0) - 0.1 * up;
+  EXPECT_LT((import.specimen.bodies[1].com_m - Vec3(com.x(), -com.z(), com.y())).norm(), 1e-12);
+}
+
 TEST(OpenSim, ItsSceneCanBePlayed) {
   TemporaryFolder folder;
   const Import import = parse_model(arm_text(), "arm.osim");
