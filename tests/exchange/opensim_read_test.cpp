@@ -216,6 +216,15 @@ TEST(OpenSim, EntityBombsDoNothing) {
   EXPECT_EQ(import.specimen.name, "&k;");  // as it stands
 }
 
+TEST(OpenSim, BytesMustBeUtf8) {
+  for (const char* name : {"\xff", "\xc0\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xe2\x82"}) {
+    EXPECT_THAT(refusal(with(arm_text(), "\"arm\"", "\"" + std::string(name) + "\"")), HasSubstr("is no UTF-8"));
+  }
+  const Import import =
+      parse_model(with(arm_text(), "\"arm\"", "\"\xc3\xa4 \xe2\x82\xac \xf0\x9f\xa6\xb4\""), "arm.osim");
+  EXPECT_EQ(import.specimen.name, "\xc3\xa4 \xe2\x82\xac \xf0\x9f\xa6\xb4");
+}
+
 TEST(OpenSim, NumbersMustBeFinite) {
   EXPECT_THAT(refusal(with(arm_text(), "<mass>2</mass>", "<mass>nan</mass>")),
               AllOf(HasSubstr("mass of humerus"), HasSubstr("\"nan\"; must be a finite number")));

@@ -123,7 +123,7 @@ TEST_P(RoundTrip, KeepsMomentArmsAndForces) {
 TEST(RoundTripOfAxes, KeepsUniversalAndBallJoints) {
   for (const std::size_t axes : {2u, 3u}) {
     Specimen limb = anatomy::load_specimen(data_folder() / "meshes" / "canine_elbow");
-    anatomy::Joint& joint = limb.joints[0];
+    anatomy::Joint& joint = limb.joints[static_cast<std::size_t>(anatomy::find_joint(limb, "elbow"))];
     joint.type = axes == 2 ? anatomy::JointType::Universal : anatomy::JointType::Ball;
     joint.axes.push_back(Vec3(0.8, 0.2, 0.1).normalized());
     if (axes == 3) joint.axes.push_back(Vec3(0.1, -0.1, 0.9).normalized());
