@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/text.h"
+#include "net/wire.h"
 
 namespace myotact::exchange::opensim {
 namespace {
@@ -50,29 +51,6 @@ std::string shortened(std::string text) {
   return text.substr(0, end) + "...";
 }
 
-/// Index of the first byte that is no UTF-8, or the size of the text. The parser takes any bytes, JSON does not.
-std::size_t first_foreign_byte(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
-  const auto follows = [&](std::size_t i) { return (byte(i) & 0xC0) == 0x80; };
-  for (std::size_t i = 0; i < text.size();) {
-    const unsigned first = byte(i), second = byte(i + 1);
-    std::size_t length = 0;
-    if (first < 0x80) length = 1;
-    if (first >= 0xC2 && first <= 0xDF) length = 2;
-    if (first >= 0xE0 && first <= 0xEF) length = 3;
-    if (first >= 0xF0 && first <= 0xF4) length = 4;
-    // Longer than need be, halves of pairs, beyond the last character.
-    const bool outside = (first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F) ||
-                         (first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F);
-    if (length == 0 || outside) return i;
-    for (std::size_t k = 1; k < length; ++k) {
-      if (!follows(i + k)) return i;
-    }
-    i += length;
-  }
-  return text.size();
-}
-
 /// The next node in the order of the file that is not below `node`; none outside of `top`.
 pugi::xml_node next_beside(pugi::xml_node node, const pugi::xml_node& top) {
   while (node && node != top) {
@@ -111,9 +89,9 @@ Document::Document(std::string_view text, std::string file) : file_(std::move(fi
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] == '\n') line_starts_.push_back(static_cast<std::ptrdiff_t>(i) + 1);
   }
-  if (const std::size_t foreign = first_foreign_byte(text); foreign < text.size()) {
-    throw bad_data(file_, fmt::format("byte {}", foreign),
-                   "is no UTF-8, in which OpenSim writes; save the model again");
+  // The parser takes any bytes; a specimen's JSON does not.
+  if (!net::is_utf8({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()})) {
+    throw bad_data(file_, "", "is no UTF-8, in which OpenSim writes; save the model again with OpenSim 4");
   }
   // Entities of a document type are never expanded by the parser; with one, the text would not be what it stands for.
   const auto parsed =
