@@ -16,6 +16,7 @@
 #include "app/progress.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "exchange/opensim.h"
 #include "geometry/glb.h"
 #include "scene/lockstep_session.h"
 #include "scene/samples.h"
@@ -29,7 +30,7 @@ namespace {
 
 constexpr double kTurn_s = 12.0;  // slow enough to read a limb by
 
-enum class Kind { Poster, Film, Model };
+enum class Kind { Poster, Film, Model, OpenSim };
 
 /// What the name of the file asks for.
 struct Format {
@@ -37,8 +38,10 @@ struct Format {
   Kind kind;
   const char* size;  // without --size; a model has none
 };
-constexpr std::array<Format, 3> kFormats{
-    {{".png", Kind::Poster, "3840x2160"}, {".mp4", Kind::Film, "1920x1080"}, {".glb", Kind::Model, "1920x1080"}}};
+constexpr std::array<Format, 4> kFormats{{{".png", Kind::Poster, "3840x2160"},
+                                          {".mp4", Kind::Film, "1920x1080"},
+                                          {".glb", Kind::Model, "1920x1080"},
+                                          {".osim", Kind::OpenSim, "1920x1080"}}};
 
 const Format& format_of(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
@@ -48,8 +51,8 @@ const Format& format_of(const std::filesystem::path& file) {
     if (extension == format.extension) return format;
   }
   throw Error(ExitStatus::Usage,
-              fmt::format("--out {}: ends in \"{}\"; must end in .png (a poster), .mp4 (a film once round the limb) or "
-                          ".glb (a 3D model, glTF 2.0)",
+              fmt::format("--out {}: ends in \"{}\"; must end in .png (a poster), .mp4 (a film once round the limb), "
+                          ".glb (a 3D model, glTF 2.0) or .osim (a model of OpenSim 4)",
                           file.string(), extension));
 }
 
@@ -61,7 +64,7 @@ void refuse_unfitting(const Options& options, Kind kind) {
   };
   refuse(options.turn_s.has_value() && kind != Kind::Film, "--turn", "is of a film (.mp4)");
   refuse(options.language.has_value() && kind != Kind::Poster, "--language", "is of a poster (.png)");
-  refuse(options.export_size.has_value() && kind == Kind::Model, "--size", "is of a picture (.png) or film (.mp4)");
+  refuse(options.export_size.has_value() && kind >= Kind::Model, "--size", "is of a picture (.png) or film (.mp4)");
 }
 
 /// Muscle lines are asked for: they hide what a poster and a film show.
@@ -103,6 +106,18 @@ messages::SceneFrame frame_after(const Options& options, const scene::Scene& sce
   return frame;
 }
 
+/// The specimen itself, with its universal and ball joints, and with the scene's own lines and fibre lengths.
+void write_opensim(const Options& options, const scene::Scene& scene) {
+  require_writable(options.file);
+  anatomy::Specimen specimen = anatomy::load_specimen(scene.specimen_folder);
+  specimen.lines = scene.specimen.lines;
+  for (std::size_t m = 0; m < specimen.muscles.size(); ++m) {
+    specimen.muscles[m].rest_stretch = scene.specimen.muscles[m].rest_stretch;
+  }
+  exchange::opensim::save_model(specimen, options.file);
+  spdlog::info("{} is written", options.file.string());
+}
+
 void write_film(const Options& options, const view::Turntable& turntable) {
   Progress progress;
   const auto go_on = [&](int done, int all) {
@@ -123,6 +138,10 @@ int export_scene(const Options& options) {
   refuse_unfitting(options, format.kind);
   if (options.language) view::ui::set_language(*options.language);
   const scene::Scene scene = scene_of(options);
+  if (format.kind == Kind::OpenSim) {
+    write_opensim(options, scene);
+    return static_cast<int>(ExitStatus::Done);
+  }
   const PictureWish wish = wish_of(options, format);
   check(options, scene, wish, format.kind);
   watch_for_interruption();
@@ -139,6 +158,8 @@ int export_scene(const Options& options) {
     case Kind::Model:
       write_file(options.file, geometry::glb_bytes(view::limb_model(scene.specimen, frame, look)));
       break;
+    case Kind::OpenSim:
+      break;  // needs no frame
   }
   if (interruption() == 0) spdlog::info("{} is written", options.file.string());
   return interruption();

@@ -106,9 +106,11 @@ CLI::App* add_export(CLI::App& program, Options& options) {
       program.add_subcommand("export", "the limb to print and to share: a poster, a film once round it, a 3D model");
   command->add_option("scene", options.scene, "built-in scene or scene file")->capture_default_str();
   command
-      ->add_option("-o,--out", options.file,
-                   "file to be written: .png (a poster with names), .mp4 (a film once round the limb, which begins "
-                   "again where it ends; needs ffmpeg) or .glb (3D model, glTF 2.0: every bone and muscle by name)")
+      ->add_option(
+          "-o,--out", options.file,
+          "file to be written: .png (a poster with names), .mp4 (a film once round the limb, which begins "
+          "again where it ends; needs ffmpeg), .glb (3D model, glTF 2.0: every bone and muscle by name) or .osim "
+          "(model of OpenSim 4)")
       ->required();
   add_look(*command, options);
   command->add_option("--size", options.export_size,
@@ -127,6 +129,18 @@ CLI::App* add_export(CLI::App& program, Options& options) {
       ->capture_default_str();
   command->add_option("--workers", options.workers, "threads of a simulation step")
       ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  return command;
+}
+
+CLI::App* add_import(CLI::App& program, Options& options) {
+  CLI::App* command = program.add_subcommand(
+      "import",
+      "a model of OpenSim 4 (.osim) as a specimen of muscle lines, and a scene of it; tells what is not taken");
+  command->add_option("model", options.file, "model of OpenSim 4: .osim")->required();
+  command->add_option("-o,--out", options.out, "folder of the specimen, with scene.json in it")->required();
+  command->add_flag("--json", options.json, "machine-readable standard output");
+  command->add_option("--log-level", options.log_level, "trace, debug, info, warning, error, critical or off")
       ->capture_default_str();
   return command;
 }
@@ -254,6 +268,7 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
   bind(add_view(program, options), myotact::app::view);
   bind(add_run(program, options), myotact::app::run);
   bind(add_export(program, options), myotact::app::export_scene);
+  bind(add_import(program, options), myotact::app::import_model);
   bind(add_stiffness(program, options), myotact::app::stiffness);
   CLI::App* replay = program.add_subcommand("replay", "run a recording again and compare the states");
   replay->add_option("file", options.file, "recording")->required();

@@ -43,7 +43,7 @@ struct Options {
   std::optional<std::string> joint;  // stiffness
   std::string shard;
   std::vector<std::filesystem::path> merge;
-  std::filesystem::path file;                // replay, solve, probe, lesson; export: what is written
+  std::filesystem::path file;                // replay, solve, probe, lesson, import; export: what is written
   std::optional<std::filesystem::path> vtk;  // solve
   std::string filter;                        // validate
   std::optional<std::filesystem::path> report;
@@ -107,6 +107,7 @@ std::unique_ptr<scene::RecordingWriter> open_recorder(const Options& options, co
 // One function a subcommand, in the file of its name. Each returns the exit status of the program or throws Error.
 int run(const Options& options);
 int export_scene(const Options& options);
+int import_model(const Options& options);
 int view(const Options& options);
 int stiffness(const Options& options);
 int replay(const Options& options);

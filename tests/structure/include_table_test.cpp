@@ -39,9 +39,12 @@ const std::map<std::string, Folders> kMayInclude = {
     {"measure",
      {"remote", "net", "scene", "layer", "simulation", "haptics", "device", "anatomy", "realtime", "messages",
       "geometry"}},
+    {"exchange",
+     {"measure", "remote", "net", "scene", "layer", "simulation", "haptics", "device", "anatomy", "realtime",
+      "messages", "geometry"}},
     {"app",
-     {"measure", "scene", "layer", "simulation", "haptics", "device", "anatomy", "realtime", "messages", "geometry",
-      "view", "learn", "net", "remote"}},
+     {"exchange", "measure", "scene", "layer", "simulation", "haptics", "device", "anatomy", "realtime", "messages",
+      "geometry", "view", "learn", "net", "remote"}},
 };
 
 /// Of tools/: what each program may include of src/ besides its own folder and core.
