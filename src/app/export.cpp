@@ -1,25 +1,26 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
-#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "app/export_play.h"
 #include "app/interruption.h"
 #include "app/options.h"
 #include "app/picture.h"
 #include "app/progress.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/text.h"
+#include "exchange/vtk_scene.h"
 #include "geometry/glb.h"
-#include "scene/lockstep_session.h"
-#include "scene/samples.h"
 #include "view/pictures/limb_model.h"
+#include "view/pictures/moving_limb_model.h"
 #include "view/pictures/turntable.h"
 #include "view/ui/text.h"
 
@@ -29,16 +30,31 @@ namespace {
 
 constexpr double kTurn_s = 12.0;  // slow enough to read a limb by
 
-enum class Kind { Poster, Film, Model };
+enum class Kind { Poster, Film, Model, Tissue, Surfaces, Series };
 
 /// What the name of the file asks for.
 struct Format {
   const char* extension;
   Kind kind;
-  const char* size;  // without --size; a model has none
+  const char* what;
+  const char* size = "1920x1080";  // without --size; what is no picture needs none
 };
-constexpr std::array<Format, 3> kFormats{
-    {{".png", Kind::Poster, "3840x2160"}, {".mp4", Kind::Film, "1920x1080"}, {".glb", Kind::Model, "1920x1080"}}};
+constexpr std::array kFormats{
+    Format{".png", Kind::Poster, "a poster", "3840x2160"},
+    Format{".mp4", Kind::Film, "a film once round the limb"},
+    Format{".glb", Kind::Model, "a 3D model, glTF 2.0"},
+    Format{".vtu", Kind::Tissue, "the muscles' tetrahedra with their values, for ParaView"},
+    Format{".vtp", Kind::Surfaces, "skins and bones with their values, for ParaView"},
+    Format{".pvd", Kind::Series, "both of these at every frame of the script, for ParaView"},
+};
+
+bool is_picture(Kind kind) {
+  return kind == Kind::Poster || kind == Kind::Film;
+}
+/// Drawn, or built from what is drawn: the view decides what is in it.
+bool is_seen(Kind kind) {
+  return is_picture(kind) || kind == Kind::Model;
+}
 
 const Format& format_of(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
@@ -47,10 +63,10 @@ const Format& format_of(const std::filesystem::path& file) {
   for (const Format& format : kFormats) {
     if (extension == format.extension) return format;
   }
+  std::vector<std::string> known;
+  for (const Format& format : kFormats) known.push_back(fmt::format("{} ({})", format.extension, format.what));
   throw Error(ExitStatus::Usage,
-              fmt::format("--out {}: ends in \"{}\"; must end in .png (a poster), .mp4 (a film once round the limb) or "
-                          ".glb (a 3D model, glTF 2.0)",
-                          file.string(), extension));
+              fmt::format("--out {}: ends in \"{}\"; must end in one of {}", file.string(), extension, join(known)));
 }
 
 void refuse_unfitting(const Options& options, Kind kind) {
@@ -61,7 +77,10 @@ void refuse_unfitting(const Options& options, Kind kind) {
   };
   refuse(options.turn_s.has_value() && kind != Kind::Film, "--turn", "is of a film (.mp4)");
   refuse(options.language.has_value() && kind != Kind::Poster, "--language", "is of a poster (.png)");
-  refuse(options.export_size.has_value() && kind == Kind::Model, "--size", "is of a picture (.png) or film (.mp4)");
+  refuse(options.export_size.has_value() && !is_picture(kind), "--size", "is of a picture (.png) or film (.mp4)");
+  refuse(options.frame_steps.has_value() && kind != Kind::Model && kind != Kind::Series, "--every",
+         "is of what moves (.glb with --seconds, .pvd)");
+  refuse(!options.show.empty() && !is_seen(kind), "--show", "is of what is looked at (.png, .mp4, .glb)");
 }
 
 /// Muscle lines are asked for: they hide what a poster and a film show.
@@ -90,13 +109,7 @@ void check(const Options& options, const scene::Scene& scene, const PictureWish&
 }
 
 /// The limb in balance, and then what the script makes of it. Without its tools: nobody touches what hangs on a wall.
-messages::SceneFrame frame_after(const Options& options, const scene::Scene& scene) {
-  constexpr int kFewSamples = 1000000;  // nobody reads them
-  simulation::Simulation simulation(scene.specimen, scene.settings);
-  scene::SampleTable samples(scene.specimen, scene::hands_of(scene), kFewSamples);
-  scene::LockstepSession session(scene, simulation, samples, nullptr);
-  const std::int64_t steps = std::llround(options.seconds.value_or(0.0) / scene.settings.dt_s);
-  for (std::int64_t i = 0; i < steps && interruption() == 0; ++i) session.step();
+messages::SceneFrame frame_of(const simulation::Simulation& simulation) {
   messages::SceneFrame frame;
   simulation.write_frame(frame);
   frame.tools.clear();
@@ -116,6 +129,63 @@ void write_film(const Options& options, const view::Turntable& turntable) {
   }
 }
 
+/// What is seen, as it stands at the end.
+void write_seen(const Options& options, const scene::Scene& scene, const Format& format, const PictureWish& wish) {
+  play(options, scene, {}, [&](const simulation::Simulation& simulation) {
+    const messages::SceneFrame frame = frame_of(simulation);
+    const view::ViewState look = look_of(scene, frame, wish);
+    if (format.kind == Kind::Poster) write_picture(scene, frame, wish, options.file);
+    if (format.kind == Kind::Film) {
+      write_film(options, {scene.specimen, frame, look, wish.size, options.turn_s.value_or(kTurn_s)});
+    }
+    if (format.kind == Kind::Model) {
+      write_file(options.file, geometry::glb_bytes(view::limb_model(scene.specimen, frame, look)));
+    }
+  });
+}
+
+/// The limb as it moves while the script is played.
+void write_moving_model(const Options& options, const scene::Scene& scene, const PictureWish& wish) {
+  std::vector<view::LimbMoment> moments;
+  std::optional<view::ViewState> look;
+  const auto add = [&](const simulation::Simulation& simulation) {
+    const messages::SceneFrame frame = frame_of(simulation);
+    if (!look) look = look_of(scene, frame, wish);
+    moments.push_back({frame.time_s, frame.body_poses, frame.skins_world_m});
+  };
+  play(options, scene, add, {});
+  if (interruption() != 0) return;
+  const std::string bytes = geometry::glb_bytes(view::moving_limb_model(scene.specimen, moments, *look));
+  write_file(options.file, bytes);
+  spdlog::info("{}: {} frames, {:.1f} MB", options.file.string(), moments.size(),
+               1e-6 * static_cast<double>(bytes.size()));
+}
+
+/// One file of VTK, as the scene is at the end.
+void write_vtk_file(const Options& options, const scene::Scene& scene, Kind kind) {
+  play(options, scene, {}, [&](const simulation::Simulation& simulation) {
+    write_file(options.file,
+               exchange::vtk_xml(kind == Kind::Tissue ? exchange::vtk_tissue(scene.specimen, simulation)
+                                                      : exchange::vtk_surfaces(scene.specimen, simulation)));
+  });
+}
+
+void write(const Options& options, const scene::Scene& scene, const Format& format, const PictureWish& wish) {
+  switch (format.kind) {
+    case Kind::Poster:
+    case Kind::Film:
+      return write_seen(options, scene, format, wish);
+    case Kind::Model:
+      return options.seconds.value_or(0.0) > 0.0 ? write_moving_model(options, scene, wish)
+                                                 : write_seen(options, scene, format, wish);
+    case Kind::Tissue:
+    case Kind::Surfaces:
+      return write_vtk_file(options, scene, format.kind);
+    case Kind::Series:
+      return write_series(options, scene);
+  }
+}
+
 }  // namespace
 
 int export_scene(const Options& options) {
@@ -126,20 +196,7 @@ int export_scene(const Options& options) {
   const PictureWish wish = wish_of(options, format);
   check(options, scene, wish, format.kind);
   watch_for_interruption();
-  const messages::SceneFrame frame = frame_after(options, scene);
-  if (interruption() != 0) return interruption();
-  const view::ViewState look = look_of(scene, frame, wish);
-  switch (format.kind) {
-    case Kind::Poster:
-      write_picture(scene, frame, wish, options.file);
-      break;
-    case Kind::Film:
-      write_film(options, {scene.specimen, frame, look, wish.size, options.turn_s.value_or(kTurn_s)});
-      break;
-    case Kind::Model:
-      write_file(options.file, geometry::glb_bytes(view::limb_model(scene.specimen, frame, look)));
-      break;
-  }
+  write(options, scene, format, wish);
   if (interruption() == 0) spdlog::info("{} is written", options.file.string());
   return interruption();
 }

@@ -108,7 +108,9 @@ CLI::App* add_export(CLI::App& program, Options& options) {
   command
       ->add_option("-o,--out", options.file,
                    "file to be written: .png (a poster with names), .mp4 (a film once round the limb, which begins "
-                   "again where it ends; needs ffmpeg) or .glb (3D model, glTF 2.0: every bone and muscle by name)")
+                   "again where it ends; needs ffmpeg), .glb (3D model, glTF 2.0: every bone and muscle by name; with "
+                   "--seconds it moves), .vtu (the muscles' tetrahedra for ParaView), .vtp (skins and bones) or .pvd "
+                   "(both at every frame of the script)")
       ->required();
   add_look(*command, options);
   command->add_option("--size", options.export_size,
@@ -122,6 +124,10 @@ CLI::App* add_export(CLI::App& program, Options& options) {
       ->add_option("--seconds", options.seconds,
                    "play the scene's script so long first [s]; without: the limb as it is balanced at the start")
       ->check(CLI::Range(0.0, 86400.0));
+  command
+      ->add_option("--every", options.frame_steps,
+                   "of what moves: a frame every so many steps of the simulation; default: 20 frames a second")
+      ->check(CLI::Range(1, 100000));
   command->add_option("--set", options.set, "override a key of the scene: key=value");
   command->add_option("--log-level", options.log_level, "trace, debug, info, warning, error, critical or off")
       ->capture_default_str();

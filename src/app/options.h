@@ -33,8 +33,9 @@ struct Options {
   std::string view = "lateral";
   std::vector<std::string> show;
   std::string size = "900x1200";
-  std::optional<std::string> export_size;  // export, as the two below; without: what suits the file
+  std::optional<std::string> export_size;  // export, as the three below; without: what suits the file
   std::optional<double> turn_s;            // of a film, once round the limb
+  std::optional<int> frame_steps;          // of what moves: steps of the simulation from frame to frame
   std::optional<std::string> language;     // of what is written over pictures
   int every = 1;
   int workers = 2;
