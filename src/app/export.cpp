@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "app/export_elements.h"
 #include "app/export_play.h"
 #include "app/interruption.h"
 #include "app/options.h"
@@ -30,7 +31,7 @@ namespace {
 
 constexpr double kTurn_s = 12.0;  // slow enough to read a limb by
 
-enum class Kind { Poster, Film, Model, Tissue, Surfaces, Series };
+enum class Kind { Poster, Film, Model, Tissue, Surfaces, Series, Elements };
 
 /// What the name of the file asks for.
 struct Format {
@@ -46,6 +47,7 @@ constexpr std::array kFormats{
     Format{".vtu", Kind::Tissue, "the muscles' tetrahedra with their values, for ParaView"},
     Format{".vtp", Kind::Surfaces, "skins and bones with their values, for ParaView"},
     Format{".pvd", Kind::Series, "both of these at every frame of the script, for ParaView"},
+    Format{".feb", Kind::Elements, "muscles as finite elements, for FEBio"},
 };
 
 bool is_picture(Kind kind) {
@@ -80,6 +82,7 @@ void refuse_unfitting(const Options& options, Kind kind) {
   refuse(options.export_size.has_value() && !is_picture(kind), "--size", "is of a picture (.png) or film (.mp4)");
   refuse(options.frame_steps.has_value() && kind != Kind::Model && kind != Kind::Series, "--every",
          "is of what moves (.glb with --seconds, .pvd)");
+  refuse(options.muscle.has_value() && kind != Kind::Elements, "--muscle", "is of finite elements (.feb)");
   refuse(!options.show.empty() && !is_seen(kind), "--show", "is of what is looked at (.png, .mp4, .glb)");
 }
 
@@ -183,6 +186,8 @@ void write(const Options& options, const scene::Scene& scene, const Format& form
       return write_vtk_file(options, scene, format.kind);
     case Kind::Series:
       return write_series(options, scene);
+    case Kind::Elements:
+      return write_elements(options, scene);
   }
 }
 
@@ -191,6 +196,7 @@ void write(const Options& options, const scene::Scene& scene, const Format& form
 int export_scene(const Options& options) {
   const Format& format = format_of(options.file);
   refuse_unfitting(options, format.kind);
+  if (format.kind == Kind::Elements && is_case(options.scene)) return export_case(options);
   if (options.language) view::ui::set_language(*options.language);
   const scene::Scene scene = scene_of(options);
   const PictureWish wish = wish_of(options, format);
