@@ -106,17 +106,8 @@ class PartsOf {
                  element("lam_max", law.curve.straight) + kAlongFirstAxis,
              ""}};
   }
-  std::vector<FebioPart> operator()(const UnsplitFibres<MuscleFibre>& law) const {
-    const std::string name = febio_fibre_name(law.curve);
-    return {{"active fiber stress",
-             element("smax", law.curve.peak_Pa) + element("activation", 1.0) + "<stl type=\"point\">\n" +
-                 febio_fibre_table(law.curve, false) + "</stl>\n",
-             "passive " + name},
-            {"active fiber stress",
-             element("smax", law.curve.peak_Pa) + raised_element("activation", activation_) + "<stl type=\"point\">\n" +
-                 febio_fibre_table(law.curve, true) + "</stl>\n",
-             "active " + name}};
-  }
+  std::vector<FebioPart> operator()(const UnsplitFibres<MuscleFibre>& law) const { return tabled(law.curve); }
+  std::vector<FebioPart> operator()(const UnsplitFibres<PosedFibre>& law) const { return tabled(law.curve); }
   std::vector<FebioPart> operator()(const UnsplitFibres<ConstantTension>& law) const {
     return {{"prescribed uniaxial active contraction", raised_element("T0", activation_ * law.curve.tension_Pa), ""}};
   }
@@ -129,6 +120,17 @@ class PartsOf {
   }
 
  private:
+  /// Passive and active fibres, each with a table of its own.
+  template <class Fibre>
+  std::vector<FebioPart> tabled(const Fibre& fibre) const {
+    const std::string name = febio_fibre_name(fibre), smax = element("smax", fibre.peak_Pa);
+    const auto table = [&](bool active) {
+      return "<stl type=\"point\">\n" + febio_fibre_table(fibre, active) + "</stl>\n";
+    };
+    return {{"active fiber stress", smax + element("activation", 1.0) + table(false), "passive " + name},
+            {"active fiber stress", smax + raised_element("activation", activation_) + table(true), "active " + name}};
+  }
+
   double activation_;
   FebioMaterial& out_;
 };
@@ -183,6 +185,20 @@ std::vector<FebioPart> each_for_itself(const std::vector<Law>& laws, const std::
   return parts;
 }
 
+template <class Fibre>
+std::string fibre_points(Fibre fibre, bool active) {
+  fibre.peak_Pa = 1.0;
+  std::string text = "<interpolate>LINEAR</interpolate>\n<extend>EXTRAPOLATE</extend>\n<points>\n";
+  const int points = static_cast<int>(std::lround((kTableTo - kTableFrom) / kTableStep));
+  for (int k = 0; k <= points; ++k) {
+    const double stretch = kTableFrom + k * kTableStep;
+    const double passive = fibre.at(stretch, 0.0).stress_Pa;
+    const double value = active ? fibre.at(stretch, 1.0).stress_Pa - passive : passive;
+    text += fmt::format("<pt>{:.6g},{:.9g}</pt>\n", stretch, stretch * value);
+  }
+  return text + "</points>\n";
+}
+
 std::string named(const FebioPart& part) {
   return part.name.empty() ? "" : fmt::format(" name=\"{}\"", escape_markup(part.name));
 }
@@ -195,18 +211,17 @@ std::string febio_fibre_name(const MuscleFibre& fibre) {
                      to_text(fibre.gain));
 }
 
+std::string febio_fibre_name(const PosedFibre& fibre) {
+  return fmt::format("posed_fibre active={} active_slope={} passive_length={} gain={}", to_text(fibre.active),
+                     to_text(fibre.active_slope), to_text(fibre.passive_length), to_text(fibre.gain));
+}
+
 std::string febio_fibre_table(const MuscleFibre& fibre, bool active) {
-  MuscleFibre unit = fibre;
-  unit.peak_Pa = 1.0;
-  std::string text = "<interpolate>LINEAR</interpolate>\n<extend>EXTRAPOLATE</extend>\n<points>\n";
-  const int points = static_cast<int>(std::lround((kTableTo - kTableFrom) / kTableStep));
-  for (int k = 0; k <= points; ++k) {
-    const double stretch = kTableFrom + k * kTableStep;
-    const double passive = unit.at(stretch, 0.0).stress_Pa;
-    const double value = active ? unit.at(stretch, 1.0).stress_Pa - passive : passive;
-    text += fmt::format("<pt>{:.6g},{:.9g}</pt>\n", stretch, stretch * value);
-  }
-  return text + "</points>\n";
+  return fibre_points(fibre, active);
+}
+
+std::string febio_fibre_table(const PosedFibre& fibre, bool active) {
+  return fibre_points(fibre, active);
 }
 
 std::string febio_energy(const StableNeoHookean& matrix) {

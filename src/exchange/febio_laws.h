@@ -15,7 +15,7 @@
 //                                              "trans iso Mooney-Rivlin"                exact; calcium: up to J
 //   neo_hookean + exponential_fibre            "coupled trans-iso Mooney-Rivlin"        exact
 //   fibre_tension, isotropic_tension           "prescribed ... active contraction"      exact
-//   muscle_fibre                               two "active fiber stress" with tables    within 1e-3 of the peak
+//   muscle_fibre, fibres of a posed muscle     two "active fiber stress" with tables    within 1e-3 of the peak
 //   corotated                                  "neo-Hookean" of the same moduli         equal at rest only; told
 //
 // What stands together without a name of its own becomes a "solid mixture". All others have no like: they are refused.
@@ -32,11 +32,13 @@ struct FebioMaterial {
 /// BadData for laws that FEBio has no like of.
 FebioMaterial febio_material(const measure::CaseMaterial& material, const std::string& name, int id, double activation);
 
-/// What a muscle_fibre is called there, so that it is found again: its curves and numbers.
+/// What such fibres are called there, so that they are found again: kind and numbers.
 std::string febio_fibre_name(const simulation::MuscleFibre& fibre);
-/// T(stretch) / (peak stress) of FEBio's active fibres as a list of points: stretch times the nominal stress at full
-/// activation (`active`) or without any.
+std::string febio_fibre_name(const simulation::PosedFibre& fibre);
+/// T(stretch) / (peak stress) of FEBio's active fibres as a list of points: stretch times the nominal stress that full
+/// activation adds (`active`), or that without any.
 std::string febio_fibre_table(const simulation::MuscleFibre& fibre, bool active);
+std::string febio_fibre_table(const simulation::PosedFibre& fibre, bool active);
 /// W of a stable neo-Hookean solid in FEBio's words.
 std::string febio_energy(const simulation::StableNeoHookean& matrix);
 

@@ -18,7 +18,7 @@ namespace {
 using simulation::TissueMechanics;
 
 /// Peak stresses that differ by less become one material.
-constexpr double kAlike = 0.02;
+constexpr double kAlike = 0.01;
 constexpr int kLimbLoadSteps = 10;
 
 class LimbCase {
@@ -32,47 +32,40 @@ class LimbCase {
     out_.notes.emplace_back(
         "Muscles at a pose, loaded from the file pose. In Myotact a muscle's active force goes by the mean length of "
         "its "
-        "fibres; here each point goes by its own. Contact, fascia and the damping of the fibres are left out; tendons "
-        "are "
-        "soft sheaths, and what their strings pull with now are nodal forces.");
+        "fibres; here that mean is held as it is now, so that it is a straight line of each point's stretch. Contact, "
+        "fascia and the damping of the fibres are left out; tendons are soft sheaths, and where their strings pull, "
+        "the belly is held as it is now.");
     out_.notes.push_back(fmt::format("Peak stresses of the fibres are in steps of {} %.", to_text(100.0 * kAlike)));
   }
 
   void add(int muscle) {
     const anatomy::Muscle& anatomy = scene_.specimen.muscles[at(muscle)];
     const TissueMechanics mechanics = simulation_.mechanics(muscle);
-    add_nodes(mechanics);
+    add_nodes(mechanics, simulation_.tissue(muscle).position_m);
     add_tets(anatomy, mechanics);
     measure::SolveCase& out = out_.solve_case;
     out.loads.activation = std::max(out.loads.activation, mechanics.activation);
-    if (mechanics.rest_length != mechanics.passive_length) {
-      out_.notes.push_back(fmt::format("{}: passive force is taken at the active fibres' length, {} instead of {}.",
-                                       anatomy.key, to_text(mechanics.rest_length), to_text(mechanics.passive_length)));
-    }
     first_node_ += static_cast<int>(mechanics.rest.nodes_m.size());
   }
 
   FebioLimb finish() {
     measure::SolveCase& out = out_.solve_case;
     out.mesh.regions = out.material_of_tet;
-    out.loads.nodal_force_N =
-        Eigen::Map<const Eigen::VectorXd>(forces_N_.data(), static_cast<Eigen::Index>(forces_N_.size()));
+    out.loads.nodal_force_N = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * out.mesh.mesh.nodes_m.size()));
     out.mesh.node_of_file.resize(out.mesh.mesh.nodes_m.size());
     for (std::size_t n = 0; n < out.mesh.node_of_file.size(); ++n) out.mesh.node_of_file[n] = static_cast<int>(n);
     return std::move(out_);
   }
 
  private:
-  void add_nodes(const TissueMechanics& mechanics) {
+  void add_nodes(const TissueMechanics& mechanics, const std::vector<Vec3>& now_m) {
     measure::SolveCase& out = out_.solve_case;
     for (std::size_t n = 0; n < mechanics.rest.nodes_m.size(); ++n) {
       const Vec3& rest_m = mechanics.rest.nodes_m[n];
       out.mesh.mesh.nodes_m.push_back(rest_m);
       const int body = mechanics.body[n];
-      const Vec3& pull_N = mechanics.string_N[n];
-      forces_N_.insert(forces_N_.end(), {pull_N.x(), pull_N.y(), pull_N.z()});
-      if (body < 0) continue;
-      const Vec3 moved_m = simulation_.body_pose(body) * rest_m - rest_m;
+      if (body < 0 && !mechanics.on_string[n]) continue;
+      const Vec3 moved_m = (body >= 0 ? simulation_.body_pose(body) * rest_m : now_m[n]) - rest_m;
       for (int k = 0; k < 3; ++k) out.loads.held.push_back({first_node_ + static_cast<int>(n), k, moved_m[k]});
     }
   }
@@ -102,9 +95,8 @@ class LimbCase {
     material.laws.push_back(tissue.matrix);
     material.density_kg_m3 = tissue.density_kg_m3;
     if (peak_Pa > 0.0) {
-      const double n = mechanics.activation > 0.0 ? mechanics.rest_length : mechanics.passive_length;
-      material.laws.push_back(simulation::UnsplitFibres<simulation::MuscleFibre>{
-          {peak_Pa, n, mechanics.gain, simulation::CurveSet::DeGrooteFregly2016}});
+      material.laws.push_back(simulation::UnsplitFibres<simulation::PosedFibre>{
+          {peak_Pa, mechanics.active, mechanics.active_slope, mechanics.passive_length, mechanics.gain}});
     }
     out_.solve_case.materials.push_back(std::move(material));
     out_.activations.push_back(mechanics.activation);
@@ -113,7 +105,6 @@ class LimbCase {
   const scene::Scene& scene_;
   const simulation::Simulation& simulation_;
   FebioLimb out_;
-  std::vector<double> forces_N_;
   int first_node_ = 0;
 };
 

@@ -11,8 +11,8 @@
 namespace myotact::exchange {
 
 /// Muscles as they hang on their bones now, as a static case from the file pose: what is clamped is moved to where its
-/// bone is, the tendons' strings pull as they do now, fibres are active as they are now. `notes` says in what it
-/// differs from the program's own muscles.
+/// bone is, the belly's ends on tendons to where they are now, fibres are active as they are now. `notes` says in what
+/// it differs from the program's own muscles.
 struct FebioLimb {
   measure::SolveCase solve_case;
   std::vector<double> activations;  // one a material

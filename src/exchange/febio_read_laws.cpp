@@ -264,28 +264,36 @@ class FebioLawReader {
   void active_fibre(const pugi::xml_node& node) {
     const std::string name = node.attribute("name").value();
     const auto words = words_of(name);
-    const auto curves = words.size() == 5 ? find_curve_set(std::string(words[2])) : std::nullopt;
-    if (!curves || words[1] != "muscle_fibre") {
-      return file_.cannot(node, "that is not named as a muscle_fibre: other tables of tension are not read");
+    const auto number = [&](std::size_t word, const char* key) {
+      return named_number(node, std::string(words[word]), std::string(key) + "=");
+    };
+    const auto curves = words.size() == 5 && words[1] == "muscle_fibre" ? find_curve_set(words[2]) : std::nullopt;
+    if (curves) {
+      MuscleFibre fibre{positive(node, "smax"), number(3, "rest_length"), number(4, "gain"), *curves};
+      take_fibres(node, fibre, words[0] == "active");
+    } else if (words.size() == 6 && words[1] == "posed_fibre") {
+      PosedFibre fibre{positive(node, "smax"), number(2, "active"), number(3, "active_slope"),
+                       number(4, "passive_length"), number(5, "gain")};
+      take_fibres(node, fibre, words[0] == "active");
+    } else {
+      file_.cannot(node, "that is not named as a fibre of Myotact: other tables of tension are not read");
     }
-    MuscleFibre fibre;
-    fibre.curves = *curves;
-    fibre.peak_Pa = positive(node, "smax");
-    fibre.rest_length = named_number(node, std::string(words[3]), "rest_length=");
-    fibre.gain = named_number(node, std::string(words[4]), "gain=");
-    const bool active = words[0] == "active";
+  }
+
+  template <class Fibre>
+  void take_fibres(const pugi::xml_node& node, const Fibre& fibre, bool active) {
     check_table(node, febio_fibre_table(fibre, active));
     if (!active) return;
     take_activation(node, "activation");
     out_.follows_axes = true;
-    out_.laws.push_back(UnsplitFibres<MuscleFibre>{fibre});
+    out_.laws.push_back(UnsplitFibres<Fibre>{fibre});
   }
 
   double named_number(const pugi::xml_node& node, const std::string& word, const std::string& key) const {
     const auto number = word.starts_with(key) ? parse_number(word.substr(key.size())) : std::nullopt;
-    if (number && *number > 0.0 && *number <= kLargestOther) return *number;
-    throw file_.error(node, fmt::format("is named \"{}\" where {}NUMBER must stand, > 0 and at most {}", word, key,
-                                        to_text(kLargestOther)));
+    if (number && std::abs(*number) <= kLargestOther) return *number;
+    throw file_.error(
+        node, fmt::format("is named \"{}\" where {}NUMBER must stand, at most {}", word, key, to_text(kLargestOther)));
   }
 
   /// A table that somebody changed is no longer what its name says.

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 
 #include "core/at.h"
+#include "simulation/curves/fibre_curves.h"
 #include "simulation/muscle/build_tissue.h"
 #include "simulation/muscle/fibre_field.h"
 #include "simulation/simulation_impl.h"
@@ -135,24 +136,21 @@ TissueMechanics Simulation::mechanics(int muscle) const {
   TissueMechanics out;
   out.rest = tissue.mesh;
   out.body = tissue.body;
-  out.string_N.assign(out.body.size(), Vec3::Zero());
-  out.passive_length = tissue.fibre_map.rest_stretch;
-  out.rest_length = tissue.fibre_map.rest_stretch + tissue.fibre_map.offset;
-  out.gain = tissue.fibre_map.gain;
+  out.on_string.assign(out.body.size(), false);
+  const FibreMap& map = tissue.fibre_map;
+  const double mean = elements ? mean_fibre_length(tissue, m.state.now.stretch)
+                               : impl_->fibre_stretch(muscle, impl_->read_lines()[at(muscle)]);
+  out.passive_length = map.passive_length(1.0);
+  out.gain = map.gain;
+  out.active = active_force_length(map.on_curve(mean)) + kEvenness * (map.length(1.0) - mean);
+  out.active_slope = kEvenness * map.gain;
   out.activation = activation(muscle);
   for (const TissueElement& element : tissue.elements) {
     out.sheath.push_back(element.sheath);
     out.peak_Pa.push_back(tissue.fibre_map.scale * element.peak_Pa);
   }
-  if (!elements) return out;
   for (const TendonStrand& strand : tissue.strands) {
-    Vec3 end_W_m = Vec3::Zero();
-    for (std::size_t k = 0; k < strand.nodes.size(); ++k) {
-      end_W_m += strand.weights[k] * node_vector(m.state.now.position_m, strand.nodes[k]);
-    }
-    const Vec3 pull_N = -evaluate_strand(strand, impl_->limb.skeleton, end_W_m).pull_N;
-    for (std::size_t k = 0; k < strand.nodes.size(); ++k)
-      out.string_N[at(strand.nodes[k])] += strand.weights[k] * pull_N;
+    for (const int node : strand.nodes) out.on_string[at(node)] = true;
   }
   return out;
 }

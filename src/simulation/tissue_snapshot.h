@@ -21,16 +21,18 @@ struct TissueSnapshot {
 };
 
 /// What the tets of one muscle are made of and what holds them, as they are after the last step or settle. The muscle
-/// need not be one of finite elements: it is then what it would be as such, with fibres that nothing calibrated.
+/// need not be one of finite elements: it is then what it would be as such, with fibres that nothing calibrated and
+/// that are on average as long as its line has them.
 struct TissueMechanics {
   geometry::TetMesh rest;       // quadratic
   std::vector<int> body;        // one a node: that clamps it, or -1
   std::vector<bool> sheath;     // one a tet: of a tendon, else belly
   std::vector<double> peak_Pa;  // one a tet: of its fibres, calibrated; 0: none
-  double rest_length = 0.8;     // n at the file pose as active force has it, offset included
-  double passive_length = 0.8;  // and as passive force has it
+  double active = 1.0;          // active force over the peak at stretch 1, the mean length held (fibre_field.h)
+  double active_slope = 0.0;    // of it against the stretch
+  double passive_length = 0.8;  // n at stretch 1, as passive force has it
   double gain = 1.0;            // dn / d(stretch)
-  std::vector<Vec3> string_N;   // one a node, world: pull of the tendons' strings now; zero unless finite elements
+  std::vector<bool> on_string;  // one a node: a tendon's string pulls at it
   double activation = 0.0;      // 0 .. 1
 };
 
