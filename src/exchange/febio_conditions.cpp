@@ -202,6 +202,7 @@ class FebioConditionReader {
   }
 
   void pull(const pugi::xml_node& node) {
+    if (file_.value(node, "relative", 0.0) != 0.0) return file_.cannot(node, "relative to what is there");
     const std::vector<int>& listed = node_list(node);
     const pugi::xml_node value = file_.child(node, "value");
     const double scale = scale_of(value);

@@ -17,12 +17,13 @@ constexpr std::size_t kLargestFebio_bytes = std::size_t{256} << 20;  // a millio
 constexpr std::size_t kListed = 12;                                  // elements that an error names
 
 std::string febio_bytes(const std::filesystem::path& path) {
-  std::string text = read_file(path);
-  if (text.size() > kLargestFebio_bytes) {
+  std::error_code ignored;  // what is wrong is said by who reads it
+  const std::uintmax_t size = std::filesystem::file_size(path, ignored);
+  if (!ignored && size > kLargestFebio_bytes) {
     throw bad_data(path.string(), "",
-                   fmt::format("has {} MB; at most {} are read", text.size() >> 20, kLargestFebio_bytes >> 20));
+                   fmt::format("has {} MB; at most {} are read", size >> 20, kLargestFebio_bytes >> 20));
   }
-  return text;
+  return read_file(path);
 }
 
 /// Commas and blanks part numbers.
