@@ -29,7 +29,8 @@ namespace myotact::app {
 
 namespace {
 
-constexpr double kTurn_s = 12.0;  // slow enough to read a limb by
+constexpr double kTurn_s = 12.0;   // slow enough to read a limb by
+constexpr int kMostFrames = 1200;  // of a model that moves, a minute: they are kept until it is written
 
 enum class Kind { Poster, Film, Model, Tissue, Surfaces, Series, Elements };
 
@@ -101,6 +102,13 @@ PictureWish wish_of(const Options& options, const Format& format) {
 void check(const Options& options, const scene::Scene& scene, const PictureWish& wish, Kind kind) {
   check_picture(scene, wish);
   require_writable(options.file);
+  const double frames = options.seconds.value_or(0.0) / (scene.settings.dt_s * steps_between_frames(options, scene));
+  if (kind == Kind::Model && frames > kMostFrames) {
+    throw Error(ExitStatus::Usage,
+                fmt::format("--seconds {}: are {:.0f} frames, and a model that moves has at most {}; "
+                            "give fewer seconds, or a larger --every",
+                            to_text(*options.seconds), frames, kMostFrames));
+  }
   if (kind != Kind::Film) return;
   view::check_film_size(wish.size);
   view::ffmpeg_for_films();

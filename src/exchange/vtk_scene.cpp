@@ -150,6 +150,7 @@ VtkPiece vtk_surfaces(const anatomy::Specimen& specimen, const simulation::Simul
   messages::SceneFrame frame;
   simulation.write_frame(frame);
   VtkPiece piece;
+  piece.surface = true;
   Integers part, muscle_of;
   Reals volume_error;
   MuscleValues values;

@@ -90,7 +90,7 @@ void add_cells(const VtkPiece& piece, const char* element, VtkWriter& writer) {
   writer.text += fmt::format("<{}>\n", element);
   writer.add<std::int64_t>("connectivity", "Int64", 1, piece.connectivity);
   writer.add<std::int64_t>("offsets", "Int64", 1, piece.offsets);
-  if (!piece.types.empty()) writer.add<std::uint8_t>("types", "UInt8", 1, piece.types);
+  if (!piece.surface) writer.add<std::uint8_t>("types", "UInt8", 1, piece.types);
   writer.text += fmt::format("</{}>\n", element);
 }
 
@@ -104,13 +104,12 @@ std::string vtk_head(const char* type) {
 }  // namespace
 
 std::string vtk_xml(const VtkPiece& piece) {
-  const bool surface = piece.types.empty();
-  const char* type = surface ? "PolyData" : "UnstructuredGrid";
+  const char* type = piece.surface ? "PolyData" : "UnstructuredGrid";
   VtkWriter writer;
   writer.text = vtk_head(type) + fmt::format("<{}>\n", type);
   writer.add_field(piece.field_data);
   writer.text += fmt::format("<Piece NumberOfPoints=\"{}\" {}=\"{}\">\n", piece.points_m.size(),
-                             surface ? "NumberOfPolys" : "NumberOfCells", piece.offsets.size());
+                             piece.surface ? "NumberOfPolys" : "NumberOfCells", piece.offsets.size());
   writer.add_all("PointData", piece.point_data);
   writer.add_all("CellData", piece.cell_data);
   writer.text += "<Points>\n";
@@ -118,7 +117,7 @@ std::string vtk_xml(const VtkPiece& piece) {
   const auto* numbers = piece.points_m.empty() ? nullptr : piece.points_m.front().data();
   writer.add<double>("Points", "Float64", 3, std::span<const double>(numbers, 3 * piece.points_m.size()));
   writer.text += "</Points>\n";
-  add_cells(piece, surface ? "Polys" : "Cells", writer);
+  add_cells(piece, piece.surface ? "Polys" : "Cells", writer);
   return std::move(writer).joined(fmt::format("</Piece>\n</{}>\n", type));
 }
 

@@ -20,8 +20,9 @@ struct VtkArray {
 /// Numbers that VTK gives to its cells.
 inline constexpr std::uint8_t kVtkTetra = 10, kVtkQuadraticTetra = 24;
 
-/// A grid of cells with `types`; a surface of polygons where there are none.
+/// A grid of cells with `types`, or a surface of polygons without.
 struct VtkPiece {
+  bool surface = false;
   std::vector<Vec3> points_m;
   std::vector<std::int64_t> connectivity;  // points of all cells, one cell after the other
   std::vector<std::int64_t> offsets;       // of each cell: where its points end

@@ -144,6 +144,7 @@ TEST(Export, WhatCannotBeIsSaidBeforeAnythingIsSimulated) {
   expect(2, "", HasSubstr("--out"));
   expect(2, "--size 90000x2 -o " + in + "limb.png", HasSubstr("16 .. 8192"));
   expect(2, "--size 100x100 -o " + in + "limb.glb", HasSubstr("--size"));
+  expect(2, "-o " + in + "limb.glb", AllOf(HasSubstr("72000 frames"), HasSubstr("--every")));
   expect(2, "--turn 5 -o " + in + "limb.png", HasSubstr("--turn"));
   expect(2, "--every 5 -o " + in + "limb.png", HasSubstr("--every"));
   expect(2, "--muscle biceps_brachii -o " + in + "limb.vtu", HasSubstr("--muscle"));

@@ -147,6 +147,12 @@ TEST_F(VtkFiles, SurfacesHavePartsByName) {
   EXPECT_EQ(parts.back(), 3);
 }
 
+TEST(VtkXml, AGridWithoutCellsIsOne) {
+  const std::string text = vtk_xml({});
+  EXPECT_NE(text.find("type=\"UnstructuredGrid\""), std::string::npos);
+  EXPECT_NE(text.find("NumberOfCells=\"0\""), std::string::npos);
+}
+
 /// VTK cuts a quadratic tet into linear ones, so only straight-sided ones have its volume exactly.
 TEST_F(VtkFiles, VtkFindsOurVolume) {
   if (!read(vtk_tissue(specimen_, simulation_), "rest.vtu")) GTEST_SKIP() << kSkip;
