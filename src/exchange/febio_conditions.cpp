@@ -133,17 +133,20 @@ class FebioConditionReader {
 
   /// Of a mid-side that was added, whose corners both are among the moved.
   double between(int midside, const std::map<int, double>& moved_m) {
-    if (ends_.empty()) {
-      const geometry::TetMesh& mesh = out_.mesh.mesh;
-      for (std::size_t t = 0; t < mesh.midsides.size(); ++t) {
-        for (std::size_t e = 0; e < geometry::kTetEdges.size(); ++e) {
-          const auto end = [&](std::size_t k) { return mesh.corners[t][at(geometry::kTetEdges[e][k])]; };
-          ends_[mesh.midsides[t][e]] = {end(0), end(1)};
-        }
-      }
-    }
+    if (ends_.empty()) find_ends();
     const auto& [a, b] = ends_.at(midside);
     return 0.5 * (moved_m.at(a) + moved_m.at(b));
+  }
+
+  void find_ends() {
+    const geometry::TetMesh& mesh = out_.mesh.mesh;
+    for (std::size_t t = 0; t < mesh.midsides.size(); ++t) {
+      const std::array<int, 4>& corners = mesh.corners[t];
+      for (std::size_t e = 0; e < geometry::kTetEdges.size(); ++e) {
+        const auto& [a, b] = geometry::kTetEdges[e];
+        ends_[mesh.midsides[t][e]] = {corners[at(a)], corners[at(b)]};
+      }
+    }
   }
 
   /// `components` numbers for each of a set's nodes: the same for all, or out of <MeshData>.

@@ -1,5 +1,6 @@
 #include "view/pictures/moving_limb_model.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -7,6 +8,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "core/at.h"
 #include "core/dense_matrix.h"
 #include "view/pictures/limb_model.h"
 
@@ -37,7 +39,7 @@ GlbMotion body_motion(const std::vector<LimbMoment>& moments, std::size_t body) 
   for (const LimbMoment& moment : moments) {
     const auto& pose = moment.body_poses[body];
     Mat3 rotation;
-    for (int k = 0; k < 9; ++k) rotation(k / 3, k % 3) = pose[static_cast<std::size_t>(4 * (k / 3) + k % 3)];
+    for (int k = 0; k < 9; ++k) rotation(k / 3, k % 3) = pose[at(4 * (k / 3) + k % 3)];
     Eigen::Quaterniond q(rotation);
     q.normalize();
     if (q.dot(last) < 0.0) q.coeffs() = -q.coeffs();
