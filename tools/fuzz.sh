@@ -14,7 +14,7 @@ case "${1:-30}" in
   *) amount="-max_total_time=${1:-30}" ;;
 esac
 targets=("${@:2}")
-if [ ${#targets[@]} -eq 0 ]; then targets=(stl obj ply off vtk_surface vtk_tets tetgen medit json opensim specimen lesson work marks settings recording wire local_model scene_frame inverse_messages device_bytes label_volume segment_table); fi
+if [ ${#targets[@]} -eq 0 ]; then targets=(stl obj ply off vtk_surface vtk_tets tetgen medit json opensim febio specimen lesson work marks settings recording wire local_model scene_frame inverse_messages device_bytes label_volume segment_table); fi
 
 install_missing "$project/tools/packages.txt" "$project/tools/packages-test.txt"
 build asan -- fuzz_targets

@@ -1,26 +1,28 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
-#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "app/export_elements.h"
+#include "app/export_play.h"
 #include "app/interruption.h"
 #include "app/options.h"
 #include "app/picture.h"
 #include "app/progress.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/text.h"
 #include "exchange/opensim.h"
+#include "exchange/vtk_scene.h"
 #include "geometry/glb.h"
-#include "scene/lockstep_session.h"
-#include "scene/samples.h"
 #include "view/pictures/limb_model.h"
+#include "view/pictures/moving_limb_model.h"
 #include "view/pictures/turntable.h"
 #include "view/ui/text.h"
 
@@ -28,20 +30,36 @@ namespace myotact::app {
 
 namespace {
 
-constexpr double kTurn_s = 12.0;  // slow enough to read a limb by
+constexpr double kTurn_s = 12.0;   // slow enough to read a limb by
+constexpr int kMostFrames = 1200;  // of a model that moves, a minute: they are kept until it is written
 
-enum class Kind { Poster, Film, Model, OpenSim };
+enum class Kind { Poster, Film, Model, Tissue, Surfaces, Series, Elements, OpenSim };
 
 /// What the name of the file asks for.
 struct Format {
   const char* extension;
   Kind kind;
-  const char* size;  // without --size; a model has none
+  const char* what;
+  const char* size = "1920x1080";  // without --size; what is no picture needs none
 };
-constexpr std::array<Format, 4> kFormats{{{".png", Kind::Poster, "3840x2160"},
-                                          {".mp4", Kind::Film, "1920x1080"},
-                                          {".glb", Kind::Model, "1920x1080"},
-                                          {".osim", Kind::OpenSim, "1920x1080"}}};
+constexpr std::array kFormats{
+    Format{".png", Kind::Poster, "a poster", "3840x2160"},
+    Format{".mp4", Kind::Film, "a film once round the limb"},
+    Format{".glb", Kind::Model, "a 3D model, glTF 2.0"},
+    Format{".vtu", Kind::Tissue, "the muscles' tetrahedra with their values, for ParaView"},
+    Format{".vtp", Kind::Surfaces, "skins and bones with their values, for ParaView"},
+    Format{".pvd", Kind::Series, "both of these at every frame of the script, for ParaView"},
+    Format{".feb", Kind::Elements, "muscles as finite elements, for FEBio"},
+    Format{".osim", Kind::OpenSim, "bones, joints and muscle lines, for OpenSim 4"},
+};
+
+bool is_picture(Kind kind) {
+  return kind == Kind::Poster || kind == Kind::Film;
+}
+/// Drawn, or built from what is drawn: the view decides what is in it.
+bool is_seen(Kind kind) {
+  return is_picture(kind) || kind == Kind::Model;
+}
 
 const Format& format_of(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
@@ -50,10 +68,10 @@ const Format& format_of(const std::filesystem::path& file) {
   for (const Format& format : kFormats) {
     if (extension == format.extension) return format;
   }
+  std::vector<std::string> known;
+  for (const Format& format : kFormats) known.push_back(fmt::format("{} ({})", format.extension, format.what));
   throw Error(ExitStatus::Usage,
-              fmt::format("--out {}: ends in \"{}\"; must end in .png (a poster), .mp4 (a film once round the limb), "
-                          ".glb (a 3D model, glTF 2.0) or .osim (a model of OpenSim 4)",
-                          file.string(), extension));
+              fmt::format("--out {}: ends in \"{}\"; must end in one of {}", file.string(), extension, join(known)));
 }
 
 void refuse_unfitting(const Options& options, Kind kind) {
@@ -64,7 +82,11 @@ void refuse_unfitting(const Options& options, Kind kind) {
   };
   refuse(options.turn_s.has_value() && kind != Kind::Film, "--turn", "is of a film (.mp4)");
   refuse(options.language.has_value() && kind != Kind::Poster, "--language", "is of a poster (.png)");
-  refuse(options.export_size.has_value() && kind >= Kind::Model, "--size", "is of a picture (.png) or film (.mp4)");
+  refuse(options.export_size.has_value() && !is_picture(kind), "--size", "is of a picture (.png) or film (.mp4)");
+  refuse(options.frame_steps.has_value() && kind != Kind::Model && kind != Kind::Series, "--every",
+         "is of what moves (.glb with --seconds, .pvd)");
+  refuse(options.muscle.has_value() && kind != Kind::Elements, "--muscle", "is of finite elements (.feb)");
+  refuse(!options.show.empty() && !is_seen(kind), "--show", "is of what is looked at (.png, .mp4, .glb)");
 }
 
 /// Muscle lines are asked for: they hide what a poster and a film show.
@@ -82,6 +104,13 @@ PictureWish wish_of(const Options& options, const Format& format) {
 void check(const Options& options, const scene::Scene& scene, const PictureWish& wish, Kind kind) {
   check_picture(scene, wish);
   require_writable(options.file);
+  const double frames = options.seconds.value_or(0.0) / (scene.settings.dt_s * steps_between_frames(options, scene));
+  if (kind == Kind::Model && frames > kMostFrames) {
+    throw Error(ExitStatus::Usage,
+                fmt::format("--seconds {}: are {:.0f} frames, and a model that moves has at most {}; "
+                            "give fewer seconds, or a larger --every",
+                            to_text(*options.seconds), frames, kMostFrames));
+  }
   if (kind != Kind::Film) return;
   view::check_film_size(wish.size);
   view::ffmpeg_for_films();
@@ -93,13 +122,7 @@ void check(const Options& options, const scene::Scene& scene, const PictureWish&
 }
 
 /// The limb in balance, and then what the script makes of it. Without its tools: nobody touches what hangs on a wall.
-messages::SceneFrame frame_after(const Options& options, const scene::Scene& scene) {
-  constexpr int kFewSamples = 1000000;  // nobody reads them
-  simulation::Simulation simulation(scene.specimen, scene.settings);
-  scene::SampleTable samples(scene.specimen, scene::hands_of(scene), kFewSamples);
-  scene::LockstepSession session(scene, simulation, samples, nullptr);
-  const std::int64_t steps = std::llround(options.seconds.value_or(0.0) / scene.settings.dt_s);
-  for (std::int64_t i = 0; i < steps && interruption() == 0; ++i) session.step();
+messages::SceneFrame frame_of(const simulation::Simulation& simulation) {
   messages::SceneFrame frame;
   simulation.write_frame(frame);
   frame.tools.clear();
@@ -108,14 +131,12 @@ messages::SceneFrame frame_after(const Options& options, const scene::Scene& sce
 
 /// The specimen itself, with its universal and ball joints, and with the scene's own lines and fibre lengths.
 void write_opensim(const Options& options, const scene::Scene& scene) {
-  require_writable(options.file);
   anatomy::Specimen specimen = anatomy::load_specimen(scene.specimen_folder);
   specimen.lines = scene.specimen.lines;
   for (std::size_t m = 0; m < specimen.muscles.size(); ++m) {
     specimen.muscles[m].rest_stretch = scene.specimen.muscles[m].rest_stretch;
   }
   exchange::opensim::save_model(specimen, options.file);
-  spdlog::info("{} is written", options.file.string());
 }
 
 void write_film(const Options& options, const view::Turntable& turntable) {
@@ -131,36 +152,79 @@ void write_film(const Options& options, const view::Turntable& turntable) {
   }
 }
 
+/// What is seen, as it stands at the end.
+void write_seen(const Options& options, const scene::Scene& scene, const Format& format, const PictureWish& wish) {
+  play(options, scene, {}, [&](const simulation::Simulation& simulation) {
+    const messages::SceneFrame frame = frame_of(simulation);
+    const view::ViewState look = look_of(scene, frame, wish);
+    if (format.kind == Kind::Poster) write_picture(scene, frame, wish, options.file);
+    if (format.kind == Kind::Film) {
+      write_film(options, {scene.specimen, frame, look, wish.size, options.turn_s.value_or(kTurn_s)});
+    }
+    if (format.kind == Kind::Model) {
+      write_file(options.file, geometry::glb_bytes(view::limb_model(scene.specimen, frame, look)));
+    }
+  });
+}
+
+/// The limb as it moves while the script is played.
+void write_moving_model(const Options& options, const scene::Scene& scene, const PictureWish& wish) {
+  std::vector<view::LimbMoment> moments;
+  std::optional<view::ViewState> look;
+  const auto add = [&](const simulation::Simulation& simulation) {
+    const messages::SceneFrame frame = frame_of(simulation);
+    if (!look) look = look_of(scene, frame, wish);
+    moments.push_back({frame.time_s, frame.body_poses, frame.skins_world_m});
+  };
+  play(options, scene, add, {});
+  if (interruption() != 0) return;
+  const std::string bytes = geometry::glb_bytes(view::moving_limb_model(scene.specimen, moments, *look));
+  write_file(options.file, bytes);
+  spdlog::info("{}: {} frames, {:.1f} MB", options.file.string(), moments.size(),
+               1e-6 * static_cast<double>(bytes.size()));
+}
+
+/// One file of VTK, as the scene is at the end.
+void write_vtk_file(const Options& options, const scene::Scene& scene, Kind kind) {
+  play(options, scene, {}, [&](const simulation::Simulation& simulation) {
+    write_file(options.file,
+               exchange::vtk_xml(kind == Kind::Tissue ? exchange::vtk_tissue(scene.specimen, simulation)
+                                                      : exchange::vtk_surfaces(scene.specimen, simulation)));
+  });
+}
+
+void write(const Options& options, const scene::Scene& scene, const Format& format, const PictureWish& wish) {
+  switch (format.kind) {
+    case Kind::Poster:
+    case Kind::Film:
+      return write_seen(options, scene, format, wish);
+    case Kind::Model:
+      return options.seconds.value_or(0.0) > 0.0 ? write_moving_model(options, scene, wish)
+                                                 : write_seen(options, scene, format, wish);
+    case Kind::Tissue:
+    case Kind::Surfaces:
+      return write_vtk_file(options, scene, format.kind);
+    case Kind::Series:
+      return write_series(options, scene);
+    case Kind::Elements:
+      return write_elements(options, scene);
+    case Kind::OpenSim:
+      return write_opensim(options, scene);
+  }
+}
+
 }  // namespace
 
 int export_scene(const Options& options) {
   const Format& format = format_of(options.file);
   refuse_unfitting(options, format.kind);
+  if (format.kind == Kind::Elements && is_case(options.scene)) return export_case(options);
   if (options.language) view::ui::set_language(*options.language);
   const scene::Scene scene = scene_of(options);
-  if (format.kind == Kind::OpenSim) {
-    write_opensim(options, scene);
-    return static_cast<int>(ExitStatus::Done);
-  }
   const PictureWish wish = wish_of(options, format);
   check(options, scene, wish, format.kind);
   watch_for_interruption();
-  const messages::SceneFrame frame = frame_after(options, scene);
-  if (interruption() != 0) return interruption();
-  const view::ViewState look = look_of(scene, frame, wish);
-  switch (format.kind) {
-    case Kind::Poster:
-      write_picture(scene, frame, wish, options.file);
-      break;
-    case Kind::Film:
-      write_film(options, {scene.specimen, frame, look, wish.size, options.turn_s.value_or(kTurn_s)});
-      break;
-    case Kind::Model:
-      write_file(options.file, geometry::glb_bytes(view::limb_model(scene.specimen, frame, look)));
-      break;
-    case Kind::OpenSim:
-      break;  // needs no frame
-  }
+  write(options, scene, format, wish);
   if (interruption() == 0) spdlog::info("{} is written", options.file.string());
   return interruption();
 }

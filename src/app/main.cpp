@@ -104,13 +104,16 @@ CLI::App* add_run(CLI::App& program, Options& options) {
 CLI::App* add_export(CLI::App& program, Options& options) {
   CLI::App* command =
       program.add_subcommand("export", "the limb to print and to share: a poster, a film once round it, a 3D model");
-  command->add_option("scene", options.scene, "built-in scene or scene file")->capture_default_str();
+  command->add_option("scene", options.scene, "built-in scene or scene file; for a .feb a case of solve, too")
+      ->capture_default_str();
   command
       ->add_option(
           "-o,--out", options.file,
           "file to be written: .png (a poster with names), .mp4 (a film once round the limb, which begins "
-          "again where it ends; needs ffmpeg), .glb (3D model, glTF 2.0: every bone and muscle by name) or .osim "
-          "(model of OpenSim 4)")
+          "again where it ends; needs ffmpeg), .glb (3D model, glTF 2.0: every bone and muscle by name; with "
+          "--seconds it moves), .vtu (the muscles' tetrahedra for ParaView), .vtp (skins and bones), .pvd "
+          "(both at every frame of the script), .feb (muscles at their pose, or a case, for FEBio) or .osim (bones, "
+          "joints and muscle lines for OpenSim 4)")
       ->required();
   add_look(*command, options);
   command->add_option("--size", options.export_size,
@@ -124,6 +127,11 @@ CLI::App* add_export(CLI::App& program, Options& options) {
       ->add_option("--seconds", options.seconds,
                    "play the scene's script so long first [s]; without: the limb as it is balanced at the start")
       ->check(CLI::Range(0.0, 86400.0));
+  command
+      ->add_option("--every", options.frame_steps,
+                   "of what moves: a frame every so many steps of the simulation; default: 20 frames a second")
+      ->check(CLI::Range(1, 100000));
+  command->add_option("--muscle", options.muscle, "of a .feb: this muscle alone, by its key; without: all");
   command->add_option("--set", options.set, "override a key of the scene: key=value");
   command->add_option("--log-level", options.log_level, "trace, debug, info, warning, error, critical or off")
       ->capture_default_str();
@@ -275,7 +283,7 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
   add_common(*replay, options);
   bind(replay, myotact::app::replay);
   CLI::App* solve = program.add_subcommand("solve", "one finite-element case, its answer as JSON");
-  solve->add_option("case", options.file, "case file")->required();
+  solve->add_option("case", options.file, "case file, or a model of FEBio 4.0 (.feb)")->required();
   solve->add_option("--vtk", options.vtk, "write the deformed mesh to this file, for ParaView");
   add_common(*solve, options);
   bind(solve, myotact::app::solve);

@@ -33,9 +33,11 @@ struct Options {
   std::string view = "lateral";
   std::vector<std::string> show;
   std::string size = "900x1200";
-  std::optional<std::string> export_size;  // export, as the two below; without: what suits the file
+  std::optional<std::string> export_size;  // export, as the four below; without: what suits the file
   std::optional<double> turn_s;            // of a film, once round the limb
+  std::optional<int> frame_steps;          // of what moves: steps of the simulation from frame to frame
   std::optional<std::string> language;     // of what is written over pictures
+  std::optional<std::string> muscle;       // the one that is written as finite elements
   int every = 1;
   int workers = 2;
   std::string angles;  // stiffness: a number list, degrees; empty: the scene's own

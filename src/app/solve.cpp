@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/text.h"
+#include "exchange/febio_read.h"
 #include "measure/solve_answer.h"
 
 namespace myotact::app {
@@ -59,6 +60,16 @@ measure::SolveAnswer solve_watched(const measure::SolveCase& input) {
   });
 }
 
+/// A case of ours, or a model of FEBio as one.
+measure::SolveCase case_of(const std::filesystem::path& file) {
+  if (lower(file.extension().string()) != ".feb") return measure::load_case(file);
+  exchange::FebioCase febio = exchange::read_febio(file);
+  if (!febio.left_out.empty()) {
+    spdlog::info("{}: left out, since it changes no answer: {}", file.string(), join(febio.left_out, "; "));
+  }
+  return std::move(febio.solve_case);
+}
+
 std::string what_stopped(const measure::SolveCase& input, const measure::SolveAnswer& answer) {
   const bool is_static = input.dynamics == measure::Dynamics::Static;
   const std::string remedy = is_static ? "load less, give \"ramp\" more steps, or mesh finer where it folds"
@@ -83,7 +94,7 @@ std::string what_stopped(const measure::SolveCase& input, const measure::SolveAn
 int solve(const Options& options) {
   watch_for_interruption();
   try {
-    const measure::SolveCase input = measure::load_case(options.file);
+    const measure::SolveCase input = case_of(options.file);
     // Before a solve that may be long, not after it.
     if (options.vtk && options.vtk->has_parent_path()) make_writable_folder(options.vtk->parent_path());
     if (options.vtk) require_writable(*options.vtk);

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -26,8 +27,8 @@ static_assert(std::endian::native == std::endian::little, "numbers of a GLB are 
 constexpr int kFloat = 5126, kUnsigned = 5125, kVertices = 34962, kIndices = 34963;
 constexpr std::uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 
-// The buffer holds all positions, then all normals, then all indices.
-constexpr int kPositionView = 0, kNormalView = 1, kIndexView = 2;
+// The buffer holds all positions, then all normals, all indices, and what moves them.
+constexpr int kPositionView = 0, kNormalView = 1, kIndexView = 2, kMotionView = 3;
 
 template <typename T>
 void append(std::string& bytes, const T& value) {
@@ -39,6 +40,11 @@ void append(std::string& bytes, const T& value) {
 /// From z up to y up, by a rotation: triangles keep their outsides.
 Vertex y_up(const Vertex& world) {
   return {world[1], world[2], world[0]};
+}
+
+/// The same rotation of an axis.
+std::array<float, 4> y_up(const std::array<float, 4>& world) {
+  return {world[1], world[2], world[0], world[3]};
 }
 
 /// glTF's colours are light, not what a screen is sent (IEC 61966-2-1).
@@ -65,8 +71,11 @@ Json material_of(const GlbMaterial& material) {
 
 /// What grows while nodes are added.
 struct Writer {
-  std::string positions, normals, indices;
+  std::string positions, normals, indices, motion;
   Json nodes = Json::array(), meshes = Json::array(), accessors = Json::array();
+  Json channels = Json::array(), samplers = Json::array();
+  std::size_t times = 0;  // how many
+  int time_accessor = -1;
 
   int add_accessor(int view, std::size_t offset, std::size_t count) {
     accessors.push_back({{"bufferView", view},
@@ -106,20 +115,74 @@ struct Writer {
     return accessor;
   }
 
+  void add_times(const std::vector<float>& times_s) {
+    if (times_s.empty()) return;
+    times = times_s.size();
+    accessors.push_back({{"bufferView", kMotionView},
+                         {"byteOffset", motion.size()},
+                         {"componentType", kFloat},
+                         {"count", times},
+                         {"type", "SCALAR"},
+                         {"min", {times_s.front()}},
+                         {"max", {times_s.back()}}});
+    time_accessor = static_cast<int>(accessors.size()) - 1;
+    for (const float time_s : times_s) append(motion, time_s);
+  }
+
+  /// Moves what `path` names of the node that was added last; `values` have `count` entries of `type`.
+  void add_channel(const char* path, const char* type, std::size_t count, const std::string& values) {
+    if (values.empty()) return;
+    accessors.push_back({{"bufferView", kMotionView},
+                         {"byteOffset", motion.size()},
+                         {"componentType", kFloat},
+                         {"count", count},
+                         {"type", type}});
+    motion += values;
+    samplers.push_back({{"input", time_accessor}, {"output", accessors.size() - 1}, {"interpolation", "LINEAR"}});
+    channels.push_back({{"sampler", samplers.size() - 1}, {"target", {{"node", nodes.size() - 1}, {"path", path}}}});
+  }
+
+  void add_motion(const GlbMotion& moves) {
+    std::string values;
+    for (const Vertex& v : moves.translations_m) append(values, y_up(v));
+    add_channel("translation", "VEC3", moves.translations_m.size(), std::exchange(values, {}));
+    for (const auto& q : moves.rotations) append(values, y_up(q));
+    add_channel("rotation", "VEC4", moves.rotations.size(), std::exchange(values, {}));
+    for (const auto& weights : moves.weights) {
+      for (const float weight : weights) append(values, weight);
+    }
+    add_channel("weights", "SCALAR", values.size() / sizeof(float), values);
+  }
+
+  /// The shapes of a node as its meshes name them.
+  Json targets_of(const GlbNode& node) {
+    Json targets = Json::array();
+    for (const GlbShape& shape : node.shapes) {
+      const int position = add_vertices(kPositionView, shape.positions_m, positions);
+      add_bounds(position, shape.positions_m);
+      targets.push_back({{"POSITION", position}, {"NORMAL", add_vertices(kNormalView, shape.normals, normals)}});
+    }
+    return targets;
+  }
+
   /// Its place among the nodes.
   int add(const GlbNode& node) {
     const int position = add_vertices(kPositionView, node.positions_m, positions);
     add_bounds(position, node.positions_m);
     const int normal = add_vertices(kNormalView, node.normals, normals);
+    const Json targets = targets_of(node);
     Json primitives = Json::array();
     for (const GlbSurface& surface : node.surfaces) {
       if (surface.triangles.empty()) continue;
       primitives.push_back({{"attributes", {{"POSITION", position}, {"NORMAL", normal}}},
                             {"indices", add_indices(surface)},
                             {"material", surface.material}});
+      if (!targets.empty()) primitives.back()["targets"] = targets;
     }
     meshes.push_back({{"name", node.name}, {"primitives", primitives}});
+    if (!targets.empty()) meshes.back()["weights"] = std::vector<float>(targets.size(), 0.0f);
     nodes.push_back({{"name", node.name}, {"mesh", meshes.size() - 1}, {"extras", object_of(node.extras)}});
+    add_motion(node.motion);
     return static_cast<int>(nodes.size()) - 1;
   }
 
@@ -142,6 +205,9 @@ struct Writer {
     Json views{view(0, positions.size(), kVertices), view(at_normals, normals.size(), kVertices),
                view(at_indices, indices.size(), kIndices)};
     for (const int i : {kPositionView, kNormalView}) views[static_cast<std::size_t>(i)]["byteStride"] = sizeof(Vertex);
+    if (!motion.empty()) {
+      views.push_back({{"buffer", 0}, {"byteOffset", at_indices + indices.size()}, {"byteLength", motion.size()}});
+    }
     return views;
   }
 };
@@ -170,6 +236,7 @@ std::string joined(std::string json, const std::string& binary) {
 
 std::string glb_bytes(const GlbScene& scene) {
   Writer writer;
+  writer.add_times(scene.times_s);
   Json groups = Json::array();
   for (const GlbGroup& group : scene.groups) groups.push_back(writer.add(group));
   writer.nodes.push_back({{"name", scene.name}, {"extras", object_of(scene.extras)}});
@@ -178,7 +245,7 @@ std::string glb_bytes(const GlbScene& scene) {
             {"scene", 0},
             {"scenes", {{{"name", scene.name}, {"nodes", {writer.nodes.size() - 1}}}}},
             {"nodes", writer.nodes}};
-  const std::string binary = writer.positions + writer.normals + writer.indices;
+  const std::string binary = writer.positions + writer.normals + writer.indices + writer.motion;
   // The specification allows no empty list.
   if (!binary.empty()) {
     json["materials"] = Json::array();
@@ -187,6 +254,9 @@ std::string glb_bytes(const GlbScene& scene) {
     json["accessors"] = writer.accessors;
     json["bufferViews"] = writer.views();
     json["buffers"] = {{{"byteLength", binary.size()}}};
+  }
+  if (!writer.channels.empty()) {
+    json["animations"] = {{{"name", scene.name}, {"channels", writer.channels}, {"samplers", writer.samplers}}};
   }
   // Names come from files; a letter that is none is replaced.
   return joined(json.dump(-1, ' ', false, Json::error_handler_t::replace), binary);

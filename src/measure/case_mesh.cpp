@@ -137,6 +137,22 @@ void read_fibre(const JsonValue& value, CaseMesh& out) {
 
 }  // namespace
 
+CaseMesh make_case_mesh(TetFile mesh, Element element, const std::string& file) {
+  const std::size_t nodes_of_file = mesh.mesh.nodes_m.size();
+  CaseMesh out;
+  out.file = file;
+  out.mesh = std::move(mesh.mesh);
+  out.regions = std::move(mesh.regions);
+  out.fibres = std::move(mesh.fibres);
+  out.attachments = std::move(mesh.attachments);
+  out.regions.resize(out.mesh.corners.size(), 0);
+  check_volumes(out);
+  fit_to_element(element, out);
+  leave_out_unused(nodes_of_file, out);
+  take_fibres(out);
+  return out;
+}
+
 CaseMesh read_case_mesh(const MeshKeys& keys) {
   CaseMesh out;
   TetFile file;
@@ -155,16 +171,9 @@ CaseMesh read_case_mesh(const MeshKeys& keys) {
     file = geometry::read_tet_mesh(path);
     out.file = path.string();
   }
-  const std::size_t nodes_of_file = file.mesh.nodes_m.size();
-  out.mesh = std::move(file.mesh);
-  out.regions = std::move(file.regions);
-  out.fibres = std::move(file.fibres);
-  out.attachments = std::move(file.attachments);
-  out.regions.resize(out.mesh.corners.size(), 0);
-  check_volumes(out);
-  fit_to_element(keys.element, out);
-  leave_out_unused(nodes_of_file, out);
-  take_fibres(out);
+  const std::vector<int> patches = std::move(out.patches);
+  out = make_case_mesh(std::move(file), keys.element, out.file);
+  out.patches = patches;
   if (keys.fibre) read_fibre(*keys.fibre, out);
   return out;
 }

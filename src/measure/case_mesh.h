@@ -17,4 +17,8 @@ struct MeshKeys {
 /// The mesh named by a case, or its box, converted to what the element needs; every tet has a positive volume.
 CaseMesh read_case_mesh(const MeshKeys& keys);
 
+/// The same of a mesh that was read already: nodes of no tet left out, mid-sides added or dropped, fibres made unit.
+/// `file` is for messages.
+CaseMesh make_case_mesh(geometry::TetFile mesh, Element element, const std::string& file);
+
 }  // namespace myotact::measure

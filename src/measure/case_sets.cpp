@@ -168,6 +168,16 @@ NodeSets read_sets(const std::optional<JsonValue>& value, const CaseMesh& mesh) 
   return sets;
 }
 
+NodeSet set_of_file_nodes(const std::vector<int>& of_file, const CaseMesh& mesh) {
+  std::vector<char> member(mesh.mesh.nodes_m.size(), 0);
+  for (const int number : of_file) {
+    const int node = mesh.node_of_file[static_cast<std::size_t>(number)];
+    if (node >= 0) member[static_cast<std::size_t>(node)] = 1;
+  }
+  add_new_midsides(mesh, member);
+  return members(member);
+}
+
 const NodeSet& require_set(const JsonValue& name, const NodeSets& sets) {
   std::vector<std::string> names;
   for (const auto& [known, set] : sets) names.push_back(known);

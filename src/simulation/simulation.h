@@ -19,6 +19,9 @@
 
 namespace myotact::simulation {
 
+struct TissueMechanics;
+struct TissueSnapshot;
+
 /// How a Simulation is built; fixed from then on, but for gravity. World frame.
 struct SimulationSettings {
   double dt_s = 0.01;                // step, in (0, 0.1]
@@ -145,6 +148,9 @@ class Simulation {
   void write_local_model(const messages::ToolState& tool, messages::LocalModel& model, int index = 0) const;
   /// Fills in place; the order is that of the specimen.
   void write_frame(messages::SceneFrame& frame) const;  // everything but tools and rates
+  /// A muscle's tets one by one, and what they are made of and hang on; slow, for files (tissue_snapshot.h).
+  TissueSnapshot tissue(int muscle) const;
+  TissueMechanics mechanics(int muscle) const;
 
  private:
   struct Impl;

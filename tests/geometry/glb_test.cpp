@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <map>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -111,6 +112,51 @@ TEST(Glb, OfNothingHasNoEmptyLists) {
     EXPECT_FALSE(glb.json.contains(list)) << list;
   }
   EXPECT_TRUE(glb.binary.empty());
+}
+
+/// The numbers of an accessor.
+std::vector<float> floats_of(const Glb& glb, int accessor, std::size_t components) {
+  const std::string bytes = bytes_of(glb, accessor, components * sizeof(float));
+  std::vector<float> numbers(bytes.size() / sizeof(float));
+  std::memcpy(numbers.data(), bytes.data(), bytes.size());
+  return numbers;
+}
+
+TEST(Glb, MotionIsOneAnimationOfItsNodes) {
+  GlbScene scene = one_triangle();
+  scene.times_s = {0.0f, 0.5f};
+  GlbNode& node = scene.groups[0].nodes[0];
+  node.shapes = {{{{1, 0, 0}, {0, 0, 0}, {0, 0, 2}}, {{0, 0, 0}, {0, 0, 0}, {0, 1, 0}}}};
+  node.motion = {{{1, 2, 3}, {4, 5, 6}}, {{0, 0, 0, 1}, {1, 0, 0, 0}}, {{0.25f}, {0.75f}}};
+  const Glb glb = taken_apart(glb_bytes(scene));
+  ASSERT_EQ(glb.json["animations"].size(), 1u);
+  const Json& animation = glb.json["animations"][0];
+  ASSERT_EQ(animation["channels"].size(), 3u);
+  std::map<std::string, std::vector<float>> moved;
+  for (const Json& channel : animation["channels"]) {
+    EXPECT_EQ(glb.json["nodes"][channel["target"]["node"].get<std::size_t>()]["name"], "Humerus");
+    const Json& sampler = animation["samplers"][channel["sampler"].get<std::size_t>()];
+    EXPECT_EQ(floats_of(glb, sampler["input"], 1), scene.times_s);
+    const std::string path = channel["target"]["path"];
+    moved[path] = floats_of(glb, sampler["output"], path == "translation" ? 3 : path == "rotation" ? 4 : 1);
+  }
+  EXPECT_EQ(moved["translation"], (std::vector<float>{2, 3, 1, 5, 6, 4}));  // y up
+  EXPECT_EQ(moved["rotation"], (std::vector<float>{0, 0, 0, 1, 0, 0, 1, 0}));
+  EXPECT_EQ(moved["weights"], (std::vector<float>{0.25f, 0.75f}));
+  const Json& mesh = glb.json["meshes"][0];
+  EXPECT_EQ(mesh["weights"].size(), 1u);
+  const Json& target = mesh["primitives"][0]["targets"][0];
+  EXPECT_EQ(floats_of(glb, target["POSITION"], 3), (std::vector<float>{0, 0, 1, 0, 0, 0, 0, 2, 0}));
+  EXPECT_EQ(floats_of(glb, target["NORMAL"], 3), (std::vector<float>{0, 0, 0, 0, 0, 0, 1, 0, 0}));
+  const Json& times = glb.json["accessors"][animation["samplers"][0]["input"].get<std::size_t>()];
+  EXPECT_EQ(times["min"][0], 0.0f);
+  EXPECT_EQ(times["max"][0], 0.5f);
+}
+
+TEST(Glb, WhatStandsStillHasNoAnimation) {
+  const Glb glb = taken_apart(glb_bytes(one_triangle()));
+  EXPECT_FALSE(glb.json.contains("animations"));
+  EXPECT_EQ(glb.json["bufferViews"].size(), 3u);
 }
 
 }  // namespace

@@ -41,6 +41,7 @@ const std::vector<NamedLaw>& all_laws() {
       {"muscle_fibres_thelen", UnsplitFibres<MuscleFibre>{{3e5, 0.9, 1.0, CurveSet::Thelen2003}}, 0.0, 1e-3},
       {"muscle_fibres_millard", UnsplitFibres<MuscleFibre>{{3e5, 0.9, 1.0, CurveSet::Millard2012}}, 0.0, 1e-3},
       {"muscle_fibres_isochoric", IsochoricFibres<MuscleFibre>{{3e5, 0.9, 1.0}}, 3e5 * 0.0094},
+      {"posed_fibres", UnsplitFibres<PosedFibre>{{3e5, 0.9, 1.1, 0.85, 1.2}}, 3e5 * 0.0094},
       {"blemker_fibres", UnsplitFibres<BlemkerFibre>{{3e5}}, 0.0, 1e-3},
       {"exponential_fibres", UnsplitFibres<ExponentialFibre>{{1e4, 6.0, 0.0, 1.2}}, 0.0, 1e-3},
       {"exponential_fibres_isochoric", IsochoricFibres<ExponentialFibre>{{1e4, 6.0, 0.0, 1.2}}, 0.0, 1e-3},

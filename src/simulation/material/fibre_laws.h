@@ -2,6 +2,7 @@
 
 #include "simulation/curves/blemker.h"
 #include "simulation/curves/curve_set.h"
+#include "simulation/curves/fibre_curves.h"
 #include "simulation/material/fibre_family.h"
 
 namespace myotact::simulation {
@@ -20,6 +21,25 @@ struct MuscleFibre {
     const ForceCurves& set = force_curves(curves);
     return {peak_Pa * (activation * set.active.value(n) + set.passive.value(n)),
             peak_Pa * gain * (activation * set.active.slope(n) + set.passive.slope(n))};
+  }
+  double energy_Pa(double stretch, double activation) const { return integrate_stress(*this, stretch, activation); }
+};
+
+/// Fibres of one of the program's own muscles as they are at a pose (muscle/fibre_field.h): active force goes by the
+/// mean length of all fibres, which is held here, and so is a straight line; passive force by each one's own. Nominal
+/// stress = peak (a (active + active_slope (stretch - 1)) + fP(passive_length + gain (stretch - 1))).
+struct PosedFibre {
+  double peak_Pa = 0.0;
+  double active = 1.0;          // over the peak, at full activation and stretch 1
+  double active_slope = 0.0;    // against the stretch
+  double passive_length = 0.8;  // over the optimal length, at stretch 1
+  double gain = 1.0;            // dn / d(stretch)
+
+  /// Nominal stress and its slope; its integral from stretch 1. `activation` 0 .. 1, stretch > 0.
+  FibreLaw at(double stretch, double activation) const {
+    const double n = passive_length + gain * (stretch - 1.0);
+    return {peak_Pa * (activation * (active + active_slope * (stretch - 1.0)) + passive_force_length(n)),
+            peak_Pa * (activation * active_slope + gain * passive_force_length_slope(n))};
   }
   double energy_Pa(double stretch, double activation) const { return integrate_stress(*this, stretch, activation); }
 };

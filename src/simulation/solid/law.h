@@ -19,10 +19,10 @@ template <class Curve>
 using IsochoricFibres = FibreFamily<Curve, FibreStretch::Isochoric>;
 
 /// Every law that a solid can be made of.
-using Law =
-    std::variant<StableNeoHookean, NeoHookean, MooneyRivlin, Corotated, BlemkerMuscle<BlemkerFibre>,
-                 BlemkerMuscle<ExponentialFibre>, UnsplitFibres<MuscleFibre>, IsochoricFibres<MuscleFibre>,
-                 UnsplitFibres<BlemkerFibre>, IsochoricFibres<ExponentialFibre>, UnsplitFibres<ExponentialFibre>,
-                 UnsplitFibres<ConstantTension>, UnsplitFibres<CalciumTension>, IsotropicTension>;
+using Law = std::variant<StableNeoHookean, NeoHookean, MooneyRivlin, Corotated, BlemkerMuscle<BlemkerFibre>,
+                         BlemkerMuscle<ExponentialFibre>, UnsplitFibres<MuscleFibre>, IsochoricFibres<MuscleFibre>,
+                         UnsplitFibres<PosedFibre>, UnsplitFibres<BlemkerFibre>, IsochoricFibres<ExponentialFibre>,
+                         UnsplitFibres<ExponentialFibre>, UnsplitFibres<ConstantTension>, UnsplitFibres<CalciumTension>,
+                         IsotropicTension>;
 
 }  // namespace myotact::simulation
