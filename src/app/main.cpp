@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <spdlog/spdlog.h>
 
+#include "app/fit.h"
 #include "app/options.h"
 #include "core/error.h"
 #include "core/log.h"
@@ -264,6 +265,11 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
   solve->add_option("--vtk", options.vtk, "write the deformed mesh to this file, for ParaView");
   add_common(*solve, options);
   bind(solve, myotact::app::solve);
+  CLI::App* fit = program.add_subcommand(
+      "fit", "material and muscle parameters from measured curves, with confidence intervals and a plot");
+  fit->add_option("fit", options.file, "fit file (assets/cases/README.md, Fits)")->required();
+  add_common(*fit, options);
+  bind(fit, myotact::app::fit);
   CLI::App* calibrate = program.add_subcommand(
       "calibrate",
       "fit the fibres of a specimen's muscles to their lines, and keep it beside them: it then opens faster");
