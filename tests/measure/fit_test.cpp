@@ -200,7 +200,7 @@ json indentation_fit(const std::string& shape) {
       {"schema", 1},
       {"kind", "indentation"},
       {"model",
-       {{"block", {{"width_m", 0.06}, {"thickness_m", 0.03}, {"cells", 3}}},
+       {{"block", {{"width_m", 0.06}, {"thickness_m", 0.03}, {"cells", 2}}},
         {"indenter", {{"shape", shape}, {"radius_m", 0.005}}},
         {"materials", {{{"law", "neo_hookean"}, {"parameters", {{"young_Pa", 30000}, {"poisson", 0.45}}}}}}}},
       {"measurements", {{{"file", "curve.csv"}}}},

@@ -52,7 +52,8 @@ void require_number_places(const JsonValue& value, const std::string& key, const
   const auto places = places_of(key, model);
   if (places.empty()) {
     std::vector<std::string> known;
-    for (const auto& [pointer, number] : problem.model.flatten().items()) {
+    const nlohmann::json flat = problem.model.flatten();
+    for (const auto& [pointer, number] : flat.items()) {
       if (!number.is_number()) continue;
       std::string dotted = pointer.substr(1);
       std::replace(dotted.begin(), dotted.end(), '/', '.');

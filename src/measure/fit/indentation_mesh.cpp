@@ -13,7 +13,7 @@ namespace {
 
 /// Cells of a size of `first` that grow by at most a factor until `length` is filled; their ends from 0 on.
 std::vector<double> growing_ends(double first, double length) {
-  constexpr double kGrowth = 1.6;
+  constexpr double kGrowth = 2.0;
   std::vector<double> sizes;
   double sum = 0.0;
   for (double size = first; sum < length * (1.0 - 1e-9); size *= kGrowth) {

@@ -72,7 +72,8 @@ double number_of(const SweepPlan& plan, const std::string& quantity, nlohmann::j
   if (places.size() == 1 && places[0]->is_boolean()) return places[0]->get<bool>() ? 1.0 : 0.0;
   if (places.size() == 1 && places[0]->is_null()) return std::nan("");
   std::vector<std::string> known;
-  for (const auto& [pointer, value] : measured.flatten().items()) {
+  const nlohmann::json flat = measured.flatten();
+  for (const auto& [pointer, value] : flat.items()) {
     if (!value.is_number() && !value.is_boolean()) continue;
     known.push_back(pointer.substr(1));
     std::replace(known.back().begin(), known.back().end(), '/', '.');
