@@ -30,8 +30,8 @@ void add_curve(const measure::FitCurve& curve, const std::vector<double>& fitted
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return curve.x[a] < curve.x[b]; });
   const std::string name = std::filesystem::path(curve.file).stem().string();
-  view::ChartSeries measured{name, {}, {}, view::Stroke::Dots}, line{"", {}, {}},
-      residual{"", {}, {}, view::Stroke::Dots};
+  view::ChartSeries measured{name, {}, {}, view::Stroke::Rings}, line{"", {}, {}},
+      residual{"", {}, {}, view::Stroke::Rings};
   for (auto* series : {&measured, &line, &residual}) series->colour = colour;
   for (const std::size_t i : order) {
     for (auto* series : {&measured, &line, &residual}) series->x.push_back(curve.x[i]);
@@ -44,11 +44,11 @@ void add_curve(const measure::FitCurve& curve, const std::vector<double>& fitted
   charts[1].series.push_back(residual);
 }
 
-/// Two charts under each other: measured dots with fitted lines, and what is between them.
+/// Two charts under each other: measured rings with fitted dashes, and what is between them.
 std::string chart_of(const measure::FitProblem& problem, const measure::FitAnswer& answer) {
   const measure::FitCurve& first = problem.curves.front();
   std::array<view::Chart, 2> charts = {
-      view::Chart{problem.title + ": dots measured, lines fitted", first.x_name, first.y_name, {}, false},
+      view::Chart{problem.title + ": rings measured, dashes fitted", first.x_name, first.y_name, {}, false},
       view::Chart{"Residuals", first.x_name, "fitted - measured, " + first.y_name, {}, false}};
   auto begin = answer.fitted.begin();
   for (std::size_t c = 0; c < problem.curves.size(); ++c) {
