@@ -30,7 +30,7 @@ void add_curve(const measure::FitCurve& curve, const std::vector<double>& fitted
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return curve.x[a] < curve.x[b]; });
   const std::string name = std::filesystem::path(curve.file).stem().string();
-  view::ChartSeries measured{name, {}, {}, view::Stroke::Rings}, line{"", {}, {}},
+  view::ChartSeries measured{name, {}, {}, view::Stroke::Rings}, line{"", {}, {}, view::Stroke::Dashed},
       residual{"", {}, {}, view::Stroke::Rings};
   for (auto* series : {&measured, &line, &residual}) series->colour = colour;
   for (const std::size_t i : order) {
