@@ -6,6 +6,7 @@
 
 #include "anatomy/farthest.h"
 #include "anatomy/find_line_defects.h"
+#include "anatomy/mechanics_defects.h"
 #include "anatomy/specimen.h"
 #include "core/text.h"
 
@@ -261,6 +262,12 @@ void find_all_line_defects(const Specimen& specimen, Defects& defects) {
 }
 
 }  // namespace
+
+std::vector<std::string> find_mechanics_defects(const Muscle& muscle) {
+  std::vector<std::string> defects;
+  find_mechanics_defects(muscle, defects);
+  return defects;
+}
 
 std::vector<std::string> find_defects(const Muscle& muscle, std::size_t body_count) {
   Defects defects;

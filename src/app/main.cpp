@@ -3,12 +3,15 @@
 #include <exception>
 #include <functional>
 #include <iostream>
+#include <memory>
 #include <new>
 
 #include <CLI/CLI.hpp>
 #include <spdlog/spdlog.h>
 
+#include "app/fit.h"
 #include "app/options.h"
+#include "app/sweep.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "remote/served_scene.h"
@@ -266,6 +269,17 @@ CLI::App* add_feel(CLI::App& program, Options& options) {
   return feel;
 }
 
+CLI::App* add_sweep(CLI::App& program, Options& options, myotact::app::SweepWish& wish) {
+  CLI::App* sweep = program.add_subcommand(
+      "sweep", "any quantities of a scene over any of its keys, point by point, in shards, restartable; one table");
+  sweep->add_option("sweep", options.file, "sweep file (docs/sweeps.md)")->required();
+  sweep->add_option("--shard", wish.shard, "measure one part of the points: 2/8 is the second of eight");
+  sweep->add_flag("--merge", wish.merge, "only join the points in --out to sweep.csv");
+  sweep->add_flag("--plan", wish.plan, "only count the points, and measure what one costs here");
+  add_common(*sweep, options);
+  return sweep;
+}
+
 /// Declares all subcommands; returns what the one that was given does.
 void declare(CLI::App& program, Options& options, std::function<int(const Options&)>& action) {
   program.set_version_flag("--version", MYOTACT_VERSION);
@@ -287,6 +301,15 @@ void declare(CLI::App& program, Options& options, std::function<int(const Option
   solve->add_option("--vtk", options.vtk, "write the deformed mesh to this file, for ParaView");
   add_common(*solve, options);
   bind(solve, myotact::app::solve);
+  CLI::App* fit = program.add_subcommand(
+      "fit", "material and muscle parameters from measured curves, with confidence intervals and a plot");
+  fit->add_option("fit", options.file, "fit file (assets/cases/README.md, Fits)")->required();
+  add_common(*fit, options);
+  bind(fit, myotact::app::fit);
+  const auto wish = std::make_shared<myotact::app::SweepWish>();
+  add_sweep(program, options, *wish)->callback([&action, wish] {
+    action = [wish](const Options& o) { return myotact::app::sweep(o, *wish); };
+  });
   CLI::App* calibrate = program.add_subcommand(
       "calibrate",
       "fit the fibres of a specimen's muscles to their lines, and keep it beside them: it then opens faster");

@@ -15,6 +15,7 @@
 #include "core/text.h"
 #include "device/profile_file.h"
 #include "scene/fascia_file.h"
+#include "scene/muscle_settings.h"
 #include "scene/tether_file.h"
 #include "scene/texture_file.h"
 #include "scene/tool_choice.h"
@@ -27,6 +28,9 @@ namespace {
 
 // Radii of tools: a blunt needle's and a ballpoint's, a thumb's.
 constexpr double kFinestPoint_m = 0.3e-3, kThickestPoint_m = 1e-3, kThickestBall_m = 1e-2;
+
+/// Of a joint's spring, and of its damper: a thousand times a dog's.
+constexpr double kStiffestJoint_Nm_rad = 1e4;
 
 std::filesystem::path scenes_folder() {
   return data_folder() / "assets" / "scenes";
@@ -66,9 +70,16 @@ void read_joints(const JsonValue& value, Scene& scene) {
   for (const auto& [key, entry] : joints.entries()) {
     const int joint = require_joint(JsonValue(nlohmann::json(key), value.file(), entry.pointer()), scene.specimen);
     auto& setting = scene.joints[static_cast<std::size_t>(joint)];
+    auto& own = scene.specimen.joints[static_cast<std::size_t>(joint)];
     JsonObject fields(entry);
+    if (const auto stiffness = fields.find("stiffness_Nm_rad")) {
+      own.stiffness_Nm_rad = stiffness->number_between(0.0, kStiffestJoint_Nm_rad);
+    }
+    if (const auto damping = fields.find("damping_Nms_rad")) {
+      own.damping_Nms_rad = damping->number_between(0.0, kStiffestJoint_Nm_rad);
+    }
     if (const auto angle = fields.find("q_rad")) {
-      const auto& range = scene.specimen.joints[static_cast<std::size_t>(joint)].range_rad;
+      const auto& range = own.range_rad;
       if (range.empty()) throw angle->error("this joint does not move; remove the key");
       setting.angle_rad = angle->number_between(range[0].first, range[0].second);
     }
@@ -119,17 +130,6 @@ void read_lines(const JsonValue& value, Scene& scene) {
     if (!defects.empty()) throw entry.error(defects.front());
     *std::find_if(scene.specimen.lines.begin(), scene.specimen.lines.end(),
                   [&](const anatomy::MuscleLine& own) { return own.muscle == line.muscle; }) = std::move(line);
-  }
-}
-
-/// A scene's own choice of where on their force-length curve the fibres work, in place of the specimen's estimate.
-void read_rest_stretch(const JsonValue& value, Scene& scene) {
-  for (const auto& [key, entry] : JsonObject(value).entries()) {
-    const int index = require_muscle(JsonValue(nlohmann::json(key), value.file(), entry.pointer()), scene.specimen);
-    anatomy::Muscle& muscle = scene.specimen.muscles[static_cast<std::size_t>(index)];
-    muscle.rest_stretch = entry.number();
-    const auto defects = anatomy::find_defects(muscle, scene.specimen.bodies.size());
-    if (!defects.empty()) throw entry.error(defects.front());
   }
 }
 
@@ -280,7 +280,8 @@ void read_parts(JsonObject& root, Scene& scene) {
   if (const auto fascia = root.find("fascia"); fascia && fascia->boolean())
     scene.settings.fascia = read_fascia(fascia_path());
   if (const auto tissue = root.find("tissue")) read_tissue(*tissue, scene);
-  if (const auto rest_stretch = root.find("rest_stretch")) read_rest_stretch(*rest_stretch, scene);
+  if (const auto muscles = root.find("muscles")) read_muscle_settings(*muscles, scene.specimen);
+  if (const auto rest_stretch = root.find("rest_stretch")) read_rest_stretches(*rest_stretch, scene.specimen);
   if (const auto activations = root.find("activations")) read_activations(*activations, scene);
   if (const auto set = root.find("co_contraction")) scene.co_contraction = read_co_contraction(*set, scene);
   if (const auto tools = root.find("tools")) read_tools(*tools, scene);

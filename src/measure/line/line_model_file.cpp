@@ -12,6 +12,7 @@
 #include "core/json_reader.h"
 #include "core/text.h"
 #include "measure/line/line_stiffness.h"
+#include "measure/line/read_line_model.h"
 
 namespace myotact::measure {
 namespace {
@@ -198,7 +199,11 @@ bool is_line_model(const std::filesystem::path& path) {
 
 LineModel load_line_model(const std::filesystem::path& path) {
   const nlohmann::json json = read_json(path);
-  JsonObject fields(JsonValue(json, path.string()));
+  return read_line_model(JsonValue(json, path.string()));
+}
+
+LineModel read_line_model(const JsonValue& value) {
+  JsonObject fields(value);
   LineModel model;
   fields.at("schema").integer_between(1, 1);
   const JsonValue joint = fields.at("joint");

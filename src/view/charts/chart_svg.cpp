@@ -30,12 +30,16 @@ std::string tick_text(double value, double spacing) {
   return fmt::format("{:.{}f}", value, digits);
 }
 
-Range range_of(const Chart& chart, std::initializer_list<std::vector<double> ChartSeries::*> members) {
-  Range range{0.0, 0.0};  // zero is always shown: a stiffness is read against it
+Range range_of(const Chart& chart, std::initializer_list<std::vector<double> ChartSeries::*> members,
+               bool with_zero = true) {
+  Range range{0.0, 0.0};  // zero is mostly shown: a stiffness is read against it
+  bool empty = !with_zero;
   for (const ChartSeries& series : chart.series) {
     for (const auto member : members) {
       for (const double value : series.*member) {
         if (!std::isfinite(value)) continue;
+        if (empty) range = {value, value};
+        empty = false;
         range.lowest = std::min(range.lowest, value);
         range.highest = std::max(range.highest, value);
       }
@@ -164,7 +168,7 @@ std::vector<double> round_ticks(double lowest, double highest, int wanted) {
 }
 
 std::string line_chart_svg(const Chart& chart) {
-  const Range x = range_of(chart, {&ChartSeries::x});
+  const Range x = range_of(chart, {&ChartSeries::x}, chart.x_from_zero);
   const Range y = range_of(chart, {&ChartSeries::y, &ChartSeries::low, &ChartSeries::high});
   const Axes axes{round_ticks(x.lowest, x.highest, 6), round_ticks(y.lowest, y.highest, 6)};
   std::string svg =
@@ -182,6 +186,17 @@ std::string line_chart_svg(const Chart& chart) {
     if (series.name.empty()) continue;
     svg += legend_svg(series, legend_y, colour);
     legend_y += 20;
+  }
+  return svg + "</svg>\n";
+}
+
+std::string stacked_svg(const std::vector<std::string>& charts) {
+  constexpr std::string_view kOpening = "<svg ";
+  std::string svg =
+      fmt::format(R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="{1}" viewBox="0 0 {0} {1}">)", kWidth,
+                  kHeight * static_cast<double>(charts.size()));
+  for (std::size_t i = 0; i < charts.size(); ++i) {
+    svg += fmt::format("\n<svg y=\"{}\" {}", kHeight * static_cast<double>(i), charts[i].substr(kOpening.size()));
   }
   return svg + "</svg>\n";
 }
