@@ -17,7 +17,7 @@
 // Force of a ball or a flat punch against its depth in a block on a plate, by finite elements.
 //
 //   |  d   |      A contact of radius a: its nodes are moved down to the indenter's shape, whatever pulls there. At a
-//   \_____/       given depth the true contact is the one that presses hardest (Barber, Contact Mechanics, 2018, 2.3),
+//   \_____/       given depth the true contact is the one that presses hardest: there no pressure is left at the edge,
 //  --- a ----     so that what a is off by counts twice only as its square: a is found once, at the start values.
 //
 // Forces are solved at a few depths; between them F/d^m is a polynomial, m = 1 of a punch and 3/2 of a ball.
