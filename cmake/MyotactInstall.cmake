@@ -39,8 +39,7 @@ endif()
 
 set(data "${CMAKE_INSTALL_DATADIR}/myotact")
 install(DIRECTORY assets meshes shaders DESTINATION "${data}" COMPONENT myotact
-  PATTERN assets/desktop EXCLUDE
-  PATTERN assets/pictures EXCLUDE)
+  PATTERN assets/desktop EXCLUDE)
 # Built by tools/build_web.sh before; without it `serve --web` tells what is missing.
 install(DIRECTORY web/dist DESTINATION "${data}/web" COMPONENT myotact OPTIONAL)
 # Where the system looks for what packages bring.
