@@ -51,7 +51,7 @@ def on_page_markdown(markdown, page, config, files):
         if not target.is_relative_to(ROOT) or not target.exists():
             raise PluginError(f"{page.file.src_path}: the link {link[2]} leads nowhere")
         path = target.relative_to(ROOT).as_posix()
-        return f"`{path}`" if link[1].strip("`") in (path, link[2]) else f"{link[1]} (`{path}`)"
+        return f"`{path}`" if link[1].strip("`") in (path, link[2], target.stem) else f"{link[1]} (`{path}`)"
 
     text = CODE.sub(lambda m: keep(m[0]), markdown)
     text = LINK.sub(path_of, text)
