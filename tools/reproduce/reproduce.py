@@ -78,10 +78,10 @@ def tissue_settings(scene, column):
         return []
     text = re.sub(r"(?m)(^|\s)//.*$", "", (ROOT / "assets" / "scenes" / f"{scene}.json").read_text(encoding="utf-8"))
     tissue = json.loads(text)["tissue"]
-    lines = [f"tissue.muscles.{key}=line" for key, model in tissue.get("muscles", {}).items() if model == "fem"]
-    if tissue["default"] == "fem":
-        lines.append("tissue.default=line")
-    return [word for one in [*lines, f"tissue.tendon={column.split()[1]}"] for word in ("--set", one)]
+    as_line = lambda model: "line" if model == "fem" else model
+    muscles = {key: as_line(model) for key, model in tissue.get("muscles", {}).items()}
+    whole = {"default": as_line(tissue["default"]), "muscles": muscles, "tendon": column.split()[1]}
+    return ["--set", f"tissue={json.dumps(whole)}"]
 
 
 def joint_stiffness(args):
@@ -99,7 +99,7 @@ def joint_stiffness(args):
             settings = tissue_settings(scene, column.replace("lines, ", "lines "))
             run(args.program, "stiffness", scene, "--angles", angle, "--levels", "0,1", *settings, "--out", folder)
             K = [float(row["K_schur_Nm_rad"]) for row in rows_of(folder / "stiffness.csv")]
-            made.append(f"{K[0]:.2f} to {K[1]:.3g}")
+            made.append(f"{K[0]:.2f} to {K[1]:#.3g}")
             for page, cells in printed.items():
                 if len(cells) != len(columns):
                     found.append(f"{page}: no row of {scene} with {len(columns)} cells")
