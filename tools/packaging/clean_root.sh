@@ -42,11 +42,14 @@ cp -a "$base/." "$root"
 # Not the place of this checkout: what a program says of it would differ.
 mkdir -p "$root/build/myotact"
 git -C "$project" archive HEAD | tar -x -C "$root/build/myotact"
+# Behind a proxy that opens what is encrypted npm needs this machine's certificates.
+cp /etc/ssl/certs/ca-certificates.crt "$root/build/certificates.crt"
 epoch="$(git -C "$project" log -1 --format=%ct)"
 
 # shellcheck disable=SC2016  # expanded inside
 env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive CCACHE_DISABLE=1 \
   http_proxy="${http_proxy:-}" https_proxy="${https_proxy:-}" SOURCE_DATE_EPOCH="$epoch" \
+  NODE_EXTRA_CA_CERTS=/build/certificates.crt \
   unshare --mount --pid --fork bash -c '
     mount --make-rprivate / && mount -t proc proc "$1/proc" && mount --bind /dev "$1/dev" &&
     cp /etc/resolv.conf "$1/etc/resolv.conf" && exec chroot "$1" /build/myotact/tools/package.sh "$2"' \
