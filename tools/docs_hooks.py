@@ -1,7 +1,8 @@
 """What MkDocs does with the pages of docs/ besides: formulas become MathML, and links out of docs/ become paths.
 
-$...$ in a line and $$...$$ in a paragraph of its own are formulas, which pandoc turns into MathML, so that no script draws them.
-A link to a file outside of docs/ leads somewhere in the repository and nowhere in the site: there it is the path, as code.
+$...$ in a line and $$...$$ in a paragraph of its own are formulas, which pandoc turns into MathML, so that no script
+draws them. A link to a file outside of docs/ leads somewhere in the repository and nowhere in the site: there it is the
+path, as code.
 """
 
 import re
@@ -28,7 +29,7 @@ def mathml_of(formulas, page):
     found = re.findall(r"<math.*?</math>", run.stdout, re.S)
     if run.returncode != 0 or run.stderr or len(found) != len(formulas):
         raise PluginError(f"{page}: pandoc read {len(found)} of {len(formulas)} formulas. {run.stderr.strip()}")
-    # The TeX beside it is of no use to a reader and doubles what the search finds. Brackets grow where \left asks for it.
+    # The TeX beside it doubles what the search finds. Brackets grow around what is tall only.
     bare = [re.sub(r"<annotation.*?</annotation>", "", one, flags=re.S) for one in found]
     return [one if "\\left" in tex or "\\begin" in tex else one.replace('stretchy="true"', 'stretchy="false"')
             for one, (tex, _) in zip(bare, formulas)]

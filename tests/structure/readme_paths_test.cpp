@@ -122,7 +122,8 @@ std::vector<std::string> unnamed_parts(const PartsTable& table, const fs::path& 
 
 /// Every README, and the pages that are written for who uses the program.
 std::vector<fs::path> pages() {
-  std::vector<fs::path> paths = {kRoot / "README.md", kRoot / "CONTRIBUTING.md", kRoot / "CHANGELOG.md"};
+  std::vector<fs::path> paths = {kRoot / "README.md", kRoot / "CONTRIBUTING.md", kRoot / "CHANGELOG.md",
+                                 kRoot / "paper" / "paper.md"};
   for (const auto& entry : fs::directory_iterator(kRoot / "docs")) {
     if (entry.path().extension() == ".md") paths.push_back(entry.path());
   }

@@ -22,7 +22,8 @@ keyring=()
 if [ "$release" = noble ]; then
   keyring=(--keyring /usr/share/keyrings/ubuntu-archive-keyring.gpg)
   if [ ! -f "${keyring[1]}" ]; then
-    [ "${UNVERIFIED:-}" = 1 ] || cannot "Ubuntu's keys are not there (${keyring[1]}): take them from its package ubuntu-keyring, or set UNVERIFIED=1 for a trial"
+    [ "${UNVERIFIED:-}" = 1 ] ||
+      cannot "${keyring[1]} is not there: take it from Ubuntu's package ubuntu-keyring, or set UNVERIFIED=1 for a trial"
     keyring=(--no-check-gpg)
   fi
 fi
@@ -32,8 +33,9 @@ mkdir -p "$cache" "$target"
 base="$cache/$release.base"
 if [ ! -d "$base" ]; then
   rm -rf "$base.part"
-  debootstrap "${keyring[@]}" --variant=minbase --components="$components" --include=ca-certificates "$release" "$base.part" "$mirror" \
-    ${script:+"/usr/share/debootstrap/scripts/$script"} >"$cache/$release.log" 2>&1 || cannot "debootstrap failed, see $cache/$release.log: $(tail -1 "$cache/$release.log")"
+  debootstrap "${keyring[@]}" --variant=minbase --components="$components" --include=ca-certificates \
+    "$release" "$base.part" "$mirror" ${script:+"/usr/share/debootstrap/scripts/$script"} >"$cache/$release.log" 2>&1 ||
+    cannot "debootstrap failed, see $cache/$release.log: $(tail -1 "$cache/$release.log")"
   mv "$base.part" "$base"
 fi
 root="$(mktemp -d "$cache/$release.XXXXXX")"

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """animation.py MYOTACT FILE.webp: twenty seconds of the elbow's co-contraction, at rest, up to full and back.
 
-Every frame is one run of the scene `elbow` at rest at a level: the picture, the joint's angle and its stiffness K are the program's, and
-so is the curve. Needs python3-pil.
+Every frame is one run of the scene `elbow` at rest at a level: the picture, the joint's angle and its stiffness K are
+the program's, and so is the curve. Needs python3-pil.
 """
 
 import csv
@@ -27,9 +27,10 @@ def font(size, bold=False):
 def measure(program, level, folder):
     """The scene at rest at this level: picture and the last row of its table."""
     picture = folder / f"{level}.png"
-    subprocess.run([program, "run", "elbow", "--set", "script=[]", "--set", f"co_contraction.common={level}", "--levels", "none",
-                    "--seconds", "0.2", "--size", "960x960", "--view", "medial", "--show", *SHOW, "--png", picture, "--out",
-                    folder / "out"], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    subprocess.run([program, "run", "elbow", "--set", "script=[]", "--set", f"co_contraction.common={level}",
+                    "--levels", "none", "--seconds", "0.2", "--size", "960x960", "--view", "medial", "--show", *SHOW,
+                    "--png", picture, "--out", folder / "out"],
+                   check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     with open(folder / "out" / "samples.csv", encoding="ascii") as table:
         row = list(csv.DictReader(table))[-1]
     return {"level": level, "picture": Image.open(picture).convert("RGB"), "K": float(row["elbow_K_Nm_rad"]),
@@ -88,7 +89,8 @@ def main():
         lengths_ms = [2300] + [300] * 19 + [4000] + [300] * 19 + [2300]
         assert sum(lengths_ms) == 20000
         frames = [frame(states, state) for state in order]
-        frames[0].save(target, save_all=True, append_images=frames[1:], duration=lengths_ms, loop=0, quality=80, method=4)
+        frames[0].save(target, save_all=True, append_images=frames[1:], duration=lengths_ms, loop=0, quality=80,
+                       method=4)
 
 
 main()

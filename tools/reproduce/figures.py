@@ -6,7 +6,7 @@ matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
 from PIL import Image, ImageChops, ImageStat  # noqa: E402
 
-STYLE = {"font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "savefig.dpi": 160, "svg.hashsalt": "myotact"}
+STYLE = {"font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "savefig.dpi": 160}
 
 
 def save(figure, path):
@@ -23,7 +23,8 @@ def draw_stiffness(rows, path):
             column = lambda key: [float(row[key]) for row in own]
             axis.fill_between(column("common"), column("K_low_Nm_rad"), column("K_high_Nm_rad"), color="#e4d3cc", lw=0,
                               label="left open by the anatomy")
-            axis.plot(column("common"), column("K_line_Nm_rad"), "--", color="#777777", label="muscle lines at the same activations")
+            axis.plot(column("common"), column("K_line_Nm_rad"), "--", color="#777777",
+                      label="muscle lines at the same activations")
             axis.plot(column("common"), column("K_schur_Nm_rad"), color="#a23b2a", label="complement, finite elements")
             axis.plot(column("common"), column("K_perturbed_Nm_rad"), "o", ms=3.5, mfc="none", color="black",
                       label="perturbed angle, finite elements")
@@ -32,7 +33,8 @@ def draw_stiffness(rows, path):
             axis.set_ylim(bottom=0)
         axes[0].set_ylabel("K [N m/rad]")
         handles, labels = axes[0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="lower center", ncol=4, frameon=False, bbox_to_anchor=(0.5, -0.12), fontsize=7.5)
+        figure.legend(handles, labels, loc="lower center", ncol=4, frameon=False, bbox_to_anchor=(0.5, -0.12),
+                      fontsize=7.5)
         save(figure, path)
 
 

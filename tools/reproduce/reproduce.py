@@ -25,7 +25,8 @@ def run(program, *arguments):
     environment = dict(os.environ, MYOTACT_DATA_DIR=str(ROOT), LC_ALL="C.UTF-8")
     done = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, env=environment, check=False)
     if done.returncode not in (0, 1):  # 1: a check failed, which is told
-        raise RuntimeError(f"myotact {' '.join(map(str, arguments))} ended with {done.returncode}:\n{done.stderr[-2000:]}")
+        line = " ".join(map(str, arguments))
+        raise RuntimeError(f"myotact {line} ended with {done.returncode}:\n{done.stderr[-2000:]}")
     return done.stdout
 
 
@@ -116,10 +117,11 @@ def stiffness_curves(args):
         folder = args.out / f"{scene}_curve"
         run(args.program, "stiffness", scene, "--angles", angle, "--levels", "0:0.125:1", "--out", folder)
         for row in rows_of(folder / "stiffness.csv"):
-            keys = ("common", "K_schur_Nm_rad", "K_perturbed_Nm_rad", "K_line_Nm_rad", "K_low_Nm_rad", "K_high_Nm_rad", "held",
-                    "converged")
+            keys = ("common", "K_schur_Nm_rad", "K_perturbed_Nm_rad", "K_line_Nm_rad", "K_low_Nm_rad", "K_high_Nm_rad",
+                    "held", "converged")
             rows.append({"scene": scene, **{key: row[key] for key in keys}})
-    found = keep_or_compare(args, "stiffness_curves", rows, ("K_schur_Nm_rad", "K_perturbed_Nm_rad", "K_line_Nm_rad"), 0.005)
+    compared = ("K_schur_Nm_rad", "K_perturbed_Nm_rad", "K_line_Nm_rad")
+    found = keep_or_compare(args, "stiffness_curves", rows, compared, 0.005)
     figures.draw_stiffness(rows, args.figures / "stiffness.png")
     return found
 
@@ -131,7 +133,7 @@ def validation(args):
     for case in cases:
         for check in case["checks"]:
             if check.get("passed") is False:
-                failed.append(f"{case['case']}, {check['quantity']}: {check['obtained']:.6g}, {check['value']:.6g} expected")
+                failed.append(f"{case['case']}, {check['quantity']}: {check['obtained']:.6g}, not {check['value']:.6g}")
             if check.get("tolerance"):
                 rows.append({"case": case["case"], "quantity": check["quantity"],
                              "share": f"{check['error'] / check['tolerance']:.4g}"})
@@ -157,7 +159,8 @@ def fidelity(args):
     print(f"  {values[0]:.2f} % RMS, {values[1]:.1f} mN of jitter")
     if not printed:
         return ["the paper names no such figures"]
-    return [f"{value:.4g} in place of {kept}" for value, kept in zip(values, printed.groups()) if not as_printed(value, kept)]
+    pairs = zip(values, printed.groups())
+    return [f"{value:.4g} in place of {kept}" for value, kept in pairs if not as_printed(value, kept)]
 
 
 def touch_map(args):
@@ -167,7 +170,8 @@ def touch_map(args):
     grades = [row["grade"] for row in rows_of(folder / "touch_map.csv")]
     made = [grades.count(grade) for grade in ("good", "fair", "poor")]
     print("  good, fair, poor:", *made)
-    figures.join_pictures([folder / f"touch_map_{side}.png" for side in ("lateral", "medial")], args.figures / "touch_map.png")
+    sides = [folder / f"touch_map_{side}.png" for side in ("lateral", "medial")]
+    figures.join_pictures(sides, args.figures / "touch_map.png")
     found = []
     for page in ("paper/paper.md", "docs/accuracy.md"):
         text = " ".join((ROOT / page).read_text(encoding="utf-8").split())
@@ -182,8 +186,8 @@ def pictures(args):
     found = []
     for scene in ("elbow", "forelimb"):
         made = args.out / f"{scene}.png"
-        run(args.program, "run", scene, "--seconds", "0.01", "--levels", "none", "--size", "1000x1100", "--show", "labels=on",
-            "lines=off", "--png", made, "--out", args.out / f"{scene}_run")
+        run(args.program, "run", scene, "--seconds", "0.01", "--levels", "none", "--size", "1000x1100", "--show",
+            "labels=on", "lines=off", "--png", made, "--out", args.out / f"{scene}_run")
         found += figures.picture_difference(ROOT / "docs" / "pictures" / f"{scene}.png", made)
     return found
 
@@ -198,7 +202,7 @@ def animation(args):
 
 
 def recorded(args):
-    """Paper, figures of speed: of a machine of their own, so only compared with the recorded results that they are from."""
+    """Paper, figures of speed: of a machine of their own, so compared with the recorded results they are from."""
     text = (ROOT / "paper" / "paper.md").read_text(encoding="utf-8")
     found = []
     for row in re.finditer(r"^\| ([^|]+) \|(.+)\| `(tests/bench/results/[^`]+)` \|$", text, re.M):
