@@ -30,7 +30,7 @@ def draw_stiffness(rows, path):
                       label="perturbed angle, finite elements")
             axis.set_title(scene)
             axis.set_xlabel("co-contraction")
-            axis.set_ylim(bottom=0)
+            axis.axhline(0.0, color="black", lw=0.6)
         axes[0].set_ylabel("K [N m/rad]")
         handles, labels = axes[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="lower center", ncol=4, frameon=False, bbox_to_anchor=(0.5, -0.12),

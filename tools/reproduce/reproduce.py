@@ -133,9 +133,9 @@ def validation(args):
     for case in cases:
         for check in case["checks"]:
             if check.get("passed") is False:
-                failed.append(f"{case['case']}, {check['quantity']}: {check['obtained']:.6g}, not {check['value']:.6g}")
-            if check.get("tolerance"):
-                rows.append({"case": case["case"], "quantity": check["quantity"],
+                failed.append(f"{case['name']}, {check['quantity']}: {check['obtained']:.6g} is outside of its bound")
+            if check.get("tolerance") and "value" in check:
+                rows.append({"case": case["name"], "quantity": check["quantity"],
                              "share": f"{check['error'] / check['tolerance']:.4g}"})
     write_rows(args.out / "validation.csv", rows)
     figures.draw_validation(rows, args.figures / "validation.png")
