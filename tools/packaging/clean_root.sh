@@ -1,10 +1,13 @@
 #!/usr/bin/env bash
-# Builds the Debian packages of the last commit in a bare root of their own, where nothing is but what tools/packages.txt
-# names, and prints their checksums. Usage: tools/packaging/clean_root.sh [RELEASE [PRESET [FOLDER]]]
+# Builds the Debian packages of the last commit in a bare root of their own, where nothing is but what
+# tools/packages.txt names, and prints their checksums. Usage: tools/packaging/clean_root.sh [RELEASE [PRESET [FOLDER]]]
 #   RELEASE   bookworm (Debian 12, the default) or noble (Ubuntu 24.04)
 #   PRESET    release (the default), or bundled, which takes half the time
 #   FOLDER    where the packages come to; default build/clean/RELEASE
-# Needs root, debootstrap and a mirror (MIRROR=URL chooses another); else ends with 69. SOURCE_DATE_EPOCH is the commit's time.
+# Needs root, debootstrap and a mirror (MIRROR=URL chooses another); else ends with 69. SOURCE_DATE_EPOCH is the
+# commit's time.
+# CCACHE=FOLDER takes objects from a cache of this machine, for a trial: no proof then that the place of the sources
+# leaves no trace in them.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
 
@@ -48,13 +51,20 @@ git -C "$project" archive HEAD | tar -x -C "$root/build/myotact"
 cp /etc/ssl/certs/ca-certificates.crt "$root/build/certificates.crt"
 epoch="$(git -C "$project" log -1 --format=%ct)"
 
+cache_setting=(CCACHE_DISABLE=1)
+if [ -n "${CCACHE:-}" ]; then
+  mkdir "$root/build/ccache"
+  cache_setting=(CCACHE_DIR=/build/ccache)
+fi
+
 # shellcheck disable=SC2016  # expanded inside
-env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive CCACHE_DISABLE=1 \
-  http_proxy="${http_proxy:-}" https_proxy="${https_proxy:-}" SOURCE_DATE_EPOCH="$epoch" \
+env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive \
+  "${cache_setting[@]}" http_proxy="${http_proxy:-}" https_proxy="${https_proxy:-}" SOURCE_DATE_EPOCH="$epoch" \
   NODE_EXTRA_CA_CERTS=/build/certificates.crt \
   unshare --mount --pid --fork bash -c '
     mount --make-rprivate / && mount -t proc proc "$1/proc" && mount --bind /dev "$1/dev" &&
+    { [ -z "$3" ] || mount --bind "$3" "$1/build/ccache"; } &&
     cp /etc/resolv.conf "$1/etc/resolv.conf" && exec chroot "$1" /build/myotact/tools/package.sh "$2"' \
-  - "$root" "$preset" >&2
+  - "$root" "$preset" "${CCACHE:-}" >&2
 cp "$root/build/myotact/build/$preset"/packages/*.deb "$target"
 (cd "$target" && sha256sum ./*.deb)
