@@ -46,7 +46,8 @@ install(DIRECTORY web/dist DESTINATION "${data}/web" COMPONENT myotact OPTIONAL)
 install(FILES assets/devices/udev/70-myotact.rules DESTINATION lib/udev/rules.d COMPONENT myotact)
 install(DIRECTORY tests/validation DESTINATION "${data}/tests" COMPONENT myotact FILES_MATCHING PATTERN *.json)
 install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/myotact" COMPONENT myotact)
-install(DIRECTORY docs DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/myotact" COMPONENT myotact FILES_MATCHING PATTERN *.md)
+install(DIRECTORY docs DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/myotact" COMPONENT myotact FILES_MATCHING PATTERN *.md
+  PATTERN pictures EXCLUDE)
 # Debian has this text in a place of its own, so that its packages leave this component out.
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/myotact" COMPONENT licence)
 
