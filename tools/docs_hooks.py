@@ -1,8 +1,8 @@
-"""What MkDocs does with the pages of docs/ besides: formulas become MathML, and links out of docs/ become paths.
+"""What MkDocs does with the pages of docs/ besides: formulas become MathML, links out of docs/ paths.
 
 $...$ in a line and $$...$$ in a paragraph of its own are formulas, which pandoc turns into MathML, so that no script
 draws them. A link to a file outside of docs/ leads somewhere in the repository and nowhere in the site: there it is the
-path, as code.
+path, as code; a picture from outside is taken along.
 """
 
 import re
@@ -10,13 +10,15 @@ import subprocess
 from pathlib import Path
 
 from mkdocs.exceptions import PluginError
+from mkdocs.structure.files import File
 
 ROOT = Path(__file__).resolve().parent.parent
 CODE = re.compile(r"^```.*?^```|`[^`\n]*`", re.S | re.M)
 DISPLAY = re.compile(r"\$\$(.+?)\$\$", re.S)
 INLINE = re.compile(r"(?<![\\$\w])\$([^$\s](?:[^$\n]*[^$\s])?)\$(?![\w$])")
+PICTURE = re.compile(r"(!\[[^\]]*\])\((\.\./[^)\s]+)\)")
 TAG = re.compile(r"\\tag\{(\w+)\}")
-LINK = re.compile(r"\[([^\]]*)\]\((\.\./[^)\s#]+)[^)]*\)")
+LINK = re.compile(r"(?<!!)\[([^\]]*)\]\((\.\./[^)\s#]+)[^)]*\)")
 
 
 def mathml_of(formulas, page):
@@ -47,14 +49,25 @@ def on_page_markdown(markdown, page, config, files):
         formulas.append((tex, display))
         return f"\ue002{len(formulas) - 1}\ue003"
 
-    def path_of(link):
+    def place_of(link):
         target = (Path(page.file.abs_src_path).parent / link[2]).resolve()
         if not target.is_relative_to(ROOT) or not target.exists():
             raise PluginError(f"{page.file.src_path}: the link {link[2]} leads nowhere")
-        path = target.relative_to(ROOT).as_posix()
+        return target, target.relative_to(ROOT).as_posix()
+
+    def take_along(picture):
+        _, path = place_of(picture)
+        if files.get_file_from_path(path) is None:
+            files.append(File(path, str(ROOT), config["site_dir"], config["use_directory_urls"]))
+        up = "../" * page.file.src_path.count("/")
+        return f"{picture[1]}({up}{path})"
+
+    def path_of(link):
+        target, path = place_of(link)
         return f"`{path}`" if link[1].strip("`") in (path, link[2], target.stem) else f"{link[1]} (`{path}`)"
 
     text = CODE.sub(lambda m: keep(m[0]), markdown)
+    text = PICTURE.sub(take_along, text)
     text = LINK.sub(path_of, text)
     text = DISPLAY.sub(lambda m: hold(m[1], True), text)
     text = INLINE.sub(lambda m: hold(m[1], False), text)
