@@ -3,8 +3,8 @@
 
 include(GNUInstallDirs)
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # cpack would build every test, too
-set(MYOTACT_RELEASE_DATE 2026-11-23)
-set(MYOTACT_RELEASE_TIME "Mon, 23 Nov 2026 00:00:00 +0000")
+set(MYOTACT_RELEASE_DATE 2026-11-28)
+set(MYOTACT_RELEASE_TIME "Sat, 28 Nov 2026 00:00:00 +0000")
 set(MYOTACT_CONTACT authors@myotact.invalid)
 set(packaging "${PROJECT_SOURCE_DIR}/tools/packaging")
 set(made "${PROJECT_BINARY_DIR}/install")
@@ -39,14 +39,15 @@ endif()
 
 set(data "${CMAKE_INSTALL_DATADIR}/myotact")
 install(DIRECTORY assets meshes shaders DESTINATION "${data}" COMPONENT myotact
-  PATTERN assets/desktop EXCLUDE
-  PATTERN assets/pictures EXCLUDE)
+  PATTERN assets/desktop EXCLUDE)
 # Built by tools/build_web.sh before; without it `serve --web` tells what is missing.
 install(DIRECTORY web/dist DESTINATION "${data}/web" COMPONENT myotact OPTIONAL)
 # Where the system looks for what packages bring.
 install(FILES assets/devices/udev/70-myotact.rules DESTINATION lib/udev/rules.d COMPONENT myotact)
 install(DIRECTORY tests/validation DESTINATION "${data}/tests" COMPONENT myotact FILES_MATCHING PATTERN *.json)
-install(FILES README.md DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/myotact" COMPONENT myotact)
+install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/myotact" COMPONENT myotact)
+install(DIRECTORY docs DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/myotact" COMPONENT myotact FILES_MATCHING PATTERN *.md
+  PATTERN pictures EXCLUDE)
 # Debian has this text in a place of its own, so that its packages leave this component out.
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/myotact" COMPONENT licence)
 

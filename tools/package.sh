@@ -8,7 +8,7 @@ install_missing "$project/tools/packages.txt"
 preset="${1:-release}"
 "$project/tools/build_web.sh"
 build "$preset" -- myotact-manual myotact-prepare-manual
-SOURCE_DATE_EPOCH="$(git -C "$project" log -1 --format=%ct 2>/dev/null || date +%s)"
+SOURCE_DATE_EPOCH="${SOURCE_DATE_EPOCH:-$(git -C "$project" log -1 --format=%ct 2>/dev/null || date +%s)}"
 export SOURCE_DATE_EPOCH
 (cd "$project/build/$preset" && umask 022 && cpack >&2)
 ls "$project/build/$preset"/packages/*.deb

@@ -54,7 +54,7 @@ if command -v desktop-file-validate >/dev/null; then
 fi
 [ -s "$folder/staged/usr/lib/udev/rules.d/70-myotact.rules" ] || fail "the rules of udev are not there"
 for icon in "$prefix"/share/icons/hicolor/*/apps/myotact.*; do [ -s "$icon" ] || fail "$icon is empty"; done
-for file in doc/myotact/LICENSE doc/myotact/copyright doc/myotact/README.md metainfo/myotact.metainfo.xml; do
+for file in doc/myotact/LICENSE doc/myotact/copyright doc/myotact/README.md doc/myotact/docs/window.md metainfo/myotact.metainfo.xml; do
   [ -s "$prefix/share/$file" ] || fail "share/$file is not there"
 done
 echo "installed, moved and run: $(du -sh "$prefix" | cut -f1) of programs, $(du -sh "$folder/away" | cut -f1) of data"

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -8,8 +10,8 @@
 #include "core/file.h"
 #include "support/source_folder.h"
 
-// What a README points at is there: links, paths from the top of the repository, and the parts of a folder's table,
-// which names all of them.
+// What a README or a page of docs/ points at is there: links, paths from the top of the repository, and the parts of a
+// folder's table, which names all of them.
 
 namespace myotact {
 namespace {
@@ -17,7 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kRoot = source_folder();
-const std::vector<std::string> kTopFolders = {"assets", "cmake", "docs", "meshes", "shaders", "src", "tests", "tools"};
+const std::vector<std::string> kTopFolders = {"assets",  "cmake", "docs",  "meshes", "paper",
+                                              "shaders", "src",   "tests", "tools"};
 
 /// The texts between each `opening` and the `closing` after it.
 std::vector<std::string> texts_between(const std::string& text, const std::string& opening, char closing) {
@@ -62,7 +65,8 @@ bool is_from_the_top(const std::string& path) {
 std::vector<std::string> lost_paths(const std::string& prose, const fs::path& folder) {
   std::vector<std::string> lost;
   for (const std::string& target : texts_between(prose, "](", ')')) {
-    if (target.find("://") == std::string::npos && !fs::exists(folder / target)) lost.push_back(target);
+    const std::string file = target.substr(0, target.find('#'));
+    if (target.find("://") == std::string::npos && !fs::exists(folder / file)) lost.push_back(target);
   }
   for (const std::string& path : texts_between(prose, "`", '`')) {
     if (is_from_the_top(path) && !fs::exists(kRoot / path) && !fs::exists(folder / path)) lost.push_back(path);
@@ -116,8 +120,13 @@ std::vector<std::string> unnamed_parts(const PartsTable& table, const fs::path& 
   return unnamed;
 }
 
-std::vector<fs::path> readmes() {
-  std::vector<fs::path> paths = {kRoot / "README.md"};
+/// Every README, and the pages that are written for who uses the program.
+std::vector<fs::path> pages() {
+  std::vector<fs::path> paths = {kRoot / "README.md", kRoot / "CONTRIBUTING.md", kRoot / "CHANGELOG.md",
+                                 kRoot / "paper" / "paper.md"};
+  for (const auto& entry : fs::directory_iterator(kRoot / "docs")) {
+    if (entry.path().extension() == ".md") paths.push_back(entry.path());
+  }
   for (const std::string& top : kTopFolders) {
     for (const auto& entry : fs::recursive_directory_iterator(kRoot / top)) {
       if (entry.path().filename() == "README.md") paths.push_back(entry.path());
@@ -140,8 +149,8 @@ TEST(ReadmePaths, FindsWhatIsLost) {
   EXPECT_TRUE(unnamed_parts(read_parts("no table"), kRoot / "src" / "core").empty());
 }
 
-TEST(ReadmePaths, EveryReadmeKeepsToWhatIsThere) {
-  const auto paths = readmes();
+TEST(ReadmePaths, EveryPageKeepsToWhatIsThere) {
+  const auto paths = pages();
   EXPECT_GT(paths.size(), 10U);
   for (const fs::path& path : paths) {
     const std::string prose = prose_of(read_file(path));
@@ -150,6 +159,20 @@ TEST(ReadmePaths, EveryReadmeKeepsToWhatIsThere) {
     const PartsTable table = read_parts(prose);
     for (const std::string& part : lost_parts(table, folder)) ADD_FAILURE() << path << ": no part " << part;
     for (const std::string& part : unnamed_parts(table, folder)) ADD_FAILURE() << path << ": leaves out " << part;
+  }
+}
+
+TEST(ReadmePaths, TheFirstPageIsReadInFiveMinutes) {
+  std::istringstream words(read_file(kRoot / "README.md"));
+  EXPECT_LE(std::distance(std::istream_iterator<std::string>(words), {}), 1500);
+}
+
+TEST(ReadmePaths, EveryPageOfDocsIsFoundInTheSite) {
+  const std::string site = read_file(kRoot / "mkdocs.yml");
+  for (const auto& entry : fs::directory_iterator(kRoot / "docs")) {
+    const std::string page = entry.path().filename().string();
+    if (!page.ends_with(".md")) continue;
+    EXPECT_NE(site.find(": " + page + "\n"), std::string::npos) << "mkdocs.yml leaves out " << page;
   }
 }
 

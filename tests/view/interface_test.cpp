@@ -145,11 +145,15 @@ TEST(KeyBindings, EachIsFoundWithItsModifiersAloneTheStopWithAny) {
   EXPECT_EQ(binding_of(key_bindings(), GLFW_KEY_UNKNOWN, 0), nullptr);
 }
 
-TEST(KeyBindings, StandInTheReadme) {
-  const std::string readme = read_file(kRoot / "README.md");
+TEST(KeyBindings, StandOnThePageOfTheWindow) {
+  const std::string page = read_file(kRoot / "docs" / "window.md");
+  std::size_t last = 0;
   for (const KeyBinding& binding : key_bindings()) {
     const std::string row = "| `" + name_of(binding) + "` | " + ui::tr(binding.what) + " |";
-    EXPECT_NE(readme.find(row), std::string::npos) << "README lacks: " << row;
+    const std::size_t place = page.find(row);
+    ASSERT_NE(place, std::string::npos) << "docs/window.md lacks: " << row;
+    EXPECT_GT(place, last) << "not in the order of the help: " << row;
+    last = place;
   }
 }
 

@@ -5,7 +5,8 @@
 
 namespace myotact::view {
 
-/// What a key does. One table makes the handlers, the help and the list in the README, so that they cannot disagree.
+/// What a key does. One table makes the handlers, the help and the list in docs/window.md, so that they cannot
+/// disagree.
 enum class KeyAction {
   Help,
   PauseOrPlay,
