@@ -94,6 +94,10 @@ class RestJoint:
     passive_stiffness: float  # [N m/rad]
 
 
+def _fixed(facts: dict[str, Any]) -> dict[str, Any]:
+    return {key: tuple(value) if isinstance(value, list) else value for key, value in facts.items()}
+
+
 class Specimen:
     """Reads a specimen folder, as `myotact-prepare` writes it, and checks it."""
 
@@ -113,7 +117,7 @@ class Specimen:
         self.muscles: Parts[RestMuscle] = Parts(
             "muscle",
             {
-                facts["key"]: RestMuscle(**{**facts, "estimated": tuple(facts["estimated"])}, _specimen=held, _index=index)
+                facts["key"]: RestMuscle(**_fixed(facts), _specimen=held, _index=index)
                 for index, facts in enumerate(held.muscles())
             },
         )
@@ -124,7 +128,7 @@ class Specimen:
         self.joints: Parts[RestJoint] = Parts(
             "joint",
             {
-                facts["key"]: RestJoint(**{**facts, "axes": tuple(facts["axes"]), "range": tuple(facts["range"])})
+                facts["key"]: RestJoint(**_fixed(facts))
                 for facts in held.joints()
             },
         )
