@@ -16,7 +16,7 @@ import myotact
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--tissue", default="fem", help="fem (some minutes) or line (a second)")
+    parser.add_argument("--tissue", default="fem", help="fem (half a minute) or line (a second)")
     parser.add_argument("--levels", type=int, default=6, help="how many levels between rest and full activation")
     parser.add_argument("--picture", default="co_contraction_curve.png")
     options = parser.parse_args()
@@ -29,7 +29,7 @@ def main() -> None:
     axes.plot(u, rows["K_perturbed_Nm_rad"], "x", label="K by turning the joint a little")
     axes.plot(u, rows["K_line_Nm_rad"], "--", label="K of the muscle lines")
     axes.set(xlabel="co-contraction u", ylabel="K [N m/rad]", title="Elbow at its file pose", ylim=(0, None))
-    axes.legend(fontsize=8)
+    axes.legend(fontsize=8, loc="upper left")
     figure.savefig(options.picture, dpi=110)
     for row in rows:
         print(f"u {row['common']:.2f}  K {row['K_schur_Nm_rad']:.3f} N m/rad  net torque {row['net_torque_Nm']:+.1e} N m")

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from . import _check, _measure, _myotact
 from ._parts import Parts
-from ._specimen import Floats, Ints, Specimen
+from ._specimen import Floats, Ints, RestJoint, RestMuscle, Specimen
 from .errors import DataError
 
 _FARTHEST_M = 10.0  # of a tool from the origin
@@ -58,12 +58,13 @@ class Muscle:
     """A muscle of a scene. Arrays are read-only views: each is made once, stays where it is in memory, follows the scene
     from step to step and outlives it. SI units, world frame W (x cranial, y left, z up)."""
 
-    def __init__(self, scene: Scene, key: str, index: int) -> None:
-        self._live = scene._live
+    def __init__(self, live: Any, index: int, rest: RestMuscle, joints: Parts[int]) -> None:
+        self._live = live
         self._index = index
-        self._rest = scene.specimen.muscles[key]
+        self._rest = rest
+        self._joints = joints
         self._arrays: dict[str, Floats] = {}
-        self.key = key
+        self.key = rest.key
 
     def _array(self, what: str) -> Floats:
         if what not in self._arrays:
@@ -99,8 +100,8 @@ class Muscle:
         return self._rest.skin_triangles
 
     @property
-    def rest(self) -> Any:
-        """The muscle at the file pose: RestMuscle."""
+    def rest(self) -> RestMuscle:
+        """The muscle at the file pose."""
         return self._rest
 
     @property
@@ -137,11 +138,6 @@ class Muscle:
         """Of the muscle line about a joint [m], positive flexes."""
         return self._live.moment_arm(self._index, self._joints[joint])
 
-    @property
-    def _joints(self) -> Parts[int]:
-        keys = [facts["key"] for facts in self._live.specimen().joints()]
-        return Parts("joint", {key: index for index, key in enumerate(keys)})
-
     def activate(self, level: float, seconds: float = _GLIDE_S) -> None:
         """Asks for an activation of 0 .. 1, reached evenly within `seconds`. Raises DataError for a muscle that the scene's
         co-contraction drives: use Scene.co_contract or Scene.set_levels, or make the scene with co_contraction=False."""
@@ -161,11 +157,11 @@ class Muscle:
 class Joint:
     """A joint of a scene. Angles [rad] are 0 at the file pose; q, torques and velocities are positive where they flex."""
 
-    def __init__(self, scene: Scene, key: str, index: int) -> None:
-        self._live = scene._live
+    def __init__(self, live: Any, index: int, rest: RestJoint) -> None:
+        self._live = live
         self._index = index
-        self.key = key
-        self.rest = scene.specimen.joints[key]
+        self.key = rest.key
+        self.rest = rest
 
     def readout(self) -> dict[str, float]:
         """All at once: q [rad], velocity [rad/s], torque and own_torque [N m], stiffness, line_stiffness,
@@ -220,10 +216,11 @@ class Tool:
     """A tool in a simulated hand. What it is asked to do happens while the scene is stepped; its force comes from the same
     haptic loop that a device has, a tick a millisecond, in C++."""
 
-    def __init__(self, scene: Scene, index: int, facts: Mapping[str, Any]) -> None:
-        self._scene = scene
-        self._live = scene._live
+    def __init__(self, live: Any, index: int, muscles: Parts[int], bones: Parts[int], facts: Mapping[str, Any]) -> None:
+        self._live = live
         self._index = index
+        self._muscles = muscles
+        self._bones = bones
         self.hand: str = facts["hand"]  # left or right
         self.radius: float = facts["radius"]  # [m]
         self.stiffness: float = facts["stiffness"]  # of the coupling [N/m]
@@ -278,7 +275,7 @@ class Tool:
         at: place along its line, 0 origin .. 1 insertion; direction: out of the muscle, from which the hand comes, W;
         depth: of the hand below the skin as it is now [m], -0.05 .. 0.05.
         """
-        found = self._scene._muscle_index(muscle)
+        found = self._muscles[muscle]
         self._live.touch(
             self._index, _duration(seconds), found, _share(at), _check.direction("direction", direction), _depth(depth)
         )
@@ -296,7 +293,7 @@ class Tool:
         seconds: float = 2.0,
     ) -> None:
         """Comes to a muscle's line, takes it and drags it by (3,) [m], W."""
-        found = self._scene._muscle_index(muscle)
+        found = self._muscles[muscle]
         self._live.grab_line(
             self._index,
             _duration(seconds),
@@ -314,8 +311,7 @@ class Tool:
         seconds: float = 2.0,
     ) -> None:
         """Comes to a bone from outside, takes it where it meets it and drags it by (3,) [m], W."""
-        self._scene.specimen.bones[bone]
-        found = list(self._scene.specimen.bones).index(bone)
+        found = self._bones[bone]
         self._live.grab_bone(
             self._index,
             _duration(seconds),
@@ -342,6 +338,10 @@ def _share(at: Any) -> float:
 
 def _depth(depth: Any) -> float:
     return _check.number("depth", depth, -0.05, 0.05)
+
+
+def _places(kind: str, parts: Parts[Any]) -> Parts[int]:
+    return Parts(kind, {key: index for index, key in enumerate(parts)})
 
 
 class Scene:
@@ -382,16 +382,16 @@ class Scene:
         self._live = _myotact.LiveScene(self._choice)
         self._facts = self._live.facts()
         self.specimen = Specimen._of(self._live.specimen())
+        rest = self.specimen
+        muscles, bones, joints = _places("muscle", rest.muscles), _places("bone", rest.bones), _places("joint", rest.joints)
+        live = self._live
         self.muscles: Parts[Muscle] = Parts(
-            "muscle", {key: Muscle(self, key, index) for index, key in enumerate(self.specimen.muscles)}
+            "muscle", {key: Muscle(live, index, rest.muscles[key], joints) for key, index in muscles.items()}
         )
         self.joints: Parts[Joint] = Parts(
-            "joint", {key: Joint(self, key, index) for index, key in enumerate(self.specimen.joints)}
+            "joint", {key: Joint(live, index, rest.joints[key]) for key, index in joints.items()}
         )
-        self.tools = [Tool(self, index, facts) for index, facts in enumerate(self._live.tool_facts())]
-
-    def _muscle_index(self, key: str) -> int:
-        return self.muscles[key]._index
+        self.tools = [Tool(live, index, muscles, bones, facts) for index, facts in enumerate(live.tool_facts())]
 
     @property
     def name(self) -> str:

@@ -5,7 +5,7 @@ import os
 import subprocess
 import sys
 import threading
-import time
+import weakref
 
 import numpy as np
 import pytest
@@ -272,3 +272,15 @@ def test_python_ends_under_a_stepping_thread():
     done = run_python(OPEN + "threading.Thread(target=lambda: s.step(10**8), daemon=True).start(); time.sleep(0.3)\n")
     assert done.returncode in (0, 1), (done.returncode, done.stderr)
     assert done.returncode >= 0
+
+
+def test_a_scene_goes_with_its_last_name():
+    """No part of it keeps the others: a large scene's memory is free at once."""
+    scene = myotact.Scene("elbow", set=LINES)
+    seen = weakref.ref(scene)
+    gc.disable()
+    try:
+        del scene
+        assert seen() is None
+    finally:
+        gc.enable()
