@@ -110,9 +110,9 @@ def main() -> None:
     extent = (0, STEP_MM * COUNTS[1], 0, STEP_MM * COUNTS[2])
     cut.imshow(labels[COUNTS[0] // 2].T, origin="lower", extent=extent, cmap="tab10", interpolation="nearest", vmax=9)
     cut.set(title="label map, cut", xlabel="posterior [mm]", ylabel="superior [mm]")
-    for skin, name in ((rest, "before"), (muscle.skin, "after")):
-        after.plot(1e3 * skin[:, 2], 1e3 * skin[:, 0], ".", markersize=2, label=name)
-    after.set(title="the muscle's skin", xlabel="z [mm]", ylabel="x [mm]", aspect="equal")
+    for skin, colour, name in ((rest, "tab:gray", "before"), (muscle.skin, "tab:red", "after")):
+        after.triplot(1e3 * skin[:, 2], 1e3 * skin[:, 0], muscle.skin_triangles, color=colour, linewidth=0.5, label=name)
+    after.set(title="the muscle's skin", xlabel="z [mm]", ylabel="x [mm]", aspect="equal", xlim=(20, 90))
     after.legend(fontsize=8)
     motion.plot(times, angles, label="angle [degrees]")
     motion.plot(times, forces, label="force of the muscle [N]")
