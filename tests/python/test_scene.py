@@ -284,3 +284,15 @@ def test_a_scene_goes_with_its_last_name():
         assert seen() is None
     finally:
         gc.enable()
+
+
+@pytest.mark.parametrize("name", ["plane", "plate", "particle", "spring", "bimanual"])
+def test_every_kind_of_scene_steps(name):
+    scene = myotact.Scene(name, set=LINES if name == "bimanual" else {})
+    assert len(scene.tools) == (2 if name == "bimanual" else 1)
+    for tool in scene.tools:
+        tool.move_to(tool.position + [0.01, 0, 0], 0.05)
+    scene.step(10)
+    assert scene.time == pytest.approx(10 * scene.dt)
+    for tool in scene.tools:
+        assert np.isfinite(tool.force).all()
