@@ -28,6 +28,11 @@ std::optional<std::filesystem::path> above_executable() {
   return std::nullopt;
 }
 
+std::filesystem::path& suggested_folder() {
+  static std::filesystem::path folder;
+  return folder;
+}
+
 std::filesystem::path find_data_folder() {
   if (const char* given = std::getenv("MYOTACT_DATA_DIR")) {
     if (!holds_data(given)) {
@@ -36,12 +41,17 @@ std::filesystem::path find_data_folder() {
     }
     return given;
   }
+  if (holds_data(suggested_folder())) return suggested_folder();
   if (const auto found = above_executable()) return *found;
   throw Error(ExitStatus::NoInput,
               "the folder with shaders/, assets/ and meshes/ is not found; name it in the variable MYOTACT_DATA_DIR");
 }
 
 }  // namespace
+
+void suggest_data_folder(const std::filesystem::path& folder) {
+  suggested_folder() = folder;
+}
 
 const std::filesystem::path& data_folder() {
   static const std::filesystem::path folder = find_data_folder();

@@ -9,4 +9,8 @@ namespace myotact {
 /// Throws Error NoInput naming the remedy.
 const std::filesystem::path& data_folder();
 
+/// Where a library that is not beside its executable has its data: used before the executable's own surroundings, after
+/// MYOTACT_DATA_DIR. Without effect once data_folder() has found one.
+void suggest_data_folder(const std::filesystem::path& folder);
+
 }  // namespace myotact

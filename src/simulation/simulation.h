@@ -125,6 +125,11 @@ class Simulation {
   Pose body_pose(int body) const;  // X_WL: maps rest position to now
   /// Vertices of the muscle's skin, in the mesh's order; valid until the next step, settle or destruction.
   std::span<const Vec3> skin_world_m(int muscle) const;
+  /// Three numbers a node of the muscle's mesh, in its order: x, y, z in W. The corner nodes come first, as in the
+  /// specimen; mid-sides of the solver's own may follow. Valid until the next step, settle or destruction.
+  std::span<const double> nodes_world_m(int muscle) const;
+  /// Likewise. Zero for a muscle that is not solved for: a shape on its bones, or asleep.
+  std::span<const double> node_velocities_world_m_s(int muscle) const;
   /// Points of the muscle's line from origin to insertion, those round wraps included (line_points_W).
   std::vector<Vec3> line_world_m(int muscle) const;
   double contact_force_N(int muscle) const;        // sum of the contact forces on the muscle's surface

@@ -122,6 +122,16 @@ std::span<const Vec3> Simulation::skin_world_m(int muscle) const {
   return impl_->surfaces.current_m(muscle);
 }
 
+std::span<const double> Simulation::nodes_world_m(int muscle) const {
+  const Eigen::VectorXd& position_m = impl_->limb.muscles[at(muscle)].state.now.position_m;
+  return {position_m.data(), at(static_cast<int>(position_m.size()))};
+}
+
+std::span<const double> Simulation::node_velocities_world_m_s(int muscle) const {
+  const Eigen::VectorXd& velocity_m_s = impl_->limb.muscles[at(muscle)].state.now.velocity_m_s;
+  return {velocity_m_s.data(), at(static_cast<int>(velocity_m_s.size()))};
+}
+
 std::vector<Vec3> Simulation::line_world_m(int muscle) const {
   return line_points_W(*impl_->lines[at(muscle)].line, impl_->limb.skeleton);
 }
