@@ -24,7 +24,11 @@ void Conductor::obey(const messages::GoOn& go, const When& when) {
     balance_by({control.common, control.difference}, now);  // which a person finds again as it was left
     obey(messages::SetLevels{control.flexors, control.extensors}, now);
   }
-  if (control.drive == messages::Drive::Balance) obey(messages::CoContract{control.common, control.difference}, now);
+  if (control.drive == messages::Drive::Balance && scene_->co_contraction) {
+    drive_ = messages::Drive::Balance;
+    driver_ = when.by;
+    balance_by({control.common, control.difference}, now);
+  }
   obey(messages::SetGravity{control.gravity}, now);
   obey(messages::HoldPosture{false}, now);
   holds_from_there_ = control.hold_posture;
