@@ -41,7 +41,7 @@ std::filesystem::path find_data_folder() {
     }
     return given;
   }
-  if (holds_data(suggested_folder())) return suggested_folder();
+  if (!suggested_folder().empty() && holds_data(suggested_folder())) return suggested_folder();
   if (const auto found = above_executable()) return *found;
   throw Error(ExitStatus::NoInput,
               "the folder with shaders/, assets/ and meshes/ is not found; name it in the variable MYOTACT_DATA_DIR");
