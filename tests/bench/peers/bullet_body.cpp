@@ -64,13 +64,13 @@ std::unique_ptr<btSoftBody> make_soft_body(const PeerBody& body, const Eigen::Ve
 
 }  // namespace
 
-BulletBody::BulletBody(const PeerBody& body, const Eigen::VectorXd& mass_kg, BulletLaw law)
+BulletBody::BulletBody(const PeerBody& body, const Eigen::VectorXd& mass_kg, BulletLaw law, bool line_search)
     : world_(std::make_unique<World>()) {
   const btVector3 gravity(0.0, -kGravity_m_s2, 0.0);
   world_->world.setGravity(gravity);
   world_->world.getWorldInfo().m_gravity = gravity;
   world_->world.setImplicit(true);
-  world_->world.setLineSearch(false);
+  world_->world.setLineSearch(line_search);
   world_->world.setUseProjection(true);
   world_->body = make_soft_body(body, mass_kg, world_->world.getWorldInfo());
   world_->world.addSoftBody(world_->body.get());

@@ -14,7 +14,7 @@ enum class BulletLaw { StableNeoHookean, LinearCorotated };
 /// damping, no collisions, every node of the mass that ours has.
 class BulletBody {
  public:
-  BulletBody(const PeerBody& body, const Eigen::VectorXd& mass_kg, BulletLaw law);
+  BulletBody(const PeerBody& body, const Eigen::VectorXd& mass_kg, BulletLaw law, bool line_search);
   ~BulletBody();
 
   bool step();

@@ -27,7 +27,7 @@ CholmodFactor::CholmodFactor(const simulation::BlockMatrix& pattern, Ordering or
   common_.supernodal = CHOLMOD_SUPERNODAL;
   common_.nmethods = 1;
   common_.method[0].ordering = ordering == Ordering::Amd ? CHOLMOD_AMD : CHOLMOD_METIS;
-  common_.postorder = 1;
+  common_.print = 0;
   cholmod_sparse matrix = view(pattern);
   factor_ = cholmod_analyze(&matrix, &common_);
 }

@@ -63,7 +63,7 @@ simulation::SolidInput input_of(const PeerBody& body, const simulation::Law& law
 }  // namespace
 
 std::vector<PeerBody> peer_bodies() {
-  std::vector<PeerBody> bodies = {beam("beam_2k", {42, 4, 2}, 400), beam("beam_5k", {52, 4, 4}, 400)};
+  std::vector<PeerBody> bodies = {beam("beam_2k", {42, 4, 2}, 400), beam("beam_5k", {52, 4, 4}, 200)};
   if (const char* canine = std::getenv("MYOTACT_CANINE_DIR"); canine != nullptr) {
     const std::filesystem::path folder = std::filesystem::path(canine) / "bench";
     bodies.push_back(muscle(folder, "bic_2k", 50));

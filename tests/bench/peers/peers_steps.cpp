@@ -65,8 +65,8 @@ PeerRow with_cholmod(const PeerBody& body, const PeerSolid& at, CholmodFactor::O
   const simulation::HeldSystem system(solid, at.loads.held);
   Solid::Evaluation here = solid.make_evaluation();
   Eigen::VectorXd x_m = solid.rest_m(), v_m_s = Eigen::VectorXd::Zero(x_m.size());
-  const auto step = [&] {
-    out_of_balance({solid, at.loads}, 1.0, x_m, Solid::Tangent::Exact, here);
+  const auto prepare = [&](Solid::Tangent tangent) {
+    out_of_balance({solid, at.loads}, 1.0, x_m, tangent, here);
     for (int n = 0; n < solid.nodes(); ++n) {
       const double mass_kg = solid.mass_kg()[n];
       here.stiffness.add_diagonal(n, mass_kg / (kStep_s * kStep_s));
@@ -74,7 +74,10 @@ PeerRow with_cholmod(const PeerBody& body, const PeerSolid& at, CholmodFactor::O
     }
     system.hold(here.stiffness);
     system.drop_held(here.force_N);
-    if (!factor.factor(here.stiffness)) return false;
+    return factor.factor(here.stiffness);
+  };
+  const auto step = [&] {
+    if (!prepare(Solid::Tangent::Exact) && !prepare(Solid::Tangent::Definite)) return false;
     const Eigen::VectorXd change_m = factor.solve(-here.force_N);
     x_m += change_m;
     v_m_s = change_m / kStep_s;
@@ -84,10 +87,10 @@ PeerRow with_cholmod(const PeerBody& body, const PeerSolid& at, CholmodFactor::O
   return row;
 }
 
-PeerRow bullet(const PeerBody& body, const PeerSolid& at, BulletLaw law) {
-  PeerRow row{.program = "Bullet, deformable body",
+PeerRow bullet(const PeerBody& body, const PeerSolid& at, BulletLaw law, bool line_search = false) {
+  PeerRow row{.program = line_search ? "Bullet, deformable body, its line search" : "Bullet, deformable body",
               .law = law == BulletLaw::LinearCorotated ? "corotated" : "stable neo-Hookean"};
-  BulletBody deformable(body, at.solid.mass_kg(), law);
+  BulletBody deformable(body, at.solid.mass_kg(), law, line_search);
   run_steps(
       body, row, [&] { return deformable.step(); }, [&] { return deformable.positions_m(); });
   return row;
@@ -156,6 +159,7 @@ void step_body(const PeerBody& body, double quadratic_mm, const std::string& fol
   show(bullet(body, at, BulletLaw::LinearCorotated));
   show(ours(body, same, "stable neo-Hookean", true));
   show(bullet(body, same, BulletLaw::StableNeoHookean));
+  if (!body.settles) show(bullet(body, same, BulletLaw::StableNeoHookean, true));
   if (!folder.empty()) leave(folder, body, at, single, body.settles ? quadratic_mm : 0.0);
 }
 
