@@ -9,6 +9,7 @@ mujoco_version=3.14.0
 out="${1:-build/peers}"
 mkdir -p "$out"
 install_missing tools/packages.txt tests/bench/peers/packages.txt
+if ! command -v npm >/dev/null; then install_missing tools/packages-web.txt; fi
 build bundled -DMYOTACT_PEERS=ON -- peers_steps peers_touch
 if [ ! -d "$out/node_modules/@mujoco/mujoco" ]; then
   npm install --prefix "$out" --no-fund --no-audit "@mujoco/mujoco@$mujoco_version" >&2
