@@ -62,6 +62,8 @@ double tip_mm(const PeerBody& body, std::span<const double> positions_m);
 /// Largest distance between two states of the mesh over the largest displacement of the second.
 double largest_error(const PeerBody& body, std::span<const double> positions_m, std::span<const double> right_m);
 
+/// Processor time of this thread [ms]: on a busy machine, too, what the work itself takes.
+double thread_ms();
 double median(std::vector<double> values);
 
 }  // namespace myotact::peers

@@ -2,7 +2,6 @@
 // one after the other in one process, one thread each. Prints tables in Markdown; with a folder as its argument it
 // leaves there what the program for MuJoCo needs.
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -177,9 +176,9 @@ void step_coarse_beam(double quadratic_mm) {
 double time_ms(const std::function<void()>& work) {
   std::vector<double> times_ms;
   for (int k = 0; k < 21; ++k) {
-    const auto begin = std::chrono::steady_clock::now();
+    const double begin_ms = thread_ms();
     work();
-    times_ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+    times_ms.push_back(thread_ms() - begin_ms);
   }
   return median(times_ms);
 }
