@@ -1,9 +1,10 @@
 """Wrong arguments are refused with their name, what is expected and what came."""
 
+import os
 import re
+import subprocess
 import sys
 from pathlib import Path
-import subprocess
 
 import numpy as np
 import pytest
@@ -118,12 +119,15 @@ def test_stubs_say_what_is_there():
     """Types by mypy, and the extension module's stub by stubtest, where they are installed."""
     pytest.importorskip("mypy")
     package = Path(myotact.__file__).parent
+    settings = dict(os.environ)
+    if package.parent.name not in ("site-packages", "dist-packages"):  # mypy finds those itself and wants no path to them
+        settings["MYPYPATH"] = str(package.parent)
     allowed = Path(__file__).with_name("stubtest_allowed.txt")
     for words in (
         ["mypy", "--strict", "--no-warn-return-any", str(package)],
         ["mypy.stubtest", "myotact._myotact", "--ignore-missing-stub", "--allowlist", str(allowed)],
     ):
         done = subprocess.run(
-            [sys.executable, "-m", *words], capture_output=True, text=True, cwd=package.parent, env={**__import__("os").environ, "MYPYPATH": str(package.parent)}
+            [sys.executable, "-m", *words], capture_output=True, text=True, cwd=allowed.parent, env=settings
         )
         assert done.returncode == 0, done.stdout + done.stderr

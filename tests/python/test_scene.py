@@ -1,7 +1,6 @@
 """A scene from Python is the program's, and its arrays are where they are."""
 
 import gc
-import os
 import subprocess
 import sys
 import threading
@@ -23,12 +22,10 @@ def address(array):
 @pytest.mark.parametrize("tissue", ["line", "fem"])
 def test_equals_the_program_bit_for_bit(program, tmp_path, tissue):
     seconds = "0.6"
-    wanted = {**os.environ, "MYOTACT_DATA_DIR": str(myotact.data_folder())}
     subprocess.run(
         [program, "run", "elbow", "--seconds", seconds, "--out", tmp_path, "--levels", "none"]
         + ["--set", f"tissue.default={tissue}", "--log-level", "error"],
         check=True,
-        env=wanted,
         stdout=subprocess.DEVNULL,
     )
     scene = myotact.Scene("elbow", set={"tissue.default": tissue}, script=True, samples=1, workers=1)
