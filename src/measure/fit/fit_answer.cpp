@@ -110,6 +110,12 @@ void add_warnings(const FitProblem& problem, FitAnswer& answer) {
                     "of them, or measure what tells them apart",
                     direction_text(problem, direction)));
   }
+  if (!(answer.r_squared > 0.0)) {
+    answer.warnings.push_back(
+        fmt::format("R2 is {:.3g}: the model is no nearer to the measured values than their mean is; look at sign and "
+                    "unit of the columns, and whether the values differ at all",
+                    answer.r_squared));
+  }
   if (answer.statistics.spare_points <= 0) {
     answer.warnings.emplace_back("there are as many parameters as points, so that no interval can be given");
   }

@@ -84,8 +84,9 @@ FoundColumn find_column(const std::string& file, const std::vector<std::string_v
     std::string has;
     for (const std::string_view name : header) has += fmt::format("{}{}", has.empty() ? "" : ", ", shown_field(name));
     throw bad_data(file, "1",
-                   fmt::format("has no column of the {}; name one of its columns {} (it has: {})", quantity.what,
-                               join(names, " or "), has.substr(0, 200)));
+                   fmt::format("has no column of the {}; name one of its columns {} (it has: {}){}", quantity.what,
+                               join(names, " or "), has.substr(0, 200),
+                               has.find(';') == std::string::npos ? "" : "; columns are parted by commas"));
   }
   if (found.size() > 1) {
     throw bad_data(file, "1",
