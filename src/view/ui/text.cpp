@@ -55,11 +55,7 @@ void add_file(const std::filesystem::path& file, Catalogue& catalogue) {
 
 std::vector<std::string> languages() {
   std::vector<std::string> codes;
-  if (std::error_code ignored; !std::filesystem::is_directory(languages_folder(), ignored)) {
-    throw Error(ExitStatus::NoInput,
-                fmt::format("{}: no such folder; MYOTACT_DATA_DIR must name a folder with all of the program's data",
-                            languages_folder().string()));
-  }
+  if (std::error_code ignored; !std::filesystem::is_directory(languages_folder(), ignored)) return codes;
   for (const auto& entry : std::filesystem::directory_iterator(languages_folder())) {
     if (entry.is_directory()) codes.push_back(entry.path().filename().string());
   }
