@@ -10,6 +10,7 @@
 #include "app/interruption.h"
 #include "app/options.h"
 #include "app/progress.h"
+#include "app/shard.h"
 #include "app/stiffness_answer.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -68,26 +69,6 @@ int line_model_stiffness(const Options& options) {
 
 constexpr double kRadians = std::numbers::pi / 180.0;
 
-struct Shard {
-  int part = 1, parts = 1;
-};
-
-/// "2/8".
-Shard shard_of(const std::string& text) {
-  if (text.empty()) return {};
-  const std::size_t slash = text.find('/');
-  const auto part = parse_number(text.substr(0, slash));
-  const auto parts = slash == std::string::npos ? std::nullopt : parse_number(text.substr(slash + 1));
-  const bool usable = part && parts && *parts >= 1.0 && *parts <= measure::kMostParts && *part >= 1.0 &&
-                      *part <= *parts && std::floor(*part) == *part && std::floor(*parts) == *parts;
-  if (!usable) {
-    throw Error(ExitStatus::Usage,
-                fmt::format("--shard {}: must be part/parts with 1 <= part <= parts <= {}, such as 2/8", text,
-                            measure::kMostParts));
-  }
-  return {static_cast<int>(*part), static_cast<int>(*parts)};
-}
-
 /// The scene with the co-contraction of the joint that is asked for.
 scene::Scene scene_to_sweep(const Options& options) {
   refuse_equipment(options, "no hand takes part in a measurement; leave it out");
@@ -127,7 +108,7 @@ std::vector<double> angles_of(const Options& options, const anatomy::Joint& join
 int sweep(const Options& options) {
   const scene::Scene scene = scene_to_sweep(options);
   const anatomy::Joint& joint = scene.specimen.joints[static_cast<std::size_t>(scene.co_contraction->joint)];
-  const Shard shard = shard_of(options.shard);
+  const Shard shard = shard_of(options.shard, measure::kMostParts);
   const double scene_angle_rad = scene.joints[static_cast<std::size_t>(scene.co_contraction->joint)].angle_rad;
   const measure::SweepGrid grid{angles_of(options, joint, scene_angle_rad), levels_of(options)};
   measure::SweepPart result{measure::sweep_origin(scene, grid, MYOTACT_VERSION), shard.part, shard.parts, {}};

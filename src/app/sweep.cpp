@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <iostream>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 
 #include "app/interruption.h"
 #include "app/progress.h"
+#include "app/shard.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/text.h"
@@ -24,21 +26,12 @@ struct PointRange {
   int first = 0, end = 0;
 };
 
-/// The points of "2/8": the second of eight nearly equal shares, one after the other.
-PointRange points_of_shard(const std::string& text, int points) {
-  if (text.empty()) return {0, points};
-  const std::size_t slash = text.find('/');
-  const auto part = parse_number(text.substr(0, slash));
-  const auto parts = slash == std::string::npos ? std::nullopt : parse_number(text.substr(slash + 1));
-  const bool usable = part && parts && *part >= 1.0 && *part <= *parts && *parts <= kMostSweepShards &&
-                      std::floor(*part) == *part && std::floor(*parts) == *parts;
-  if (!usable) {
-    throw Error(ExitStatus::Usage,
-                fmt::format("--shard {}: must be part/parts with 1 <= part <= parts <= {}, such as 2/8", text,
-                            kMostSweepShards));
-  }
-  const auto end_of = [&](double shares) { return static_cast<int>(std::floor(shares * points / *parts)); };
-  return {end_of(*part - 1.0), end_of(*part)};
+/// The points of a shard, one after the other.
+PointRange points_of(const Shard& shard, int points) {
+  const auto end_of = [&](int shares) {
+    return static_cast<int>(static_cast<std::int64_t>(shares) * points / shard.parts);
+  };
+  return {end_of(shard.part - 1), end_of(shard.part)};
 }
 
 /// Joins the points' files; says which are missing.
@@ -99,7 +92,7 @@ int sweep(const Options& options, const SweepWish& wish) {
   if (wish.plan) return print_plan(options, plan);
   make_writable_folder(options.out);
   if (wish.merge) return join_points(options, plan, true);
-  const PointRange range = points_of_shard(wish.shard, plan.points());
+  const PointRange range = points_of(shard_of(wish.shard, kMostSweepShards), plan.points());
   const auto points = measure::sweep_points(plan);
   {
     Progress progress;

@@ -44,14 +44,18 @@ LinePose measure_lines(const anatomy::Specimen& specimen, std::span<const double
 
 }  // namespace
 
+anatomy::Specimen lines_of(const anatomy::Specimen& whole) {
+  anatomy::Specimen specimen;
+  specimen.name = whole.name;
+  specimen.bodies = whole.bodies;
+  specimen.joints = whole.joints;
+  specimen.lines = whole.lines;
+  for (const anatomy::Muscle& muscle : whole.muscles) specimen.muscles.push_back(without_mesh(muscle));
+  return specimen;
+}
+
 LineLimb line_limb(const scene::Scene& scene) {
-  LineLimb limb{{}, *scene.co_contraction, scene.activations};
-  limb.specimen.name = scene.specimen.name;
-  limb.specimen.bodies = scene.specimen.bodies;
-  limb.specimen.joints = scene.specimen.joints;
-  limb.specimen.lines = scene.specimen.lines;
-  for (const anatomy::Muscle& muscle : scene.specimen.muscles) limb.specimen.muscles.push_back(without_mesh(muscle));
-  return limb;
+  return {lines_of(scene.specimen), *scene.co_contraction, scene.activations};
 }
 
 double balanced_line_stiffness_Nm_rad(const LineLimb& limb, std::span<const double> angles_rad, double common) {

@@ -8,6 +8,9 @@
 
 namespace myotact::measure {
 
+/// Bodies, joints, lines, and muscles with the lines' mechanics and no mesh: quickly copied.
+anatomy::Specimen lines_of(const anatomy::Specimen& whole);
+
 /// The limb reduced to bones, joints and muscle lines: cheap enough to be evaluated for every "what if". Its muscles
 /// have the lines' mechanics and no mesh.
 struct LineLimb {

@@ -12,6 +12,7 @@
 #include "core/text.h"
 #include "measure/fit/fit_kinds.h"
 #include "measure/line/read_line_model.h"
+#include "measure/line_limb.h"
 #include "scene/muscle_settings.h"
 #include "scene/scene_file.h"
 #include "simulation/line/line_tissue.h"
@@ -88,25 +89,6 @@ class LineModelTorque : public TorqueSource {
   LineJoint joint_;
 };
 
-/// Bodies, joints, lines, and muscles without meshes: quickly copied.
-anatomy::Specimen bare_specimen(const anatomy::Specimen& whole) {
-  anatomy::Specimen specimen;
-  specimen.name = whole.name;
-  specimen.bodies = whole.bodies;
-  specimen.joints = whole.joints;
-  specimen.lines = whole.lines;
-  for (const anatomy::Muscle& muscle : whole.muscles) {
-    anatomy::Muscle bare;
-    bare.key = muscle.key;
-    bare.peak_force_N = muscle.peak_force_N;
-    bare.optimal_fibre_m = muscle.optimal_fibre_m;
-    bare.pennation_rad = muscle.pennation_rad;
-    bare.rest_stretch = muscle.rest_stretch;
-    specimen.muscles.push_back(bare);
-  }
-  return specimen;
-}
-
 /// The muscles' mechanics that the scene's reader takes under "muscles".
 nlohmann::json mechanics_json(const anatomy::Muscle& muscle) {
   return {{"peak_force_N", muscle.peak_force_N},
@@ -119,7 +101,7 @@ nlohmann::json mechanics_json(const anatomy::Muscle& muscle) {
 class SpecimenTorque : public TorqueSource {
  public:
   SpecimenTorque(const scene::Scene& scene, int joint, std::string file)
-      : file_(std::move(file)), joint_(joint), specimen_(bare_specimen(scene.specimen)), changed_(specimen_) {
+      : file_(std::move(file)), joint_(joint), specimen_(lines_of(scene.specimen)), changed_(specimen_) {
     for (const auto& setting : scene.joints) angles_rad_.push_back(setting.angle_rad);
     tendon_ = scene.settings.tendon;
   }
@@ -196,7 +178,7 @@ void complete_scene_model(const std::filesystem::path& folder, const std::string
   const auto muscles = fields.find("muscles");
   fields.find("spring");
   fields.finish();
-  anatomy::Specimen specimen = bare_specimen(scene.specimen);
+  anatomy::Specimen specimen = lines_of(scene.specimen);
   if (muscles) scene::read_muscle_settings(*muscles, specimen);
   model["muscles"] = nlohmann::json::object();
   for (const anatomy::Muscle& muscle : specimen.muscles) model["muscles"][muscle.key] = mechanics_json(muscle);
