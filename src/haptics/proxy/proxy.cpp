@@ -21,6 +21,9 @@ constexpr double kTouching = 1.02;
 constexpr double kSqueezed = 0.99;
 /// Triangles as near as the nearest, within the accuracy of a projection, support the sphere together.
 constexpr double kTogether_m = 3e-8;
+/// Other surfaces this near have their planes in the search: the sphere goes at once to where it rests on all of them.
+/// With the touched ones alone it goes to and fro between two walls of a narrow groove, nearer by a little each time.
+constexpr double kSoonTouching_m = 2e-4;
 /// Cosine of 0.01 rad. Before a flat edge the triangle ahead is as near as the one below to 3e-8 m, and its plane tilts
 /// by 0.0045 rad, which would be an error of that much in the friction: planes so much alike count once, the nearest.
 constexpr double kSameWay = 1.0 - 5e-5;
@@ -270,10 +273,39 @@ void Proxy::keep_off(std::span<const NearestPoint> points, double radius_m) noex
   }
 }
 
+/// The plane of the nearest triangle of each other surface that the sphere may come to rest on in its next move.
+void Proxy::keep_off_others(const MovingSurface& surface) noexcept {
+  if (touching_count_ == 0) return;
+  const auto surface_of = [&](int i) { return surface.triangle(near_.near(i).local).surface; };
+  std::array<int, kMostOthers> nearest{};
+  int count = 0;
+  for (int i = 0; i < near_.count(); ++i) {
+    if (near_.near(i).distance_m > settings_.radius_m + near_.stand_off_m() + kSoonTouching_m) continue;
+    const auto touched = std::span(touching_.data(), at(touching_count_));
+    if (std::any_of(touched.begin(), touched.end(), [&](int t) { return surface_of(t) == surface_of(i); })) continue;
+    const auto others = std::span(nearest.data(), at(count));
+    const auto same = std::find_if(others.begin(), others.end(), [&](int o) { return surface_of(o) == surface_of(i); });
+    if (same == others.end() && count < kMostOthers) nearest[at(count++)] = i;
+    if (same != others.end() && near_.near(i).distance_m < near_.near(*same).distance_m) *same = i;
+  }
+  for (int k = 0; k < count && touching_count_ < kMaxTouching; ++k) {
+    const int i = nearest[at(k)];
+    const NearestPoint foot =
+        near_.stand_off_m(near_.near(i).local) > 0.0 ? skin_.nearest(near_.near(i), p_m_) : near_.near(i);
+    if (!(foot.distance_m > 0.0) || foot.distance_m > settings_.radius_m + kSoonTouching_m) continue;
+    HalfSpace half;
+    half.normal = (p_m_ - foot.point_m) / foot.distance_m;
+    half.offset_m = half.normal.dot(foot.point_m) + std::min(settings_.radius_m, foot.distance_m);
+    touching_[at(touching_count_)] = i;
+    touching_spaces_[at(touching_count_++)] = half;
+  }
+}
+
 /// Where the device would pull the sphere if only the triangles that it touches were there, without friction. Planes of
 /// farther triangles are safe to obey but no truth: they would tilt the reaction.
 Projection Proxy::press(Tick& tick) noexcept {
   find_touching();
+  keep_off_others(*tick.surface);
   Projection held =
       project_to_half_spaces(tick.goal.position_m, std::span(touching_spaces_.data(), at(touching_count_)));
   if (!held.feasible) {  // no room at all: the sphere stays where it is

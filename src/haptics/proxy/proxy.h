@@ -125,6 +125,7 @@ class Proxy {
   void seek_goal(Tick& tick) noexcept;
   void find_touching() noexcept;
   void keep_off(std::span<const NearestPoint> points, double radius_m) noexcept;
+  void keep_off_others(const MovingSurface& surface) noexcept;
   Projection press(Tick& tick) noexcept;
   Vec3 free_target_m(const Tick& tick) const noexcept;
   Vec3 slide(const Projection& held, Tick& tick) noexcept;
@@ -154,6 +155,7 @@ class Proxy {
   Vec3 last_goal_m_ = Vec3::Zero();
   std::int32_t home_surface_ = -1;  // what it was nearest to at the end of the last tick: the side it belongs on
   std::int32_t home_triangle_ = -1;
+  static constexpr int kMostOthers = 3;       // other surfaces that the sphere may rest on besides
   static constexpr int kMaxTouching = 32;     // triangles round one corner of a bad mesh
   std::array<int, kMaxTouching> touching_{};  // places in near_
   std::array<HalfSpace, kMaxTouching> touching_spaces_{};
