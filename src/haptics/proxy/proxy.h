@@ -67,8 +67,9 @@ struct ProxyCounters {
 ///     carry the centre with the tissue under its anchor
 ///     half-spaces of all near triangles --> put the centre where they allow (a moving surface hits a resting proxy)
 ///   then, at the end of the tick, a few times
-///     half-spaces of the touched triangles' skins --> towards the device, less friction, by at most half of the
-///     clearance half-spaces of all near triangles --> put the centre where they allow
+///     half-spaces of the touched triangles' skins, and of other surfaces that the centre may come to rest on
+///       --> towards the device, less friction, by at most half of the clearance
+///     half-spaces of all near triangles --> put the centre where they allow
 ///
 /// Real-time safe; one thread.
 class Proxy {
