@@ -156,9 +156,8 @@ class Proxy {
   Vec3 last_goal_m_ = Vec3::Zero();
   std::int32_t home_surface_ = -1;  // what it was nearest to at the end of the last tick: the side it belongs on
   std::int32_t home_triangle_ = -1;
-  static constexpr int kMostOthers = 3;       // other surfaces that the sphere may rest on besides
   static constexpr int kMaxTouching = 32;     // triangles round one corner of a bad mesh
-  std::array<int, kMaxTouching> touching_{};  // places in near_
+  std::array<int, kMaxTouching> touching_{};  // places in near_; after those touched, others that soon may be
   std::array<HalfSpace, kMaxTouching> touching_spaces_{};
   int touching_count_ = 0;
   double felt_clearance_m_ = 0.0;  // to the skin
