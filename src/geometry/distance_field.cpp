@@ -18,6 +18,10 @@ constexpr double kMostSamples = 1e6;
 constexpr int kPadding = 3;
 /// Farther outside than this a sample holds a lower bound: no place that may be inside has it among its 64.
 constexpr double kFarCells = 6.0;
+/// A sample this many cells outside has no place within reach that may be inside: such a place lies at most half a
+/// cell's diagonal (0.87) from a sample that is one cell out, and p as far from its own.
+constexpr double kSurelyOutside = 2.75;
+
 std::size_t index(int i) {
   return static_cast<std::size_t>(i);
 }
@@ -94,6 +98,21 @@ bool DistanceField::may_be_inside(const Vec3& p) const {
     nearest[a] = static_cast<int>(std::lround(c));
   }
   return at(nearest[0], nearest[1], nearest[2]) < spacing_m_;  // half a cell's diagonal and what smoothing takes
+}
+
+double DistanceField::clearance_m(const Vec3& p) const {
+  const Vec3 cell = (p - origin_m_) / spacing_m_;
+  Vec3 beyond = Vec3::Zero();  // the box of places that may be inside
+  std::array<int, 3> nearest{};
+  bool in_box = true;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double c = cell[static_cast<int>(a)], last = size_[a] - 2;
+    beyond[static_cast<int>(a)] = std::max({1.0 - c, c - last, 0.0});
+    in_box = in_box && c >= 1.0 && c < last;
+    if (in_box) nearest[a] = static_cast<int>(std::lround(c));
+  }
+  if (!in_box) return spacing_m_ * beyond.norm();
+  return std::max(0.0, at(nearest[0], nearest[1], nearest[2]) - kSurelyOutside * spacing_m_);
 }
 
 DistanceSample DistanceField::sample(const Vec3& p) const {

@@ -29,6 +29,9 @@ class DistanceField {
 
   /// False only where the distance is positive for sure: outside the lattice or farther out than its cells. Cheap.
   bool may_be_inside(const Vec3& p) const;
+  /// How far p may move before may_be_inside() can be true, at least [m]; never below 0. Four cells and less are told
+  /// apart. Cheap.
+  double clearance_m(const Vec3& p) const;
   /// At a place where may_be_inside() is true.
   DistanceSample sample(const Vec3& p) const;
 

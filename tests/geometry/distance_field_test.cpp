@@ -54,6 +54,26 @@ TEST(DistanceField, OfASphereIsItsDistance) {
   }
   EXPECT_FALSE(field.may_be_inside(Vec3(0.0, 0.0, 0.024)));
   EXPECT_FALSE(field.may_be_inside(Vec3(1e300, 0.0, std::nan(""))));
+  field.clearance_m(Vec3(1e300, 0.0, std::nan("")));  // must not crash
+}
+
+// From places in, at and far off the lattice: as far as it says nothing may be inside. It says much where all is far.
+TEST(DistanceField, NothingMayBeInsideWithinItsClearance) {
+  const DistanceField field(sphere(kRadius_m, 40), 1e-3);
+  std::mt19937 random(2);
+  std::normal_distribution<double> normal;
+  const auto direction = [&] { return Vec3(normal(random), normal(random), normal(random)).normalized(); };
+  int told_apart = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const double r = 0.018 + 1e-5 * i;
+    const Vec3 p = r * direction();
+    const double clearance_m = field.clearance_m(p);
+    EXPECT_GE(clearance_m, 0.0);
+    for (int k = 0; k < 20; ++k) EXPECT_FALSE(clearance_m > 0.0 && field.may_be_inside(p + clearance_m * direction()));
+    told_apart += r > 0.0265 && clearance_m > 0.001;
+    EXPECT_LE(clearance_m, std::max(0.0, r - kRadius_m));
+  }
+  EXPECT_GT(told_apart, 1000);
 }
 
 TEST(DistanceField, SlopesAreThoseOfItsValues) {

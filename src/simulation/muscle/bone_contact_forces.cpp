@@ -1,6 +1,7 @@
 #include "simulation/muscle/bone_contact_forces.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <Eigen/Geometry>
 
@@ -80,10 +81,65 @@ void add_node(const TissuePass& pass, const BoneShape& bone, const BonePatch::No
   add_touch_tangent(pass, touch, rotates);
 }
 
+/// The list of nodes is made anew once one of them may have come this much nearer to a bone: a press and a degree or
+/// two of a joint, for which a limb takes some 50 ms.
+constexpr double kKeptWay_m = 3e-3;
+
 Eigen::AlignedBox3d box_of(const BonePatch& patch, const Eigen::VectorXd& position_m) {
   Eigen::AlignedBox3d box;
   for (const BonePatch::Node& node : patch.nodes) box.extend(node_vector(position_m, node.node));
   return box;
+}
+
+/// How far a point that rests in the world, anywhere in the box, has moved as a bone sees it, at most.
+double way_past_m(const Eigen::AlignedBox3d& box, const Pose& then, const Pose& now) {
+  const Vec3 centre = box.center();
+  const Vec3 shift = now.rotation.transpose() * (centre - now.translation_m) -
+                     then.rotation.transpose() * (centre - then.translation_m);
+  return shift.norm() + (now.rotation - then.rotation).norm() * 0.5 * box.diagonal().norm();
+}
+
+const Pose& pose_of(const TissuePass& pass, const BonePatch& patch) {
+  return pass.skeleton.body_pose((*pass.tissue.bone_contact.bones)[at(patch.bone)].body);
+}
+
+bool still_near(const TissuePass& pass) {
+  const NearBones& near = pass.state.near_bones;
+  const Eigen::VectorXd& position_m = pass.state.now.position_m;
+  if (near.position_m.size() != position_m.size()) return false;
+  Eigen::AlignedBox3d box;
+  double farthest_m2 = 0.0;
+  for (int n = 0; n < static_cast<int>(position_m.size() / 3); ++n) {
+    box.extend(node_vector(position_m, n));
+    farthest_m2 = std::max(farthest_m2, (node_vector(position_m, n) - node_vector(near.position_m, n)).squaredNorm());
+  }
+  const double left_m = kKeptWay_m - std::sqrt(farthest_m2);
+  const std::vector<BonePatch>& patches = pass.tissue.bone_contact.patches;
+  for (std::size_t p = 0; p < patches.size(); ++p) {
+    if (!(way_past_m(box, near.bones[p], pose_of(pass, patches[p])) < left_m)) return false;
+  }
+  return true;
+}
+
+/// Nothing that is left out can touch before it has gone kKeptWay_m.
+void look_around(const TissuePass& pass) {
+  const BoneContact& contact = pass.tissue.bone_contact;
+  NearBones& near = pass.state.near_bones;
+  near.position_m = pass.state.now.position_m;
+  near.nodes.clear();
+  near.bones.clear();
+  for (std::size_t p = 0; p < contact.patches.size(); ++p) {
+    const BonePatch& patch = contact.patches[p];
+    const BoneShape& bone = (*contact.bones)[at(patch.bone)];
+    const Pose& X_WL = near.bones.emplace_back(pose_of(pass, patch));
+    const Vec3 centre_W = X_WL * bone.field.centre_m();
+    if (box_of(patch, near.position_m).exteriorDistance(centre_W) > bone.field.radius_m() + kKeptWay_m) continue;
+    for (std::size_t n = 0; n < patch.nodes.size(); ++n) {
+      const Vec3 x = node_vector(near.position_m, patch.nodes[n].node);
+      const double clearance_m = bone.field.clearance_m(X_WL.rotation.transpose() * (x - X_WL.translation_m));
+      if (!(clearance_m > kKeptWay_m)) near.nodes.push_back({static_cast<int>(p), static_cast<int>(n)});
+    }
+  }
 }
 
 }  // namespace
@@ -91,11 +147,10 @@ Eigen::AlignedBox3d box_of(const BonePatch& patch, const Eigen::VectorXd& positi
 void add_bone_contact(const TissuePass& pass) {
   const BoneContact& contact = pass.tissue.bone_contact;
   if (contact.patches.empty()) return;
-  for (const BonePatch& patch : contact.patches) {
-    const BoneShape& bone = (*contact.bones)[at(patch.bone)];
-    const Vec3 centre_W = pass.skeleton.body_pose(bone.body) * bone.field.centre_m();
-    if (box_of(patch, pass.state.now.position_m).exteriorDistance(centre_W) > bone.field.radius_m()) continue;
-    for (const BonePatch::Node& node : patch.nodes) add_node(pass, bone, node);
+  if (!still_near(pass)) look_around(pass);
+  for (const NearBones::Node& near : pass.state.near_bones.nodes) {
+    const BonePatch& patch = contact.patches[at(near.patch)];
+    add_node(pass, (*contact.bones)[at(patch.bone)], patch.nodes[at(near.node)]);
   }
 }
 

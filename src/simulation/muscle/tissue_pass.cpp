@@ -11,7 +11,7 @@ TissueState make_state(const MuscleTissue& tissue) {
   }
   frame.velocity_m_s = Eigen::VectorXd::Zero(dofs);
   frame.stretch.assign(tissue.elements.size() * tissue.elements.front().points(), 1.0);
-  return {frame, frame, frame, std::vector<double>(frame.stretch.size(), 0.0), 0.0, {}};
+  return {frame, frame, frame, std::vector<double>(frame.stretch.size(), 0.0), 0.0, {}, {}};
 }
 
 void place_clamped(const MuscleTissue& tissue, const Skeleton& skeleton, TissueState& state) {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "core/pose.h"
 #include "simulation/contact/neighbour_touch.h"
 #include "simulation/muscle/muscle_tissue.h"
 #include "simulation/skeleton/skeleton.h"
@@ -20,12 +21,23 @@ struct TissueFrame {
   std::vector<double> stretch;
 };
 
+/// Which nodes may touch a bone, and where everything was when they were looked for.
+struct NearBones {
+  struct Node {
+    int patch = -1, node = -1;  // of the muscle's bone contact; of that patch's list
+  };
+  std::vector<Node> nodes;            // in the order of the patches
+  Eigen::VectorXd position_m;         // of all nodes; empty: not looked for yet
+  std::vector<Pose> bones;  // one a patch
+};
+
 /// A muscle in motion: the iterate of the present step and the two instants before it.
 struct TissueState {
   TissueFrame now, last, before;         // in the order of the second-order rule: y, y_n, y_(n-1)
   std::vector<double> stretch_rate_1_s;  // of the last step, where the force-velocity curve is linearised
   double activation = 0.0;               // 0 .. 1
   std::vector<NeighbourTouch> touches;   // of this step
+  NearBones near_bones;                  // kept by add_bone_contact()
 };
 
 /// At rest in the rest position: all instants the same, stretches 1, inactive, touching nothing.
