@@ -6,6 +6,7 @@
 
 #include "core/at.h"
 #include "simulation/curves/fibre_curves.h"
+#include "simulation/element/muscle_batch.h"
 #include "simulation/muscle/build_tissue.h"
 #include "simulation/muscle/fibre_field.h"
 #include "simulation/simulation_impl.h"
@@ -75,7 +76,8 @@ void add_stress(const FibreInputs& inputs, const Vec3& fibre, std::size_t tet, T
   const TissueElement& element = inputs.tissue.elements[tet];
   const TissueMaterial& material = element.sheath ? kTendonSheath : kMuscleMatrix;
   const double c_Pa = material.fluctuation_Pa + kActiveFluctuation * inputs.state.activation * element.peak_Pa;
-  const double mean = now.volume_ratio[tet], pressure_Pa = material.matrix.volume<double>(mean).slope_Pa;
+  const double mean_J = now.volume_ratio[tet];
+  const MeanVolume<double> volume{mean_J, material.matrix.volume<double>(mean_J), c_Pa};
   const auto F = deformations_of<QuadraticTet>(now, tet);
   Mat3 cauchy_Pa = Mat3::Zero();
   double fibre_Pa = 0.0;
@@ -86,7 +88,8 @@ void add_stress(const FibreInputs& inputs, const Vec3& fibre, std::size_t tet, T
     const double along_Pa = fibre_stress(inputs, tet, p).stress_Pa, length = std::sqrt(point.I4);
     Mat3 nominal_Pa;
     for (std::size_t k = 0; k < 9; ++k) {
-      const double volume_Pa = (pressure_Pa + c_Pa * (point.J - mean)) * point.cofactor[k];
+      const double volume_Pa =
+          (volume.term.slope_Pa + point_volume(volume, point.J, kMuscleFoldedJ).slope_Pa) * point.cofactor[k];
       const double fibres_Pa = length > 0.0 ? along_Pa * point.f[k / 3] / length * point.fibre[k % 3] : 0.0;
       nominal_Pa(static_cast<int>(k / 3), static_cast<int>(k % 3)) = response.P[k] + volume_Pa + fibres_Pa;
     }

@@ -34,7 +34,7 @@ MYOTACT_INLINE void read_batch(const MuscleBatch& batch, int part, MuscleTets<Re
 
 template <class Real>
 MYOTACT_INLINE Real pressure_at(const MuscleTets<Real>& tets, std::size_t p) {
-  return tets.volume.term.slope_Pa + point_volume(tets.volume, tets.points[p].J).slope_Pa;
+  return tets.volume.term.slope_Pa + point_volume(tets.volume, tets.points[p].J, kMuscleFoldedJ).slope_Pa;
 }
 
 /// m (1 - 1 / (I1 + 1)): what the matrix's shear multiplies F with.
@@ -77,7 +77,7 @@ MYOTACT_INLINE void muscle_tangent(const StableNeoHookean& matrix, const MuscleT
   C = {};
   add_unit(identity, C);
   add_outer<Real>(point.F, 2.0 * matrix.shear_term_Pa() * inverse * inverse, C);
-  add_outer<Real>(point.cofactor, point_volume(tets.volume, point.J).curvature_Pa, C);
+  add_outer<Real>(point.cofactor, point_volume(tets.volume, point.J, kMuscleFoldedJ).curvature_Pa, C);
   add_volume_curvature(point.F, pressure, C);
   const Real shortest = constant<Real>(kShortestStretch * kShortestStretch);
   const Real free = where_less(point.I4, shortest, Real{}, along - across);

@@ -211,6 +211,9 @@ MYOTACT_INLINE void add_outer_blocks(const TetNodeVectors<Real, Tet>& v, const R
   }
 }
 
+/// Where a point of a solid counts as folding over, unless it says otherwise.
+inline constexpr double kFoldedJ = 0.05;
+
 /// The volume term on the element's mean volume ratio, plus c/2 (J - mean J)^2 at each point.
 template <class Real>
 struct MeanVolume {
@@ -219,14 +222,12 @@ struct MeanVolume {
   Real fluctuation_Pa{};    // c
 };
 
-/// Below this volume ratio a point is pushed back by its own volume term too: the mean alone lets points fold over and
-/// rest there.
-inline constexpr double kFoldedRatio = 0.05;
-
-/// What a point adds to the volume term of the mean.
+/// What a point adds to the volume term of the mean. Below `folded_J` it is pushed back by its own volume term too: the
+/// mean alone lets points fold over and rest there.
 template <class Real>
-MYOTACT_INLINE VolumeTerm<Real> point_volume(const MeanVolume<Real>& volume, const Real& J) {
-  const Real gap = J - volume.mean_J, low = constant<Real>(kFoldedRatio);
+MYOTACT_INLINE VolumeTerm<Real> point_volume(const MeanVolume<Real>& volume, const Real& J,
+                                             double folded_J = kFoldedJ) {
+  const Real gap = J - volume.mean_J, low = constant<Real>(folded_J);
   const Real folded = where_less(J, low, J - low, Real{});
   const Real stiff = where_less(J, low, volume.term.curvature_Pa, Real{});
   return {0.5 * (volume.fluctuation_Pa * gap * gap + stiff * folded * folded),

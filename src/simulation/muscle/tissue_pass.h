@@ -26,9 +26,9 @@ struct NearBones {
   struct Node {
     int patch = -1, node = -1;  // of the muscle's bone contact; of that patch's list
   };
-  std::vector<Node> nodes;            // in the order of the patches
-  Eigen::VectorXd position_m;         // of all nodes; empty: not looked for yet
-  std::vector<Pose> bones;  // one a patch
+  std::vector<Node> nodes;     // in the order of the patches
+  Eigen::VectorXd position_m;  // of all nodes; empty: not looked for yet
+  std::vector<Pose> bones;     // one a patch
 };
 
 /// A muscle in motion: the iterate of the present step and the two instants before it.
