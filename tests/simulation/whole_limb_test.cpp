@@ -24,6 +24,8 @@ constexpr double kAgreement = 0.05;
 constexpr double kWholeAgreement = 0.06;
 const std::map<std::string, double> kLooser = {
     {"gastrocnemius", 0.12}, {"biceps_brachii", 0.2}, {"vastus_intermedius", 0.25}, {"extensor_carpi_radialis", 0.25}};
+/// Where points of this one would fold, they are pushed back: it pulls as its line does, but changes its force less.
+const std::map<std::string, double> kLooserSlope = {{"extensor_carpi_radialis", 0.33}};
 /// With a smaller moment arm a joint's rotation hardly changes the length, and rounding would be divided by it.
 constexpr double kLeastMomentArm_m = 2e-3;
 constexpr double kActivation = 0.5;
@@ -117,7 +119,9 @@ TEST_P(WholeLimb, ForcesChangeWithLengthAsTheLinesDo) {
       if (joint != j || !stands_for_line(m)) continue;
       const double stiffness = (flexed[m] - extended[m]) / (2.0 * kTurn_rad * moment_arm_m);
       const LineForce line = line_force(specimen_.muscles[m], 0.0, 0.0, kActivation);
-      EXPECT_NEAR(stiffness / line.stiffness_N_m, 1.0, agreement(m))
+      const auto looser = kLooserSlope.find(specimen_.muscles[m].key);
+      const double share = whole() && looser != kLooserSlope.end() ? looser->second : agreement(m);
+      EXPECT_NEAR(stiffness / line.stiffness_N_m, 1.0, share)
           << specimen_.muscles[m].key << " across " << specimen_.joints[static_cast<std::size_t>(j)].key;
     }
   }
