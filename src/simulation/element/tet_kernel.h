@@ -225,13 +225,12 @@ struct MeanVolume {
 /// What a point adds to the volume term of the mean. Below `folded_J` it is pushed back by its own volume term too: the
 /// mean alone lets points fold over and rest there.
 template <class Real>
-MYOTACT_INLINE VolumeTerm<Real> point_volume(const MeanVolume<Real>& volume, const Real& J,
-                                             double folded_J = kFoldedJ) {
-  const Real gap = J - volume.mean_J, low = constant<Real>(folded_J);
+MYOTACT_INLINE VolumeTerm<Real> point_volume(const MeanVolume<Real>& mean, const Real& J, double folded_J = kFoldedJ) {
+  const Real gap = J - mean.mean_J, low = constant<Real>(folded_J);
   const Real folded = where_less(J, low, J - low, Real{});
-  const Real stiff = where_less(J, low, volume.term.curvature_Pa, Real{});
-  return {0.5 * (volume.fluctuation_Pa * gap * gap + stiff * folded * folded),
-          volume.fluctuation_Pa * gap + stiff * folded, volume.fluctuation_Pa + stiff};
+  const Real stiff = where_less(J, low, mean.term.curvature_Pa, Real{});
+  return {0.5 * (mean.fluctuation_Pa * gap * gap + stiff * folded * folded), mean.fluctuation_Pa * gap + stiff * folded,
+          mean.fluctuation_Pa + stiff};
 }
 
 /// Adds to the responses at the points. The stiffness also needs (U'' - c) of the mean volume ratio's slope with
