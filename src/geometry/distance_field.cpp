@@ -89,30 +89,26 @@ void DistanceField::fill(const TriangleMesh& surface) {
   }
 }
 
-bool DistanceField::may_be_inside(const Vec3& p) const {
+const float* DistanceField::nearest_sample(const Vec3& p) const {
   const Vec3 cell = (p - origin_m_) / spacing_m_;
   std::array<int, 3> nearest{};
   for (std::size_t a = 0; a < 3; ++a) {
     const double c = cell[static_cast<int>(a)];
-    if (!(c >= 1.0 && c < size_[a] - 2)) return false;
+    if (!(c >= 1.0 && c < size_[a] - 2)) return nullptr;
     nearest[a] = static_cast<int>(std::lround(c));
   }
-  return at(nearest[0], nearest[1], nearest[2]) < spacing_m_;  // half a cell's diagonal and what smoothing takes
+  return &values_m_[index(nearest[0] + size_[0] * (nearest[1] + size_[1] * nearest[2]))];
+}
+
+bool DistanceField::may_be_inside(const Vec3& p) const {
+  const float* value_m = nearest_sample(p);
+  return value_m && *value_m < spacing_m_;  // half a cell's diagonal and what smoothing takes
 }
 
 double DistanceField::clearance_m(const Vec3& p) const {
-  const Vec3 cell = (p - origin_m_) / spacing_m_;
-  Vec3 beyond = Vec3::Zero();  // the box of places that may be inside
-  std::array<int, 3> nearest{};
-  bool in_box = true;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const double c = cell[static_cast<int>(a)], last = size_[a] - 2;
-    beyond[static_cast<int>(a)] = std::max({1.0 - c, c - last, 0.0});
-    in_box = in_box && c >= 1.0 && c < last;
-    if (in_box) nearest[a] = static_cast<int>(std::lround(c));
-  }
-  if (!in_box) return spacing_m_ * beyond.norm();
-  return std::max(0.0, at(nearest[0], nearest[1], nearest[2]) - kSurelyOutside * spacing_m_);
+  if (const float* value_m = nearest_sample(p)) return std::max(0.0, *value_m - kSurelyOutside * spacing_m_);
+  const Vec3 cell = (p - origin_m_) / spacing_m_, last(size_[0] - 2, size_[1] - 2, size_[2] - 2);
+  return spacing_m_ * (Vec3::Ones() - cell).cwiseMax(cell - last).cwiseMax(0.0).norm();
 }
 
 DistanceSample DistanceField::sample(const Vec3& p) const {

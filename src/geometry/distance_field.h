@@ -43,6 +43,8 @@ class DistanceField {
  private:
   void fill(const TriangleMesh& surface);
   double bound_m(int i, int j, int k) const;
+  /// The sample nearest to p; null outside of the box of places that may be inside.
+  const float* nearest_sample(const Vec3& p) const;
   double at(int i, int j, int k) const {
     return values_m_[static_cast<std::size_t>(i + size_[0] * (j + size_[1] * k))];
   }
