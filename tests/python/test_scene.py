@@ -1,6 +1,7 @@
 """A scene from Python is the program's, and its arrays are where they are."""
 
 import gc
+import statistics
 import subprocess
 import sys
 import threading
@@ -194,7 +195,9 @@ def test_another_thread_runs_during_a_step(tissue_scene):
         counts.append(count - before)
     running = False
     other.join()
-    assert min(counts) > 100, "a step kept the lock"
+    # The median: on a busy machine the scheduler leaves the other thread out of
+    # single steps; a lock that is kept leaves it out of all of them.
+    assert statistics.median(counts) > 100, "a step kept the lock"
 
 
 def test_two_threads_step_one_scene():
