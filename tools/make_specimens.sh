@@ -2,7 +2,7 @@
 # Makes the embedded specimens anew: plane, plate, pad, particle and spring; both whole limbs from their volumes in
 # assets/canine. The same machine gives the same bytes. meshes/canine_elbow, canine_forelimb and canine_hindlimb were
 # lofted from the measured sections before there were volumes, and are kept as they are: tests and figures rest on them.
-# The lines of canine_elbow are those that `loft elbow.json` gives today.
+# The lines of canine_elbow are those that `loft elbow.json` gives today; its forepaw is the whole forelimb's.
 # Usage: tools/make_specimens.sh [BUILD_FOLDER [OUTPUT]]      (build all first; default: build meshes)
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -27,4 +27,5 @@ whole hindlimb
 for specimen in canine_whole_forelimb canine_whole_hindlimb; do
   MYOTACT_DATA_DIR=$root "$myotact" calibrate "$output/$specimen" > /dev/null # the last digits are a processor's
 done
+[ ! -d "$output/canine_elbow" ] || python3 "$root/tools/elbow_paw.py" "$output"
 "$build/tools/plain_specimens/myotact-plain-specimens" "$output"

@@ -18,6 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
 
 class Program : public ::testing::Test {
  protected:
@@ -65,6 +66,11 @@ int status(ExitStatus value) {
 TEST_F(Program, RefusesAnUnknownOptionAsUsage) {
   EXPECT_EQ(run("--frobnicate"), status(ExitStatus::Usage));
   EXPECT_EQ(run(""), status(ExitStatus::Usage));
+}
+
+TEST_F(Program, SaysItsVersion) {
+  EXPECT_EQ(run("--version"), status(ExitStatus::Done));
+  EXPECT_THAT(read_file(folder_ / "stdout"), MatchesRegex("[0-9]+[.][0-9]+[.][0-9]+\n"));
 }
 
 TEST_F(Program, SaysThatTheScanIsNotThere) {

@@ -40,6 +40,7 @@ int fail(ExitStatus status, const std::string& text) {
 
 int main(int argc, char** argv) {
   CLI::App program("Turns scans of a limb into a specimen that can be touched. AGPL-3.0-or-later.", "myotact-prepare");
+  program.set_version_flag("--version", MYOTACT_VERSION);
   prepare::Options options;
   add_common(program, options);
   add_until(program, options);
