@@ -36,6 +36,31 @@ FibreFit read_fit(const JsonValue& value) {
   return fit;
 }
 
+using Fit = std::optional<FibreFit> Muscle::*;  // which of a muscle's
+
+void read_fits(const JsonValue& value, Fit which, Specimen& specimen) {
+  for (const auto& [key, fit] : JsonObject(value).entries()) {
+    const int muscle = find_muscle(specimen, key);
+    const FibreFit read = read_fit(fit);
+    if (muscle >= 0) specimen.muscles[static_cast<std::size_t>(muscle)].*which = read;
+  }
+}
+
+nlohmann::ordered_json json_of_fits(const Specimen& specimen, Fit which) {
+  nlohmann::ordered_json muscles = nlohmann::ordered_json::object();
+  for (const Muscle& muscle : specimen.muscles) {
+    if (!(muscle.*which)) continue;
+    const FibreFit& fit = *(muscle.*which);
+    muscles[muscle.key] = {{"of", fmt::format("{:016x}", fit.of)},
+                           {"offset", fit.offset},
+                           {"scale", fit.scale},
+                           {"gain", fit.gain},
+                           {"beyond", fit.beyond},
+                           {"force", fit.force}};
+  }
+  return muscles;
+}
+
 }  // namespace
 
 void read_calibration(const std::filesystem::path& folder, Specimen& specimen) {
@@ -45,28 +70,16 @@ void read_calibration(const std::filesystem::path& folder, Specimen& specimen) {
   const nlohmann::json json = read_json(file);
   JsonObject root(JsonValue(json, file.string()));
   root.at("schema").integer_between(1, 1);
-  JsonObject muscles(root.at("muscles"));
-  for (const auto& [key, value] : muscles.entries()) {
-    const int muscle = find_muscle(specimen, key);
-    const FibreFit fit = read_fit(value);
-    if (muscle >= 0) specimen.muscles[static_cast<std::size_t>(muscle)].fibre_fit = fit;
-  }
+  read_fits(root.at("muscles"), &Muscle::fibre_fit, specimen);
+  if (const auto on_bones = root.find("on_bones")) read_fits(*on_bones, &Muscle::fibre_fit_on_bones, specimen);
   root.finish();
 }
 
 std::string calibration_json(const Specimen& specimen) {
-  nlohmann::ordered_json muscles = nlohmann::ordered_json::object();
-  for (const Muscle& muscle : specimen.muscles) {
-    if (!muscle.fibre_fit) continue;
-    const FibreFit& fit = *muscle.fibre_fit;
-    muscles[muscle.key] = {{"of", fmt::format("{:016x}", fit.of)},
-                           {"offset", fit.offset},
-                           {"scale", fit.scale},
-                           {"gain", fit.gain},
-                           {"beyond", fit.beyond},
-                           {"force", fit.force}};
-  }
-  return nlohmann::ordered_json{{"schema", 1}, {"muscles", muscles}}.dump(1) + "\n";
+  const nlohmann::ordered_json json{{"schema", 1},
+                                    {"muscles", json_of_fits(specimen, &Muscle::fibre_fit)},
+                                    {"on_bones", json_of_fits(specimen, &Muscle::fibre_fit_on_bones)}};
+  return json.dump(1) + "\n";
 }
 
 }  // namespace myotact::anatomy

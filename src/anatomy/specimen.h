@@ -79,6 +79,7 @@ struct Muscle {
   std::vector<int> attachments;       // one a node: body, or -1
   geometry::TriangleMesh skin;        // fine surface, embedded in the tets on load
   std::optional<FibreFit> fibre_fit;  // where one is known
+  std::optional<FibreFit> fibre_fit_on_bones;  // the same where muscles touch the bones, round which they shorten
 };
 
 enum class LinePointKind { Origin, Via, Insertion };

@@ -12,15 +12,22 @@ namespace myotact::app {
 
 namespace {
 
-/// Every muscle of finite elements, whatever a scene makes of it.
+/// Every muscle of finite elements, whatever a scene makes of it: by itself, and on the bones.
 void calibrate_all(anatomy::Specimen& specimen, int workers) {
-  for (anatomy::Muscle& muscle : specimen.muscles) muscle.fibre_fit.reset();
+  for (anatomy::Muscle& muscle : specimen.muscles) {
+    muscle.fibre_fit.reset();
+    muscle.fibre_fit_on_bones.reset();
+  }
   simulation::SimulationSettings settings;
   settings.workers = workers;
-  settings.contact = false;  // a muscle is calibrated alone
-  const simulation::Simulation simulation(specimen, settings);
-  for (std::size_t m = 0; m < specimen.muscles.size(); ++m) {
-    specimen.muscles[m].fibre_fit = simulation.fibre_fit(static_cast<int>(m));
+  for (const auto contact : {simulation::Contact::None, simulation::Contact::Bones}) {
+    settings.contact = contact;
+    const simulation::Simulation simulation(specimen, settings);
+    for (std::size_t m = 0; m < specimen.muscles.size(); ++m) {
+      anatomy::Muscle& muscle = specimen.muscles[m];
+      auto& fit = contact == simulation::Contact::None ? muscle.fibre_fit : muscle.fibre_fit_on_bones;
+      fit = simulation.fibre_fit(static_cast<int>(m));
+    }
   }
 }
 

@@ -65,7 +65,7 @@ BulletEngine::BulletEngine(const anatomy::Specimen& specimen, const BulletSettin
       world_(specimen_, settings.gravity_m_s2),
       tissue_(specimen_, settings.gravity_m_s2),
       surfaces_(specimen_),
-      limb_(specimen_, shapes_only(specimen_), simulation::Tendon::Elastic, false),
+      limb_(specimen_, shapes_only(specimen_), simulation::Tendon::Elastic, simulation::Contact::None),
       tools_(settings.tools.size()) {
   for (const ToolBody& tool : settings.tools) shapes_.push_back(shape_of(tool));
   limb_.gravity_m_s2 = settings.gravity_m_s2;

@@ -271,12 +271,18 @@ void read_tools(const JsonValue& value, Scene& scene) {
   }
 }
 
+simulation::Contact read_contact(const JsonValue& value) {
+  if (value.raw() == "bones") return simulation::Contact::Bones;
+  if (!value.raw().is_boolean()) throw value.error("is " + value.raw().dump() + "; must be true, false or \"bones\"");
+  return value.boolean() ? simulation::Contact::All : simulation::Contact::None;
+}
+
 void read_parts(JsonObject& root, Scene& scene) {
   if (const auto dt = root.find("dt_s")) scene.settings.dt_s = dt->number_between(1e-3, 0.05);
   if (const auto gravity = root.find("gravity_m_s2")) scene.settings.gravity_m_s2 = gravity->vec3();
   if (const auto lines = root.find("lines")) read_lines(*lines, scene);
   if (const auto joints = root.find("joints")) read_joints(*joints, scene);
-  if (const auto contact = root.find("contact")) scene.settings.contact = contact->boolean();
+  if (const auto contact = root.find("contact")) scene.settings.contact = read_contact(*contact);
   if (const auto fascia = root.find("fascia"); fascia && fascia->boolean())
     scene.settings.fascia = read_fascia(fascia_path());
   if (const auto tissue = root.find("tissue")) read_tissue(*tissue, scene);

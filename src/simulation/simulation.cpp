@@ -55,10 +55,11 @@ Simulation::Impl::Impl(const anatomy::Specimen& given, const SimulationSettings&
 
 LineAgreement Simulation::Impl::fit_fibres(int index) {
   LimbMuscle& muscle = limb.muscles[at(index)];
-  const std::optional<anatomy::FibreFit>& fit = specimen.muscles[at(index)].fibre_fit;
-  // A muscle that lies on bones shortens round them: it has another fit.
-  const bool known = muscle.tissue.model == TissueModel::Fem && !settings.contact && fit &&
-                     fit->of == calibration_fingerprint(specimen, index);
+  const bool on_bones = settings.contact != Contact::None;
+  const anatomy::Muscle& carried = specimen.muscles[at(index)];
+  const std::optional<anatomy::FibreFit>& fit = on_bones ? carried.fibre_fit_on_bones : carried.fibre_fit;
+  const bool known = muscle.tissue.model == TissueModel::Fem && fit &&
+                     fit->of == calibration_fingerprint(specimen, index, on_bones);
   if (!known) return calibrate_muscle(specimen, index, limb.skeleton, muscle);
   apply_fit(*fit, muscle.tissue.fibre_map);
   return {fit->force != 0.0 ? fit->force : std::nan(""), 1.0};
@@ -231,10 +232,10 @@ double Simulation::pull_over_line(int muscle) const {
 }
 std::optional<anatomy::FibreFit> Simulation::fibre_fit(int muscle) const {
   const MuscleTissue& tissue = impl_->limb.muscles[at(muscle)].tissue;
-  if (tissue.model != TissueModel::Fem || impl_->settings.contact) return std::nullopt;
+  if (tissue.model != TissueModel::Fem) return std::nullopt;
   const double force = pull_over_line(muscle);
   const FibreMap& map = tissue.fibre_map;
-  return anatomy::FibreFit{calibration_fingerprint(impl_->specimen, muscle),
+  return anatomy::FibreFit{calibration_fingerprint(impl_->specimen, muscle, impl_->settings.contact != Contact::None),
                            map.offset,
                            map.scale,
                            map.gain,

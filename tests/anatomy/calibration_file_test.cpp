@@ -47,6 +47,17 @@ TEST_F(CalibrationFile, ComesBackToTheBit) {
   EXPECT_EQ(a.gain, b.gain);
   EXPECT_EQ(a.beyond, b.beyond);
   EXPECT_EQ(a.force, b.force);
+  EXPECT_FALSE(read.muscles[1].fibre_fit_on_bones);
+}
+
+TEST_F(CalibrationFile, KeepsTheFitOnBonesApart) {
+  Specimen specimen = testing::antagonist_hinge(), read = specimen;
+  specimen.muscles[0].fibre_fit_on_bones = FibreFit{1, 0.1, 1.0, 2.0, 0.5, 0.9};
+  std::ofstream(folder_.path() / kCalibrationFile) << calibration_json(specimen);
+  read_calibration(folder_.path(), read);
+  EXPECT_FALSE(read.muscles[0].fibre_fit);
+  ASSERT_TRUE(read.muscles[0].fibre_fit_on_bones);
+  EXPECT_EQ(read.muscles[0].fibre_fit_on_bones->gain, 2.0);
 }
 
 TEST_F(CalibrationFile, MayBeMissingOrSpeakOfOthers) {

@@ -177,7 +177,7 @@ double resident_MB() {
 }
 
 void step(benchmark::State& state, const anatomy::Specimen& specimen, int workers, VectorUnit widest,
-          bool contact = true) {
+          Contact contact = Contact::All) {
   allow_vector_unit(widest);
   const double before_MB = resident_MB();
   SimulationSettings settings;
@@ -204,7 +204,7 @@ void add_steps(const std::string& name, const anatomy::Specimen& specimen) {
     add_step(workers, "AVX2", VectorUnit::Avx2);
     add_step(workers, "SSE2", VectorUnit::Sse2);
     add(fmt::format("step/{}/workers:{}/AVX-512/no contact", name, workers),
-        [&specimen, workers](benchmark::State& state) { step(state, specimen, workers, VectorUnit::Avx512, false); });
+        [&specimen, workers](benchmark::State& state) { step(state, specimen, workers, VectorUnit::Avx512, Contact::None); });
   }
 }
 

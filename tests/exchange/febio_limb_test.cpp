@@ -17,7 +17,7 @@ scene::Scene scene_of(const anatomy::Specimen& specimen) {
   scene::Scene scene;
   scene.name = "bar";
   scene.specimen = specimen;
-  scene.settings.contact = false;
+  scene.settings.contact = simulation::Contact::None;
   return scene;
 }
 

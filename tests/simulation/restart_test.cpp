@@ -11,7 +11,7 @@
 namespace myotact::simulation {
 namespace {
 
-class Restart : public ::testing::TestWithParam<std::pair<TissueModel, bool>> {
+class Restart : public ::testing::TestWithParam<std::pair<TissueModel, Contact>> {
  protected:
   Restart() : specimen_(testing::coarse_antagonist_hinge()) {
     settings_.tissue = {GetParam().first, GetParam().first};
@@ -45,9 +45,9 @@ TEST_P(Restart, LeavesNothingOfWhatWentBefore) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, Restart,
-                         ::testing::Values(std::pair(TissueModel::Fem, true), std::pair(TissueModel::Fem, false),
-                                           std::pair(TissueModel::MassSpring, true),
-                                           std::pair(TissueModel::Line, true)));
+                         ::testing::Values(std::pair(TissueModel::Fem, Contact::All), std::pair(TissueModel::Fem, Contact::None),
+                                           std::pair(TissueModel::MassSpring, Contact::All),
+                                           std::pair(TissueModel::Line, Contact::All)));
 
 }  // namespace
 }  // namespace myotact::simulation

@@ -52,7 +52,7 @@ Eigen::MatrixXd presses(const anatomy::Muscle& muscle, const MuscleTissue& tissu
 /// Mean over presses and directions of how far the relaxed muscle gives way [m/N].
 double compliance_m_N(TissueModel model, std::size_t index) {
   const std::vector<TissueModel> models = all(model);
-  Limb limb(specimen(), models, Tendon::Elastic, false);  // bones would bear part of a press
+  Limb limb(specimen(), models, Tendon::Elastic, Contact::None);  // bones would bear part of a press
   LimbMuscle& muscle = limb.muscles[index];
   EXPECT_TRUE(settle_muscle(limb.skeleton, Vec3::Zero(), 1e-6, muscle));
   compute_system(limb.skeleton, {}, muscle, Accuracy::Refined);

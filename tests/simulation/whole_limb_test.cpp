@@ -72,7 +72,7 @@ class WholeLimb : public ::testing::TestWithParam<const char*> {
   }
   SimulationSettings settings() const {
     SimulationSettings settings;
-    settings.contact = false;
+    settings.contact = Contact::None;
     for (std::size_t m = 0; m < specimen_.muscles.size(); ++m) {
       settings.tissue.push_back(stands_for_line(m) ? TissueModel::Fem : TissueModel::Rigid);
     }

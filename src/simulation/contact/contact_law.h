@@ -2,6 +2,9 @@
 
 namespace myotact::simulation {
 
+/// What muscles of finite elements touch: nothing, bones alone, or bones and each other.
+enum class Contact { None, Bones, All };
+
 /// Pressure between two surfaces that overlap by s: a parabola, then a line, so that the force has a continuous slope.
 ///
 ///   p = k s^2 / (2 e)  for 0 <= s < e,   k (s - e / 2)  beyond

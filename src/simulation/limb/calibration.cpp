@@ -108,7 +108,7 @@ double bounded(double factor) {
 
 }  // namespace
 
-std::uint64_t calibration_fingerprint(const anatomy::Specimen& specimen, int index) {
+std::uint64_t calibration_fingerprint(const anatomy::Specimen& specimen, int index, bool on_bones) {
   std::uint64_t hash = kHashStart;
   const auto add = [&](std::initializer_list<double> values) { add_to_hash({values.begin(), values.size()}, hash); };
   const auto add_points = [&](const std::vector<Vec3>& points) {
@@ -143,6 +143,11 @@ std::uint64_t calibration_fingerprint(const anatomy::Specimen& specimen, int ind
     add({static_cast<double>(joint.type), static_cast<double>(joint.parent), static_cast<double>(joint.child)});
     add_points({joint.centre_m});
     add_points(joint.axes);
+  }
+  for (const anatomy::Bone& bone : specimen.bones) {
+    if (!on_bones) break;
+    add({static_cast<double>(bone.body)});
+    add_points(bone.surface.positions_m);
   }
   return hash;
 }

@@ -12,8 +12,8 @@ struct LineAgreement {
 };
 
 /// Fingerprint of what a muscle's calibration depends on in the specimen: its mesh, fibres and figures, its line, and
-/// the joints. FNV-1a over their bits.
-std::uint64_t calibration_fingerprint(const anatomy::Specimen& specimen, int muscle);
+/// the joints; `on_bones`: the bones, too. FNV-1a over their bits.
+std::uint64_t calibration_fingerprint(const anatomy::Specimen& specimen, int muscle, bool on_bones = false);
 
 /// Puts the fibres as a calibration left them. `fit`: of this muscle, by its fingerprint.
 void apply_fit(const anatomy::FibreFit& fit, FibreMap& map);

@@ -158,7 +158,7 @@ void keep_slopes(const TouchLists& last, int muscle, Limb& limb) {
 void search_around(Limb& limb, int muscle, const std::vector<char>& moved) {
   TouchSurface& surface = limb.touch_surfaces[at(muscle)];
   const std::vector<TouchSurface::Found> last = std::exchange(surface.found, {});
-  if (!limb.contact || limb.muscles[at(muscle)].rigid) return;
+  if (limb.contact != Contact::All || limb.muscles[at(muscle)].rigid) return;
   for (int other = 0; other < static_cast<int>(limb.muscles.size()); ++other) {
     if (other == muscle || limb.muscles[at(other)].rigid) continue;
     if (moved[at(muscle)] || moved[at(other)]) {

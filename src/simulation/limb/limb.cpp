@@ -29,7 +29,7 @@ std::span<const double> as_span(const Eigen::VectorXd& v) {
 
 }  // namespace
 
-Limb::Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> models, Tendon tendon, bool with_contact,
+Limb::Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> models, Tendon tendon, Contact with_contact,
            const Fascia& held_by)
     : skeleton(specimen), contact(with_contact), fascia(held_by) {
   now.angle_rad = now.velocity_rad_s = Eigen::VectorXd::Zero(skeleton.joint_count());
@@ -47,7 +47,7 @@ Limb::Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> model
       muscle.line =
           make_line_tissue(specimen.muscles[static_cast<std::size_t>(m)], line_of(specimen, m), skeleton, tendon);
     }
-    if (contact && !muscle.rigid) {
+    if (contact != Contact::None && !muscle.rigid) {
       if (!bones) bones = make_bone_shapes(specimen);
       muscle.tissue.bone_contact = make_bone_contact(bones, muscle.tissue.mesh, muscle.tissue.body);
     }
@@ -58,7 +58,7 @@ Limb::Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> model
     muscles.push_back(std::move(muscle));
   }
   const bool held = fascia.tension_Pa_m > 0.0;
-  if (!contact && !held) return;
+  if (contact != Contact::All && !held) return;
   std::vector<MuscleTissue*> soft;
   for (LimbMuscle& muscle : muscles) soft.push_back(muscle.rigid ? nullptr : &muscle.tissue);
   touch_surfaces = make_touch_surfaces(soft);
@@ -215,6 +215,7 @@ void return_to_file_pose(Limb& limb) {
   limb.last = limb.before = limb.now;
   for (LimbMuscle& muscle : limb.muscles) {
     muscle.sleep.reset();
+    muscle.definite_tangents = 0;
     muscle.state = make_state(muscle.tissue);
     muscle.stiffness_Nm_rad.setZero();
     muscle.contact_stiffness_Nm_rad.setZero();

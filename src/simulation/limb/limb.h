@@ -90,7 +90,8 @@ struct LimbMuscle {
   bool balanced = false;               // within this step: needs no new tangent
   bool strained = false;               // one Newton step of this step was not enough
   std::optional<TimeRule> kept_rule;   // of the step whose factored tangent serves the next one, too; none: it does not
-  bool made_definite = false;          // the last tangent had to be
+  bool made_definite = false;          // the last tangent is
+  int definite_tangents = 0;           // how many more are, before the true one is tried again
   bool sound = true;                   // the last factorisation and state were finite
   std::optional<Sleep> sleep;          // none: awake
   MuscleReadout readout;               // of the last step or settle
@@ -117,11 +118,11 @@ struct JointFrameState {
 /// Everything that moves, and what a step needs. See step.h and settle.h. One caller; only what takes a single muscle
 /// may run for several muscles at once.
 struct Limb {
-  /// `models`: one a muscle; empty: all Fem. `tendon`: of the Line ones. `contact`: the others touch bones and each
-  /// other. `fascia`: holds those that lie side by side. At the file pose, at rest. Throws Error BadData as Skeleton,
+  /// `models`: one a muscle; empty: all Fem. `tendon`: of the Line ones. `contact`: what the others touch. `fascia`:
+  /// holds those that lie side by side. At the file pose, at rest. Throws Error BadData as Skeleton,
   /// build_muscle_tissue() and make_line_tissue() do.
   explicit Limb(const anatomy::Specimen& specimen, std::span<const TissueModel> models = {},
-                Tendon tendon = Tendon::Elastic, bool contact = true, const Fascia& fascia = {});
+                Tendon tendon = Tendon::Elastic, Contact contact = Contact::All, const Fascia& fascia = {});
 
   Skeleton skeleton;                         // in the pose of `now`
   SkeletonLoads loads;                       // computed last
@@ -129,9 +130,9 @@ struct Limb {
   Eigen::VectorXd external_torque_Nm;        // one a joint, positive flexes
   Vec3 gravity_m_s2 = Vec3::Zero();          // W
   std::vector<LimbMuscle> muscles;           // as in the specimen
-  bool contact = true;                       // as given
+  Contact contact = Contact::All;            // as given
   Fascia fascia;                             // as given
-  std::vector<TouchSurface> touch_surfaces;  // one a muscle; none without contact and fascia
+  std::vector<TouchSurface> touch_surfaces;  // one a muscle; none where muscles neither touch nor hold each other
   std::vector<ToolSpring> springs;           // of the present step
   std::vector<Vec3> spring_force_N;          // on the tissue or bone, at the end of the step
   std::vector<Mat3> spring_compliance_m_N;   // of what each pulls at, or its sphere; its tool's springs left out

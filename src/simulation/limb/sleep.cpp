@@ -30,8 +30,9 @@ constexpr double kNearRest_m = 5e-5;
 /// The nodes stay while no joint has rotated by more than this since they were placed [rad]: 0.3 um at the paw.
 constexpr double kUnseen_rad = 1e-6;
 
-/// Every body that has a part in the muscle's forces.
-std::vector<int> bodies_of(const MuscleTissue& tissue) {
+/// Every body that has a part in the muscle's forces, those included on whose bones it may lie.
+std::vector<int> bodies_of(const LimbMuscle& muscle) {
+  const MuscleTissue& tissue = muscle.tissue;
   std::vector<int> bodies = tissue.bodies;
   bodies.insert(bodies.end(), {tissue.insertion_body, tissue.before_insertion_body});
   if (tissue.insertion_wrap) bodies.push_back(tissue.insertion_wrap->body);
@@ -40,6 +41,11 @@ std::vector<int> bodies_of(const MuscleTissue& tissue) {
       bodies.push_back(point.body);
       if (point.wrap) bodies.push_back(point.wrap->body);
     }
+  }
+  for (const NearBones::Node& near : muscle.state.near_bones.nodes) {
+    const BoneContact& contact = tissue.bone_contact;
+    const int body = (*contact.bones)[at(contact.patches[at(near.patch)].bone)].body;
+    if (std::find(bodies.begin(), bodies.end(), body) == bodies.end()) bodies.push_back(body);
   }
   std::erase(bodies, -1);
   return bodies;
@@ -200,7 +206,7 @@ bool may_sleep(const Limb& limb, int index, double excitation, double dt_s) {
   if (std::abs(excitation - activation) > 0.5 * kSameActivation) return false;
   const Eigen::VectorXd own_m_s = muscle.state.now.velocity_m_s - motion_of(limb, muscle) * limb.now.velocity_rad_s;
   if (!(own_m_s.lpNorm<Eigen::Infinity>() < kStill_m_s)) return false;
-  return is_gentle(limb, dt_s, parts_of_joints(limb, bodies_of(muscle.tissue)), activation, 0.5);
+  return is_gentle(limb, dt_s, parts_of_joints(limb, bodies_of(muscle)), activation, 0.5);
 }
 
 void fall_asleep(Limb& limb, int index, AfterSettle after_settle) {
@@ -208,7 +214,7 @@ void fall_asleep(Limb& limb, int index, AfterSettle after_settle) {
   Sleep& sleep = muscle.sleep.emplace();
   sleep.activation = muscle.state.activation;
   sleep.settled = after_settle == AfterSettle::Yes;
-  sleep.joints = parts_of_joints(limb, bodies_of(muscle.tissue));
+  sleep.joints = parts_of_joints(limb, bodies_of(muscle));
   sleep.carrier = carrier_of(limb.skeleton, sleep.joints);
   muscle.state.now.velocity_m_s.setZero();
   std::fill(muscle.state.stretch_rate_1_s.begin(), muscle.state.stretch_rate_1_s.end(), 0.0);

@@ -27,7 +27,7 @@ SmallSystem make_small_system(const Limb& limb, Joints joints);
 /// Tangent, factor, border solutions of one muscle. A muscle that the first Newton step has balanced keeps its tangent
 /// in the later ones: only its residual is new. It is cheap, and the muscles that are out of balance set the pace. One
 /// that has hardly changed (`kept_rule`) keeps that of an earlier step: forces and springs are new.
-/// `sound` states whether it worked, `made_definite` whether the safe tangent was needed. `index`: of the muscle.
+/// `sound` states whether it worked, `made_definite` whether the tangent is the safe one. `index`: of the muscle.
 /// Different muscles may be eliminated by different threads at once.
 void eliminate(const Limb& limb, const SmallSystem& small, TissueLoad load, int index, LimbMuscle& muscle);
 

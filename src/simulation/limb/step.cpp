@@ -354,6 +354,7 @@ Relaxation relax(Limb& limb, const RelaxInput& input, WorkerPool& workers) {
   load.gravity_m_s2 = limb.gravity_m_s2;
   for (LimbMuscle& muscle : limb.muscles) {
     muscle.balanced = false;
+    muscle.definite_tangents = 0;
     muscle.kept_rule.reset();
     muscle.state.last.position_m = muscle.state.now.position_m;
     muscle.state.last.velocity_m_s.setZero();

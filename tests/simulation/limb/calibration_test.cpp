@@ -3,6 +3,7 @@
 #include "simulation/limb/calibration.h"
 
 #include <string>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -12,25 +13,26 @@
 namespace myotact::simulation {
 namespace {
 
-class Calibration : public ::testing::TestWithParam<const char*> {
+class Calibration : public ::testing::TestWithParam<std::tuple<const char*, Contact>> {
  protected:
-  static anatomy::Specimen load() { return anatomy::load_specimen(source_folder() + "/meshes/" + GetParam()); }
-  static SimulationSettings alone() {
-    SimulationSettings settings;
-    settings.contact = false;
-    return settings;
-  }
+  static anatomy::Specimen load() { return anatomy::load_specimen(source_folder() + "/meshes/" + std::get<0>(GetParam())); }
 };
 INSTANTIATE_TEST_SUITE_P(Shipped, Calibration,
-                         ::testing::Values("canine_elbow", "canine_whole_forelimb", "canine_whole_hindlimb"));
+                         ::testing::Combine(::testing::Values("canine_elbow", "canine_whole_forelimb",
+                                                              "canine_whole_hindlimb"),
+                                            ::testing::Values(Contact::None, Contact::Bones)));
 
 TEST_P(Calibration, FindsWhatTheSpecimenCarries) {
   const anatomy::Specimen specimen = load();
+  const auto& [folder, contact] = GetParam();
+  const auto which = contact == Contact::None ? &anatomy::Muscle::fibre_fit : &anatomy::Muscle::fibre_fit_on_bones;
   anatomy::Specimen bare = specimen;
-  for (anatomy::Muscle& muscle : bare.muscles) muscle.fibre_fit.reset();
-  const Simulation found(bare, alone());
+  for (anatomy::Muscle& muscle : bare.muscles) (muscle.*which).reset();
+  SimulationSettings settings;
+  settings.contact = contact;
+  const Simulation found(bare, settings);
   for (std::size_t m = 0; m < specimen.muscles.size(); ++m) {
-    const auto& carried = specimen.muscles[m].fibre_fit;
+    const auto& carried = specimen.muscles[m].*which;
     const auto fit = found.fibre_fit(static_cast<int>(m));
     ASSERT_TRUE(carried && fit) << specimen.muscles[m].key;
     EXPECT_EQ(carried->of, fit->of) << specimen.muscles[m].key << ": run myotact calibrate";
@@ -58,6 +60,11 @@ TEST(CalibrationFingerprint, ChangesWithTheMuscleItsLineAndTheJoints) {
     for (anatomy::MuscleLine& line : s.lines) line.points.back().position_m.y() += 1e-6;
   }));
   EXPECT_FALSE(changed([](anatomy::Specimen& s) { s.muscles[1].peak_force_N += 1.0; }));
+  const auto thicken = [](anatomy::Specimen& s) { s.bones[1].surface.positions_m[0].x() += 1e-6; };
+  EXPECT_FALSE(changed(thicken));
+  anatomy::Specimen thicker = specimen;
+  thicken(thicker);
+  EXPECT_NE(calibration_fingerprint(thicker, 0, true), calibration_fingerprint(specimen, 0, true));
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ double press_m(int step) {
 
 struct ElbowRun {
   anatomy::Specimen specimen = anatomy::load_specimen(source_folder() + "/meshes/canine_elbow");
-  Limb limb{specimen, {}, Tendon::Elastic, false};
+  Limb limb{specimen, {}, Tendon::Elastic, Contact::None};
   WorkerPool workers{2};
   ToolSpring spring;
   int kept = 0;  // muscles that began a step with an old tangent, all steps

@@ -37,7 +37,7 @@ const anatomy::Specimen& forelimb() {
 
 SimulationSettings settings_of(bool sleep, int workers = 2) {
   SimulationSettings settings;
-  settings.contact = false;
+  settings.contact = Contact::None;
   settings.sleep = sleep;
   settings.workers = workers;
   settings.shapes = false;  // of those that follow their bones, which are not looked at
@@ -166,7 +166,7 @@ TEST(Sleep, RidesOnTheBodyThatCarriesTheMuscle) {
   const int muscle = anatomy::find_muscle(forelimb(), "pronator_quadratus");  // from the ulna to the radius
   std::vector<TissueModel> models(forelimb().muscles.size(), TissueModel::Rigid);
   models[static_cast<std::size_t>(muscle)] = TissueModel::Fem;
-  Limb limb(forelimb(), models, Tendon::Elastic, false);
+  Limb limb(forelimb(), models, Tendon::Elastic, Contact::None);
   WorkerPool workers(1);
   const std::vector<double> straight(forelimb().joints.size(), 0.0);
   ASSERT_TRUE(settle_limb(limb, straight, workers));

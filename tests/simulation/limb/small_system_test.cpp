@@ -18,7 +18,7 @@ constexpr double kEliminated = 2e-3;
 
 /// Everything out of balance: nodes shaken, joint bent and turning, both muscles active.
 Limb shaken_limb(unsigned seed) {
-  Limb limb(testing::coarse_antagonist_hinge(), {}, Tendon::Elastic, false);
+  Limb limb(testing::coarse_antagonist_hinge(), {}, Tendon::Elastic, Contact::None);
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
   limb.gravity_m_s2 = Vec3(1.0, 2.0, -9.0);

@@ -26,7 +26,7 @@ constexpr double kMostPull_N = 200.0;
 /// Two coarse bars over a hinge, posed and a little out of shape, so that rest and present places differ.
 class ToolSprings : public ::testing::Test {
  protected:
-  ToolSprings() : specimen_(testing::coarse_antagonist_hinge()), limb_(specimen_, {}, Tendon::Elastic, false) {
+  ToolSprings() : specimen_(testing::coarse_antagonist_hinge()), limb_(specimen_, {}, Tendon::Elastic, Contact::None) {
     for (std::size_t m = 0; m < limb_.muscles.size(); ++m) {
       skins_.push_back(embed_skin(specimen_.muscles[m].skin, limb_.muscles[m].tissue.mesh));
     }
