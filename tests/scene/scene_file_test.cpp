@@ -15,6 +15,7 @@
 namespace myotact::scene {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 /// A folder with the two-muscle specimen, removed at the end.
@@ -134,6 +135,15 @@ TEST_F(SceneFile, TakesOneTissueModelForAllAndOneForAMuscle) {
   EXPECT_EQ(parse(R"(, "tissue": {"default": "line"})").settings.tendon, simulation::Tendon::Elastic);
   EXPECT_EQ(parse(R"(, "tissue": {"tendon": "rigid"})").settings.tendon, simulation::Tendon::Rigid);
   EXPECT_THAT(complaint(R"(, "tissue": {"default": "lines"})"), HasSubstr("line"));
+}
+
+TEST_F(SceneFile, MusclesTouchBonesAndEachOtherUnlessItSaysOtherwise) {
+  EXPECT_EQ(parse("").settings.contact, simulation::Contact::All);
+  EXPECT_EQ(parse(R"(, "contact": true)").settings.contact, simulation::Contact::All);
+  EXPECT_EQ(parse(R"(, "contact": "bones")").settings.contact, simulation::Contact::Bones);
+  EXPECT_EQ(parse(R"(, "contact": false)").settings.contact, simulation::Contact::None);
+  EXPECT_THAT(complaint(R"(, "contact": "bone")"),
+              AllOf(HasSubstr("/contact"), HasSubstr("\"bone\""), HasSubstr("must be true, false or \"bones\"")));
 }
 
 TEST_F(SceneFile, FasciaIsThereWhereItIsAskedFor) {

@@ -17,7 +17,7 @@ constexpr double kDegree_rad = 3.14159265358979323846 / 180.0;
 constexpr double kAgreement = 0.05;
 
 struct Forelimb {
-  explicit Forelimb(TissueModel model = TissueModel::Fem, bool contact = true)
+  explicit Forelimb(TissueModel model = TissueModel::Fem, Contact contact = Contact::All)
       : simulation(specimen, {.tissue = std::vector<TissueModel>(specimen.muscles.size(), model), .contact = contact}) {
   }
 
@@ -54,7 +54,7 @@ INSTANTIATE_TEST_SUITE_P(Models, ForelimbOf, ::testing::Values(TissueModel::Fem,
 
 // Without contact, which no line has: bones and neighbours change moment arms, that of the brachialis by a tenth.
 TEST_P(ForelimbOf, IsometricForceAndItsSlopeAreTheLinesAtHalfActivation) {
-  Forelimb limb(GetParam(), false);
+  Forelimb limb(GetParam(), Contact::None);
   const double turn = 0.5 * kDegree_rad;
   ASSERT_TRUE(limb.settle(turn, 0.5));
   const std::vector<double> flexed = limb.tensions();

@@ -42,7 +42,7 @@ anatomy::Specimen stacked_blocks() {
 }
 
 struct Blocks {
-  explicit Blocks(const Fascia& fascia = kFascia, bool contact = true)
+  explicit Blocks(const Fascia& fascia = kFascia, Contact contact = Contact::All)
       : limb(stacked_blocks(), {}, Tendon::Elastic, contact, fascia), workers(1) {}
   /// Moves all free nodes of a block.
   void shift(std::size_t muscle, const Vec3& by_m) {
@@ -106,7 +106,7 @@ TEST(Fascia, HoldsWhatLiesSideBySideAndPullsAtNothingAtRest) {
 TEST(Fascia, DrawnApartPressedAndSlidItPullsAsItsSpringsDo) {
   for (const Vec3& by_m :
        {Vec3(0.0, 0.0, 0.2e-3), Vec3(0.0, 0.0, 3e-3), Vec3(0.0, 0.0, -0.6e-3), Vec3(0.4e-3, 0.0, 0.0)}) {
-    Blocks blocks(kFascia, false);
+    Blocks blocks(kFascia, Contact::None);
     blocks.shift(0, by_m);
     find_touches(blocks.limb, blocks.workers);
     const Vec3 above_N = blocks.force_on_N(0), expected_N = blocks.expected_on_above_N(by_m);
@@ -117,7 +117,7 @@ TEST(Fascia, DrawnApartPressedAndSlidItPullsAsItsSpringsDo) {
 
 // The whole area counts once, although both surfaces have nodes on it.
 TEST(Fascia, AMillimetreApartItPullsWithTensionTimesTheInterface) {
-  Blocks blocks(kFascia, false);
+  Blocks blocks(kFascia, Contact::None);
   blocks.shift(0, {0.0, 0.0, 1e-3});
   find_touches(blocks.limb, blocks.workers);
   const double whole_N = kFascia.tension_Pa_m * 1e-3 * kArea_m2;
@@ -129,7 +129,7 @@ TEST(Fascia, SlidFarTheBlocksAreHeldBackByTheShear) {
   const auto held_back_N = [](double shear_Pa_m) {
     Fascia fascia = kFascia;
     fascia.shear_Pa_m = shear_Pa_m;
-    Blocks blocks(fascia, false);
+    Blocks blocks(fascia, Contact::None);
     blocks.shift(0, {4e-3, 0.0, 0.0});
     find_touches(blocks.limb, blocks.workers);
     return -blocks.force_on_N(0).x();
@@ -140,10 +140,10 @@ TEST(Fascia, SlidFarTheBlocksAreHeldBackByTheShear) {
 }
 
 TEST(Fascia, HasNoPartWhereItIsNotAskedFor) {
-  Blocks blocks({}, true);
+  Blocks blocks({}, Contact::All);
   find_touches(blocks.limb, blocks.workers);
   for (const TouchSurface& surface : blocks.limb.touch_surfaces) EXPECT_TRUE(surface.bonds.empty());
-  Blocks nothing({}, false);
+  Blocks nothing({}, Contact::None);
   EXPECT_TRUE(nothing.limb.touch_surfaces.empty());
 }
 
