@@ -73,12 +73,12 @@ struct Muscle {
   std::vector<std::string> estimated;  // keys whose values are estimates
   std::vector<std::string> sources;
   geometry::TetMesh tets;
-  std::vector<Vec3> fibres;           // one a tet, unit, from origin to insertion
-  std::vector<double> sections_m2;    // one a tet: cross-section of the muscle at that place along the fibres
-  std::vector<TissueRegion> regions;  // one a tet
-  std::vector<int> attachments;       // one a node: body, or -1
-  geometry::TriangleMesh skin;        // fine surface, embedded in the tets on load
-  std::optional<FibreFit> fibre_fit;  // where one is known
+  std::vector<Vec3> fibres;                    // one a tet, unit, from origin to insertion
+  std::vector<double> sections_m2;             // one a tet: cross-section of the muscle at that place along the fibres
+  std::vector<TissueRegion> regions;           // one a tet
+  std::vector<int> attachments;                // one a node: body, or -1
+  geometry::TriangleMesh skin;                 // fine surface, embedded in the tets on load
+  std::optional<FibreFit> fibre_fit;           // where one is known
   std::optional<FibreFit> fibre_fit_on_bones;  // the same where muscles touch the bones, round which they shorten
 };
 

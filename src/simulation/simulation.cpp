@@ -58,8 +58,8 @@ LineAgreement Simulation::Impl::fit_fibres(int index) {
   const bool on_bones = settings.contact != Contact::None;
   const anatomy::Muscle& carried = specimen.muscles[at(index)];
   const std::optional<anatomy::FibreFit>& fit = on_bones ? carried.fibre_fit_on_bones : carried.fibre_fit;
-  const bool known = muscle.tissue.model == TissueModel::Fem && fit &&
-                     fit->of == calibration_fingerprint(specimen, index, on_bones);
+  const bool known =
+      muscle.tissue.model == TissueModel::Fem && fit && fit->of == calibration_fingerprint(specimen, index, on_bones);
   if (!known) return calibrate_muscle(specimen, index, limb.skeleton, muscle);
   apply_fit(*fit, muscle.tissue.fibre_map);
   return {fit->force != 0.0 ? fit->force : std::nan(""), 1.0};

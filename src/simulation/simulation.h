@@ -30,7 +30,7 @@ struct SimulationSettings {
   std::vector<TissueModel> tissue;   // one a muscle; empty: all Fem
   Tendon tendon = Tendon::Elastic;   // of the Line muscles
   Contact contact = Contact::All;    // bones alone are cheap, each other is not
-  Fascia fascia = {};  // holds muscles to each other that lie side by side at the file pose; zero: none
+  Fascia fascia = {};                // holds muscles to each other that lie side by side at the file pose; zero: none
   std::optional<TetherSettings> tether = {};  // then nothing else is felt
   bool sleep = true;   // muscles that nothing moves are not solved for (limb/sleep.h); false is to compare with
   bool shapes = true;  // muscles that only follow bones are fitted to them; false is for what nobody looks at

@@ -204,7 +204,9 @@ void add_steps(const std::string& name, const anatomy::Specimen& specimen) {
     add_step(workers, "AVX2", VectorUnit::Avx2);
     add_step(workers, "SSE2", VectorUnit::Sse2);
     add(fmt::format("step/{}/workers:{}/AVX-512/no contact", name, workers),
-        [&specimen, workers](benchmark::State& state) { step(state, specimen, workers, VectorUnit::Avx512, Contact::None); });
+        [&specimen, workers](benchmark::State& state) {
+          step(state, specimen, workers, VectorUnit::Avx512, Contact::None);
+        });
   }
 }
 

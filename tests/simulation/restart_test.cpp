@@ -45,7 +45,8 @@ TEST_P(Restart, LeavesNothingOfWhatWentBefore) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, Restart,
-                         ::testing::Values(std::pair(TissueModel::Fem, Contact::All), std::pair(TissueModel::Fem, Contact::None),
+                         ::testing::Values(std::pair(TissueModel::Fem, Contact::All),
+                                           std::pair(TissueModel::Fem, Contact::None),
                                            std::pair(TissueModel::MassSpring, Contact::All),
                                            std::pair(TissueModel::Line, Contact::All)));
 

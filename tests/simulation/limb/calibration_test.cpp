@@ -15,7 +15,9 @@ namespace {
 
 class Calibration : public ::testing::TestWithParam<std::tuple<const char*, Contact>> {
  protected:
-  static anatomy::Specimen load() { return anatomy::load_specimen(source_folder() + "/meshes/" + std::get<0>(GetParam())); }
+  static anatomy::Specimen load() {
+    return anatomy::load_specimen(source_folder() + "/meshes/" + std::get<0>(GetParam()));
+  }
 };
 INSTANTIATE_TEST_SUITE_P(Shipped, Calibration,
                          ::testing::Combine(::testing::Values("canine_elbow", "canine_whole_forelimb",
