@@ -8,6 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include <fcntl.h>
 #include <nlohmann/json.hpp>
@@ -165,12 +166,21 @@ bool GuiProgram::shows(const std::string& control) const {
 }
 
 std::array<double, 4> GuiProgram::box_of(const std::string& control) const {
+  constexpr int kMostMoves = 10;  // a page whose text has changed takes some pictures to find its size
   if (!wait_for([&] { return shows(control); }, 30.0)) throw std::runtime_error("no control " + control);
-  const nlohmann::json now = state();
-  for (const auto& shown : now["controls"]) {
-    if (shown["key"] == control) return shown["box"];
+  const auto box_now = [&] {
+    const nlohmann::json now = state();
+    for (const auto& shown : now["controls"]) {
+      if (shown["key"] == control) return shown["box"].get<std::array<double, 4>>();
+    }
+    throw std::runtime_error("the control is gone: " + control);
+  };
+  std::array<double, 4> box = box_now();
+  for (int move = 0; move < kMostMoves; ++move) {
+    let_draw();
+    if (const auto before = std::exchange(box, box_now()); before == box) break;
   }
-  throw std::runtime_error("the control is gone: " + control);
+  return box;
 }
 
 std::array<double, 2> GuiProgram::place_of(const std::string& kind, const std::string& part) const {
