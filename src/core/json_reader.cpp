@@ -104,9 +104,7 @@ double JsonValue::number() const {
 double JsonValue::number_between(double lowest, double highest) const {
   const double value = number();
   if (!(value >= lowest && value <= highest)) {
-    const std::string range =
-        lowest == highest ? to_text(lowest) : "between " + to_text(lowest) + " and " + to_text(highest);
-    throw error(fmt::format("is {}; must be {}", to_text(value), range));
+    throw error(fmt::format("is {}; must be between {} and {}", to_text(value), to_text(lowest), to_text(highest)));
   }
   return value;
 }

@@ -119,7 +119,12 @@ TEST(GuessRecipe, RefusesNothingAtAllAndWhatIsNoSurface) {
 TEST(GuessRecipe, BearsAMuscleWithoutExtent) {
   Strangers strangers = two_boxes_and_a_rod();
   for (Vec3& p : strangers.muscles[0].surface.positions_m) p = Vec3::Constant(0.01);
-  EXPECT_EQ(guess_recipe(strangers, {}).anatomy.muscles.size(), 1u);
+  const AnatomyData anatomy = guess_recipe(strangers, {}).anatomy;
+  ASSERT_EQ(anatomy.muscles.size(), 1u);
+  for (const auto& sites : {anatomy.muscles[0].origins, anatomy.muscles[0].insertions}) {
+    ASSERT_FALSE(sites.empty());
+    EXPECT_EQ(sites[0].point_m, Vec3(0.01, 0.01, 0.01));
+  }
 }
 
 Strangers with_markup(MarkupKind kind, const std::string& name, const std::vector<Vec3>& points_m) {

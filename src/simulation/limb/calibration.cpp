@@ -144,8 +144,8 @@ std::uint64_t calibration_fingerprint(const anatomy::Specimen& specimen, int ind
     add_points({joint.centre_m});
     add_points(joint.axes);
   }
+  if (!on_bones) return hash;
   for (const anatomy::Bone& bone : specimen.bones) {
-    if (!on_bones) break;
     add({static_cast<double>(bone.body)});
     add_points(bone.surface.positions_m);
   }

@@ -35,7 +35,7 @@ void place(std::vector<Markup>& markups, const Mat3& rotation);
 struct MarkedJoint {
   std::string key;
   int parent = -1, child = -1;  // bones; -1: to be told from the place
-  std::array<Vec3, 2> axis_m{};
+  std::array<Vec3, 2> axis_m{Vec3::Zero(), Vec3::Zero()};
 };
 
 /// Places or a line of one muscle.

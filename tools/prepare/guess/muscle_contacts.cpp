@@ -118,6 +118,7 @@ LongAxis long_axis(const TriangleMesh& surface) {
     area += area_of(surface, t);
   }
   LongAxis axis;
+  if (!surface.positions_m.empty()) axis.tips_m.fill(surface.positions_m.front());
   if (!(area > 0.0)) return axis;
   mean /= area;
   Mat3 spread = Mat3::Zero();

@@ -14,11 +14,12 @@
 
 namespace myotact::prepare {
 
-/// The direction in which a surface is longest, and its tips there.
+/// The direction in which a surface is longest, and its tips there. A surface without area has both tips at a vertex.
 struct LongAxis {
   Vec3 direction = Vec3::UnitX();  // unit; its largest component is positive
   double lowest_m = 0.0, highest_m = 0.0;
-  std::array<Vec3, 2> tips_m{};  // the middle of what lies within a twentieth of the length of either end
+  /// The middle of what lies within a twentieth of the length of either end.
+  std::array<Vec3, 2> tips_m{Vec3::Zero(), Vec3::Zero()};
 
   double length_m() const { return highest_m - lowest_m; }
 };

@@ -63,7 +63,7 @@ struct BoneData {
 /// A part that the scan lacks and the limb needs: a flat band between two points, ends rounded.
 struct BandData {
   BoneData bone;  // it moves with its body like a bone
-  std::array<Vec3, 2> ends_m{};
+  std::array<Vec3, 2> ends_m{Vec3::Zero(), Vec3::Zero()};
   double width_m = 0.0, thickness_m = 0.0;
 };
 
