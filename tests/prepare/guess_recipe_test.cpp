@@ -226,6 +226,13 @@ bool is_one_of(const std::string& bone, const std::vector<std::string>& wanted, 
   return std::any_of(wanted.begin(), wanted.end(), [&](const std::string& key) { return name(key) == name(bone); });
 }
 
+/// Whether any of the sites that the recipe names has the guess's first bone.
+bool names_first_bone_of(const std::vector<AttachmentSite>& named, const AttachmentSite& guess, const AnatomyData& recipe) {
+  return !guess.bones.empty() && std::any_of(named.begin(), named.end(), [&](const AttachmentSite& site) {
+    return is_one_of(guess.bones.front(), site.bones, recipe);
+  });
+}
+
 /// Known anatomy: bones that the built-in recipe names for the ends of muscles, which were read in textbooks. The
 /// trunk, from which four muscles come, is not among the surfaces.
 TEST(GuessRecipe, FindsTheBonesOfADogsMuscles) {
@@ -244,11 +251,7 @@ TEST(GuessRecipe, FindsTheBonesOfADogsMuscles) {
         const auto& sites = origin ? recipe.muscles[m].origins : recipe.muscles[m].insertions;
         const AttachmentSite& site = (origin ? guessed.muscles[m].origins : guessed.muscles[m].insertions).front();
         ++ends;
-        for (const AttachmentSite& wanted : sites) {
-          if (site.bones.empty() || !is_one_of(site.bones.front(), wanted.bones, recipe)) continue;
-          ++right;
-          break;
-        }
+        right += names_first_bone_of(sites, site, recipe);
       }
     }
   }
