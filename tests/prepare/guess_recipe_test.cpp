@@ -227,7 +227,8 @@ bool is_one_of(const std::string& bone, const std::vector<std::string>& wanted, 
 }
 
 /// Whether any of the sites that the recipe names has the guess's first bone.
-bool names_first_bone_of(const std::vector<AttachmentSite>& named, const AttachmentSite& guess, const AnatomyData& recipe) {
+bool names_first_bone_of(const std::vector<AttachmentSite>& named, const AttachmentSite& guess,
+                         const AnatomyData& recipe) {
   return !guess.bones.empty() && std::any_of(named.begin(), named.end(), [&](const AttachmentSite& site) {
     return is_one_of(guess.bones.front(), site.bones, recipe);
   });
