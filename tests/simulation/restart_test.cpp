@@ -44,6 +44,22 @@ TEST_P(Restart, LeavesNothingOfWhatWentBefore) {
   }
 }
 
+/// A limb that starts anew at the angle it stood at: its followers are there, too, and not in the file pose.
+TEST(RestartOfFollowers, AreWhereTheBonesAre) {
+  const anatomy::Specimen specimen = testing::coarse_antagonist_hinge();
+  SimulationSettings settings;
+  settings.tissue.assign(specimen.muscles.size(), TissueModel::Rigid);
+  Simulation simulation(specimen, settings);
+  const double angle_rad = 0.7;
+  ASSERT_TRUE(simulation.settle({&angle_rad, 1}, {}));
+  const auto nodes = simulation.nodes_world_m(0);
+  const std::vector<double> first(nodes.begin(), nodes.end());
+  simulation.restart();
+  ASSERT_TRUE(simulation.settle({&angle_rad, 1}, {}));
+  const auto again = simulation.nodes_world_m(0);
+  EXPECT_EQ(first, std::vector<double>(again.begin(), again.end()));
+}
+
 INSTANTIATE_TEST_SUITE_P(Models, Restart,
                          ::testing::Values(std::pair(TissueModel::Fem, Contact::All),
                                            std::pair(TissueModel::Fem, Contact::None),

@@ -19,6 +19,8 @@ constexpr int kMostRounds = 40;
 constexpr int kWholeRounds = 12;
 /// Agreement at which the rounds end. Under half of the 5 % that a specimen is allowed.
 constexpr double kCloseEnough = 0.02;
+/// A muscle whose force misses its line by more than this where the slope is fitted, too, is fitted to the force alone.
+constexpr double kForceAgrees = 0.1;
 /// Out-of-balance share to which each round is solved.
 constexpr double kRoundShare = 1e-5;
 /// A round changes scale and gain by no more than this factor, so that the guess of the next one stays near.
@@ -33,13 +35,24 @@ constexpr double kFarthestAtRest = 1.4, kTop = 1.02;
 /// Rotation for the slope of the tension, small against any curvature, large against rounding [rad].
 constexpr double kProbe_rad = 1e-6;
 
-/// The line at the file pose and the joint that changes its length most.
+/// The line at the file pose and the joint whose rotation gives the slope; -1 when none changes its length.
 struct LineTarget {
   LineForce force;
   int joint = -1;
   double slope_m_rad = 0.0;
 };
 
+bool is_grouped(const anatomy::Specimen& specimen, int muscle, int joint) {
+  return std::any_of(specimen.groups.begin(), specimen.groups.end(), [&](const anatomy::MuscleGroup& group) {
+    const auto has = [&](const std::vector<int>& side) {
+      return std::find(side.begin(), side.end(), muscle) != side.end();
+    };
+    return group.joint == joint && (has(group.flexors) || has(group.extensors));
+  });
+}
+
+/// Of several joints that change the line's length, the one whose stiffness is shown with this muscle (the specimen's
+/// groups) comes before the one that changes it most.
 LineTarget line_target(const anatomy::Specimen& specimen, int index, const Skeleton& skeleton) {
   const auto line = std::find_if(specimen.lines.begin(), specimen.lines.end(),
                                  [&](const anatomy::MuscleLine& l) { return l.muscle == index; });
@@ -47,9 +60,13 @@ LineTarget line_target(const anatomy::Specimen& specimen, int index, const Skele
   measure_line(*line, skeleton, geometry);
   LineTarget target{line_force(specimen.muscles[static_cast<std::size_t>(index)], 0.0, 0.0, kActivation)};
   const double smallest_moment_arm_m = 1e-4;
+  bool grouped = false;
   for (int j = 0; j < skeleton.joint_count(); ++j) {
     const double slope = geometry.slope_m_rad[j];
-    if (std::abs(slope) < std::max(smallest_moment_arm_m, std::abs(target.slope_m_rad))) continue;
+    if (std::abs(slope) < smallest_moment_arm_m) continue;
+    const bool here = is_grouped(specimen, index, j);
+    if (here == grouped ? std::abs(slope) < std::abs(target.slope_m_rad) : grouped) continue;
+    grouped = here;
     target.joint = j;
     target.slope_m_rad = slope;
   }
@@ -106,6 +123,34 @@ double bounded(double factor) {
   return std::clamp(factor, 1.0 / kLargestFactor, kLargestFactor);
 }
 
+/// The rounds of one calibration: leaves the muscle's fibres at the best it found and returns how well that agrees.
+LineAgreement fit_in_rounds(const LineTarget& target, const Skeleton& skeleton, LimbMuscle& muscle) {
+  FibreMap& map = muscle.tissue.fibre_map;
+  const FibreMap plain = map;
+  muscle.state.activation = kActivation;
+  FibreMap best_map = map;
+  LineAgreement best{std::nan(""), std::nan("")};
+  for (int round = 0; round < kMostRounds && !(error_of(best) < kCloseEnough); ++round) {
+    const LineAgreement now = measure(target, skeleton, muscle);
+    if (error_of(now) < error_of(best)) {
+      best = now;
+      best_map = map;
+    }
+    if (!std::isfinite(now.force) || !(now.force > 0.0)) break;
+    const double short_of = map.rest_stretch - mean_fibre_length(muscle.tissue, muscle.state.now.stretch);
+    const double part = round < kWholeRounds ? 1.0 : 0.5;
+    map.offset += part * short_of;
+    const double at_rest = map.rest_stretch + map.offset;
+    map.beyond = at_rest > kFarthestAtRest ? (kTop - 1.0) / (at_rest - 1.0) : 1.0;
+    if (std::abs(short_of) > kLengthFits) continue;  // force and slope mean little at another length
+    map.scale = std::clamp(map.scale * bounded(std::pow(now.force, -part)), kSmallestScale, kLargestScale);
+    const double steeper = now.stiffness > 0.0 ? bounded(std::pow(now.stiffness, -part)) : kLargestFactor;
+    map.gain = std::clamp(map.gain * steeper, kSmallestScale * plain.gain, kLargestScale * plain.gain);
+  }
+  map = best_map;
+  return best;
+}
+
 }  // namespace
 
 std::uint64_t calibration_fingerprint(const anatomy::Specimen& specimen, int index, bool on_bones) {
@@ -144,6 +189,9 @@ std::uint64_t calibration_fingerprint(const anatomy::Specimen& specimen, int ind
     add_points({joint.centre_m});
     add_points(joint.axes);
   }
+  for (int j = 0; j < static_cast<int>(specimen.joints.size()); ++j) {
+    if (is_grouped(specimen, index, j)) add({static_cast<double>(j)});
+  }
   if (!on_bones) return hash;
   for (const anatomy::Bone& bone : specimen.bones) {
     add({static_cast<double>(bone.body)});
@@ -162,29 +210,21 @@ void apply_fit(const anatomy::FibreFit& fit, FibreMap& map) {
 LineAgreement calibrate_muscle(const anatomy::Specimen& specimen, int index, const Skeleton& skeleton,
                                LimbMuscle& muscle) {
   const LineTarget target = line_target(specimen, index, skeleton);
-  FibreMap& map = muscle.tissue.fibre_map;
-  const FibreMap plain = map;
-  muscle.state.activation = kActivation;
-  FibreMap best_map = map;
-  LineAgreement best{std::nan(""), std::nan("")};
-  for (int round = 0; round < kMostRounds && !(error_of(best) < kCloseEnough); ++round) {
-    const LineAgreement now = measure(target, skeleton, muscle);
-    if (error_of(now) < error_of(best)) {
-      best = now;
-      best_map = map;
+  const FibreMap plain = muscle.tissue.fibre_map;
+  LineAgreement best = fit_in_rounds(target, skeleton, muscle);
+  if (!(std::abs(best.force - 1.0) < kForceAgrees) && target.joint >= 0) {
+    const FibreMap with_slope = muscle.tissue.fibre_map;
+    muscle.tissue.fibre_map = plain;
+    muscle.state = make_state(muscle.tissue);
+    LineTarget force_alone = target;
+    force_alone.joint = -1;
+    const LineAgreement other = fit_in_rounds(force_alone, skeleton, muscle);
+    if (error_of(other) < std::abs(best.force - 1.0)) {
+      best = measure(target, skeleton, muscle);
+    } else {
+      muscle.tissue.fibre_map = with_slope;
     }
-    if (!std::isfinite(now.force) || !(now.force > 0.0)) break;
-    const double short_of = map.rest_stretch - mean_fibre_length(muscle.tissue, muscle.state.now.stretch);
-    const double part = round < kWholeRounds ? 1.0 : 0.5;
-    map.offset += part * short_of;
-    const double at_rest = map.rest_stretch + map.offset;
-    map.beyond = at_rest > kFarthestAtRest ? (kTop - 1.0) / (at_rest - 1.0) : 1.0;
-    if (std::abs(short_of) > kLengthFits) continue;  // force and slope mean little at another length
-    map.scale = std::clamp(map.scale * bounded(std::pow(now.force, -part)), kSmallestScale, kLargestScale);
-    const double steeper = now.stiffness > 0.0 ? bounded(std::pow(now.stiffness, -part)) : kLargestFactor;
-    map.gain = std::clamp(map.gain * steeper, kSmallestScale * plain.gain, kLargestScale * plain.gain);
   }
-  map = best_map;
   muscle.state = make_state(muscle.tissue);
   best.force = pull_from_rest(target, skeleton, muscle);
   muscle.state = make_state(muscle.tissue);

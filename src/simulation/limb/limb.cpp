@@ -217,6 +217,7 @@ void return_to_file_pose(Limb& limb) {
     muscle.sleep.reset();
     muscle.definite_tangents = 0;
     muscle.state = make_state(muscle.tissue);
+    if (muscle.follower) muscle.follower->placed_rad.clear();  // its nodes are back, whatever the angles were
     muscle.stiffness_Nm_rad.setZero();
     muscle.contact_stiffness_Nm_rad.setZero();
   }

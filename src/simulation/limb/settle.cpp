@@ -31,10 +31,14 @@ constexpr int kMostCuts = 12;
 /// that unbuckles creeps for hundreds of steps): the step is doubled as long as that holds.
 constexpr double kStillSteep = 0.8;
 constexpr double kLongestStep = 1024.0;
+/// No node goes farther in one step: where tissue buckles on a bone, a nearly singular tangent asks for hundreds of
+/// millimetres, and the muscle would end beyond the bone (biceps femoris at the greater trochanter did).
+constexpr double kFarthestMove_m = 20e-3;
 /// A guess that folds elements over farther than this is not looked at.
 constexpr double kSmallestJ = -0.5;
 
-/// Newton direction of the tangent with its inertia term; false when not even the safe one can be factored.
+/// Newton direction of the tangent with its inertia term, shortened to what a node may move at once; false when not
+/// even the safe one can be factored.
 bool find_direction(const Skeleton& skeleton, TissueLoad load, double time_s, LimbMuscle& muscle,
                     Eigen::MatrixXd& direction) {
   muscle.state.last.position_m = muscle.state.now.position_m;
@@ -47,7 +51,10 @@ bool find_direction(const Skeleton& skeleton, TissueLoad load, double time_s, Li
     compute_system(skeleton, load, muscle);
     pivots = factor_system(muscle, -muscle.system.residual_N, direction);
   }
-  return pivots == Pivots::Positive && direction.allFinite();
+  if (pivots != Pivots::Positive || !direction.allFinite()) return false;
+  const double farthest_m = direction.lpNorm<Eigen::Infinity>();
+  if (farthest_m > kFarthestMove_m) direction *= kFarthestMove_m / farthest_m;
+  return true;
 }
 
 /// What lies at a part of `direction` from `start`: the force along it (> 0: the energy still falls) and whether the
