@@ -75,16 +75,16 @@ TEST_P(LimbPictures, LookAsKept) {
   const double difference = largest_difference(now, kept, 4 * kWidth_px, rows * kHeight_px);
   fmt::print("{}: largest difference {:.4f}\n", scene, difference);
   EXPECT_LT(difference, kTolerance);
-  // Of every joint's two ends none looks like the other.
+  // Of every joint's two ends none looks like the other; of the carpus', which moves a paw, they differ by 0.15.
   for (int row = 1; row < rows; row += 2) {
     const auto cut = [&](int r) {
       return fmt::format("\\( {} -crop {}x{}+0+{} +repage \\)", kept, 4 * kWidth_px, kHeight_px, r * kHeight_px);
     };
-    EXPECT_GT(largest_difference(cut(row), cut(row + 1), 4 * kWidth_px, kHeight_px), 3.0 * kTolerance) << row;
+    EXPECT_GT(largest_difference(cut(row), cut(row + 1), 4 * kWidth_px, kHeight_px), 2.0 * kTolerance) << row;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Limbs, LimbPictures, ::testing::Values(Limb{"forelimb", 3}, Limb{"hindlimb", 5}),
+INSTANTIATE_TEST_SUITE_P(Limbs, LimbPictures, ::testing::Values(Limb{"forelimb", 7}, Limb{"hindlimb", 7}),
                          [](const auto& limb) { return limb.param.scene; });
 
 }  // namespace

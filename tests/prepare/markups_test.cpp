@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "support/temporary_folder.h"
 
 namespace myotact::prepare {
 namespace {
@@ -18,8 +19,6 @@ using ::testing::HasSubstr;
 
 class MarkupsFile : public ::testing::Test {
  protected:
-  ~MarkupsFile() override { fs::remove(file_); }
-
   std::vector<Markup> read(const std::string& text) {
     std::ofstream(file_) << text;
     return read_markups(file_, notes_);
@@ -37,7 +36,8 @@ class MarkupsFile : public ::testing::Test {
     return "";
   }
 
-  fs::path file_ = fs::path(::testing::TempDir()) / "joint stifle femur tibia.mrk.json";
+  testing::TemporaryFolder folder_;
+  fs::path file_ = folder_.path() / "joint stifle femur tibia.mrk.json";
   std::vector<std::string> notes_;
 };
 

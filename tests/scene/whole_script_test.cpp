@@ -1,8 +1,9 @@
-// The shipped scenes' own scripts from beginning to end: presses, strokes and full co-contraction fold no point of any
-// muscle over.
+// The shipped scenes' own scripts from beginning to end, and with joints free that the scenes lock: presses, strokes
+// and full co-contraction fold no point of any muscle over.
 
 #include <algorithm>
 #include <cstdio>
+#include <ostream>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -14,10 +15,21 @@
 namespace myotact::scene {
 namespace {
 
-class WholeScript : public ::testing::TestWithParam<std::string> {};
+struct Played {
+  std::string scene, free_joint = {};  // that the scene locks
+};
+
+void PrintTo(const Played& played, std::ostream* out) {
+  *out << played.scene << played.free_joint;
+}
+
+class WholeScript : public ::testing::TestWithParam<Played> {};
 
 TEST_P(WholeScript, NoPointIsPressedBelowAFifthOfItsVolume) {
-  const Scene scene = load_scene(GetParam());
+  const auto& [name, free_joint] = GetParam();
+  Overrides changes;
+  if (!free_joint.empty()) changes["joints." + free_joint + ".locked"] = "false";
+  const Scene scene = load_scene(name, changes);
   ASSERT_FALSE(scene.script.empty());
   simulation::Simulation simulation(scene.specimen, scene.settings);
   SampleTable samples(scene.specimen, hands_of(scene), 1'000'000);
@@ -33,8 +45,10 @@ TEST_P(WholeScript, NoPointIsPressedBelowAFifthOfItsVolume) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, WholeScript,
-                         ::testing::Values("elbow", "stifle", "hock", "forelimb", "hindlimb", "bimanual"),
-                         [](const auto& scene) { return scene.param; });
+                         ::testing::Values(Played{"elbow"}, Played{"stifle"}, Played{"hock"}, Played{"forelimb"},
+                                           Played{"hindlimb"}, Played{"bimanual"}, Played{"forelimb", "shoulder"},
+                                           Played{"forelimb", "carpus"}, Played{"hindlimb", "hip"}),
+                         [](const auto& played) { return played.param.scene + played.param.free_joint; });
 
 }  // namespace
 }  // namespace myotact::scene
