@@ -48,8 +48,8 @@ struct Limb {
   int rows;  // of its sheet: its own pose, and two a joint
 };
 
-void PrintTo(const Limb& limb, std::ostream* out) {
-  *out << limb.scene;
+std::ostream& operator<<(std::ostream& out, const Limb& limb) {
+  return out << limb.scene;
 }
 
 class LimbPictures : public ::testing::TestWithParam<Limb> {};

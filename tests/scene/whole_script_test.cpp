@@ -19,8 +19,8 @@ struct Played {
   std::string scene, free_joint = {};  // that the scene locks
 };
 
-void PrintTo(const Played& played, std::ostream* out) {
-  *out << played.scene << played.free_joint;
+std::ostream& operator<<(std::ostream& out, const Played& played) {
+  return out << played.scene << played.free_joint;
 }
 
 class WholeScript : public ::testing::TestWithParam<Played> {};

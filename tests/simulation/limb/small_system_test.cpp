@@ -161,6 +161,22 @@ TEST(SmallSystem, JointsAndSpringsMoveAsInTheWholeSystem) {
   }
 }
 
+/// How the point of spring `own` yields, with the springs of all tools but its own.
+Mat3 dense_compliance_m_N(const DenseStep& dense, const Limb& limb, std::size_t own, bool locked) {
+  Eigen::MatrixXd matrix = dense.matrix;
+  for (std::size_t s = 0; s < limb.springs.size(); ++s) {
+    if (limb.springs[s].tool == limb.springs[own].tool) continue;
+    matrix += limb.springs[s].stiffness_N_m * dense.slopes[s].transpose() * dense.slopes[s];
+  }
+  Eigen::Matrix3Xd slope = dense.slopes[own];
+  if (locked) {  // no torque turns it
+    matrix.row(dense.joint).setZero(), matrix.col(dense.joint).setZero();
+    matrix(dense.joint, dense.joint) = 1.0;
+    slope.col(dense.joint).setZero();
+  }
+  return slope * matrix.partialPivLu().solve(slope.transpose());
+}
+
 /// A hand feels the tissue with what the other hands do to it, and without its own springs.
 TEST(SmallSystem, ComplianceIsThatOfTheWholeSystemWithoutTheToolsOwnSprings) {
   for (const unsigned seed : {104U, 105U}) {
@@ -175,18 +191,7 @@ TEST(SmallSystem, ComplianceIsThatOfTheWholeSystemWithoutTheToolsOwnSprings) {
       ASSERT_TRUE(eliminate_all(limb, load, small));
       const DenseStep dense = dense_step(same, limb, load);
       for (std::size_t own = 0; own < same.springs.size(); ++own) {
-        Eigen::MatrixXd matrix = dense.matrix;
-        for (std::size_t s = 0; s < same.springs.size(); ++s) {
-          if (same.springs[s].tool == same.springs[own].tool) continue;
-          matrix += same.springs[s].stiffness_N_m * dense.slopes[s].transpose() * dense.slopes[s];
-        }
-        if (locked) {  // no torque turns it
-          matrix.row(dense.joint).setZero(), matrix.col(dense.joint).setZero();
-          matrix(dense.joint, dense.joint) = 1.0;
-        }
-        Eigen::Matrix3Xd slope = dense.slopes[own];
-        if (locked) slope.col(dense.joint).setZero();
-        const Mat3 expected_m_N = slope * matrix.partialPivLu().solve(slope.transpose());
+        const Mat3 expected_m_N = dense_compliance_m_N(dense, same, own, locked);
         EXPECT_LT((limb.spring_compliance_m_N[own] - expected_m_N).norm(), kEliminated * expected_m_N.norm() + 1e-12)
             << own << (locked ? " locked" : " free");
       }
