@@ -45,7 +45,8 @@ double largest_difference(const std::string& a, const std::string& b, int width_
 
 struct Limb {
   std::string scene;
-  int rows;  // of its sheet: its own pose, and two a joint
+  int rows;             // of its sheet: its own pose, and two a joint
+  int carpus_row = -1;  // where the two of the carpus begin, if it has one
 };
 
 std::ostream& operator<<(std::ostream& out, const Limb& limb) {
@@ -55,7 +56,7 @@ std::ostream& operator<<(std::ostream& out, const Limb& limb) {
 class LimbPictures : public ::testing::TestWithParam<Limb> {};
 
 TEST_P(LimbPictures, LookAsKept) {
-  const auto& [scene, rows] = GetParam();
+  const auto& [scene, rows, carpus_row] = GetParam();
   TemporaryFolder folder;
   const std::string sheet = (folder.path() / "sheet.png").string();
   const Outcome outcome = run_program(fmt::format(
@@ -75,16 +76,17 @@ TEST_P(LimbPictures, LookAsKept) {
   const double difference = largest_difference(now, kept, 4 * kWidth_px, rows * kHeight_px);
   fmt::print("{}: largest difference {:.4f}\n", scene, difference);
   EXPECT_LT(difference, kTolerance);
-  // Of every joint's two ends none looks like the other; of the carpus', which moves a paw, they differ by 0.15.
+  // Of every joint's two ends none looks like the other. The carpus moves no more than a paw: its ends differ by 0.15.
   for (int row = 1; row < rows; row += 2) {
     const auto cut = [&](int r) {
       return fmt::format("\\( {} -crop {}x{}+0+{} +repage \\)", kept, 4 * kWidth_px, kHeight_px, r * kHeight_px);
     };
-    EXPECT_GT(largest_difference(cut(row), cut(row + 1), 4 * kWidth_px, kHeight_px), 2.0 * kTolerance) << row;
+    const double least = row == carpus_row ? 2.0 * kTolerance : 3.0 * kTolerance;
+    EXPECT_GT(largest_difference(cut(row), cut(row + 1), 4 * kWidth_px, kHeight_px), least) << row;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Limbs, LimbPictures, ::testing::Values(Limb{"forelimb", 7}, Limb{"hindlimb", 7}),
+INSTANTIATE_TEST_SUITE_P(Limbs, LimbPictures, ::testing::Values(Limb{"forelimb", 7, 5}, Limb{"hindlimb", 7}),
                          [](const auto& limb) { return limb.param.scene; });
 
 }  // namespace

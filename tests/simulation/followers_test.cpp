@@ -25,7 +25,7 @@ constexpr double kAllowed_m = 2e-3;
 /// Muscles that are worse, and how far. What is clamped to a patella, which rides on the crus here and not on the
 /// femur, and touches the femur cannot have both; digital tendons that lie on a bone at either side of a joint leave
 /// one of them by a tendon's thickness at its full flexion. Hamstring and adductor are pressed on the pelvis where the
-/// hip is at an end of its range.
+/// hip is at an end of its range, triceps on the scapula where the shoulder is.
 const std::map<std::string, double> kExceptions_m = {{"vastus_lateralis", 4e-3},
                                                      {"vastus_intermedius", 3e-3},
                                                      {"sartorius_cranial", 2.5e-3},
