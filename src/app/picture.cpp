@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <spdlog/spdlog.h>
+
 #include "view/look/limb_bounds.h"
 #include "view/look/part.h"
 #include "view/look/start_view.h"
@@ -123,7 +125,10 @@ void write_sheet(const scene::Scene& scene, const std::vector<std::string>& show
   simulation::Simulation simulation(scene.specimen, scene.settings);
   std::vector<messages::SceneFrame> rows;
   for (const std::vector<double>& angles_rad : poses_of_sheet(scene)) {
-    simulation.settle(angles_rad, {});
+    if (!simulation.settle(angles_rad, {})) {
+      spdlog::warn("{}: muscles do not come to rest in the pose of row {}; it shows how far they came", path.string(),
+                   rows.size() + 1);
+    }
     simulation.write_frame(rows.emplace_back());
   }
   const std::vector<std::string> sides{"cranial", "caudal", "lateral", "medial"};

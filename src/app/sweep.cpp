@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iostream>
+#include <string>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -61,6 +62,13 @@ int join_points(const Options& options, const measure::SweepPlan& plan, bool all
   return static_cast<int>(failed > 0 ? ExitStatus::CheckFailed : ExitStatus::Done);
 }
 
+/// In the unit that suits it.
+std::string time_text(double time_s) {
+  constexpr double kMinute_s = 60.0, kHour_s = 3600.0;
+  if (time_s < kMinute_s) return fmt::format("{:.1f} s", time_s);
+  return time_s < kHour_s ? fmt::format("{:.1f} min", time_s / kMinute_s) : fmt::format("{:.1f} h", time_s / kHour_s);
+}
+
 /// Counts, and measures three points here.
 int print_plan(const Options& options, const measure::SweepPlan& plan) {
   const auto points = measure::sweep_points(plan);
@@ -77,8 +85,8 @@ int print_plan(const Options& options, const measure::SweepPlan& plan) {
   std::cout << fmt::format("{} points, {:.2f} s a point here ({} points measured, {} workers each)\n", points.size(),
                            point_s, measured, options.workers);
   for (const int jobs : {1, 8, 64, 256}) {
-    std::cout << fmt::format("{:>4} jobs at once: {:.2f} h\n", jobs,
-                             point_s * std::ceil(static_cast<double>(points.size()) / jobs) / 3600.0);
+    std::cout << fmt::format("{:>4} jobs at once: {}\n", jobs,
+                             time_text(point_s * std::ceil(static_cast<double>(points.size()) / jobs)));
   }
   return static_cast<int>(ExitStatus::Done);
 }
