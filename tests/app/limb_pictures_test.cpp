@@ -21,7 +21,8 @@ namespace {
 /// Of the scale from 0 to 1, mean over the worst block of the sheet. Renderers differ along edges and in shades by some
 /// hundredths there; a muscle that comes off, or hides another, makes tenths.
 constexpr double kTolerance = 0.06;
-/// A limb cut from a volume of a millimetre against the one from full surfaces: 0.09 where thin tendons cross the paw.
+/// A limb cut from a volume of a millimetre against the one from full surfaces: 0.09 at subscapularis from medial, and
+/// behind the thigh.
 constexpr double kLikeFull = 0.12;
 constexpr int kBlock_px = 8;
 /// Of the sheet's pictures, as kept [px].

@@ -25,7 +25,7 @@ using testing::press_tool, testing::skin_centre_m, testing::skin_triangle_near;
 constexpr int kRest = 20, kPress = 80, kHold = 140, kFlexed = 290, kEnd = 540;  // steps at which each part ends
 constexpr double kDepth_m = 3e-3, kCoupling_N_m = 800.0, kTorque_Nm = 0.06;
 
-/// As in the scene.
+/// As in the scene `forelimb`.
 const std::vector<std::string> kRigid = {
     "extensor_carpi_ulnaris",          "pronator_quadratus", "fore.flexor_digitorum_superficialis",
     "fore.flexor_digitorum_profundus", "rhomboideus",        "fore.extensor_digitorum_lateralis"};
