@@ -18,7 +18,7 @@ struct ToolContact {
   double stiffness_N_m = 0.0;  // of the coupling spring, isotropic; 0: no contact
 };
 
-/// Surfaces besides the first that the tool's sphere may rest on at once.
+/// Places besides the first that the tool's sphere may rest on at once.
 inline constexpr int kMaxContactsBeside = 3;
 
 /// What the haptic loop hands to the simulation, newest wins. The simulation adds the springs implicitly to its solve.
@@ -30,9 +30,9 @@ struct ToolState {
   std::array<double, 3> proxy_position_world_m{};  // never inside a surface
   std::array<double, 3> force_world_N{};           // force on the hand, after the gate
   ToolContact contact{};                           // that which carries most
-  /// Of other surfaces as near, one each, nearest first: they bear the coupling spring of `contact` with it, and each
-  /// holds only while it presses. Their third barycentric coordinate is 1 - first - second, to the last bit. Stiffness
-  /// 0: none.
+  /// Of other surfaces as near, one each, and of another side of the touched one where that is creased; nearest first:
+  /// they bear the coupling spring of `contact` with it, and each holds only while it presses. Their third barycentric
+  /// coordinate is 1 - first - second, to the last bit. Stiffness 0: none.
   std::array<ToolContact, kMaxContactsBeside> beside{};
   std::uint32_t buttons = 0;
   std::uint32_t faults = 0;                     // haptics::Fault bits of the last window

@@ -143,6 +143,46 @@ TEST(SeveralSurfaces, NoneIsEverEntered) {
   EXPECT_GT(nearest_m, 0.5e-3);
 }
 
+/// Where the sphere comes to rest when the hand stays there.
+ProxyContact rest_at(const geometry::TriangleMesh& mesh, double radius_m, const Vec3& hand_m) {
+  ContactSettings settings;
+  settings.radius_m = radius_m;
+  Proxy proxy(settings);
+  MovingSurface surface;
+  auto model = std::make_unique<messages::LocalModel>();
+  write_patch(mesh, mesh.positions_m, mesh.positions_m, hand_m, *model);
+  proxy.follow(hand_m + Vec3(0.0, 0.0, 0.01));
+  for (int tick = 0; tick < 200; ++tick) {
+    surface.begin_tick(*model, static_cast<std::uint64_t>(tick + 1) * kTick_ns, tick == 0);
+    proxy.tick(surface, *model, {hand_m + Vec3(0.0, 0.0, 1e-4 * std::max(0, 100 - tick)), Vec3::Zero()}, 1e-3);
+  }
+  return proxy.contact();
+}
+
+/// One surface with a crease, as a muscle that is dented deep: both sides of it bear the sphere. A round one has none.
+TEST(SeveralSurfaces, AnotherSideOfTheSameSurfaceIsToldToo) {
+  constexpr double kBall_m = 0.02, kHalfApart_m = 0.008, kRadius_m = 1.5e-3;
+  const geometry::TriangleMesh ball = geometry::make_ball(kBall_m, 4);
+  Room creased;
+  creased.add(ball);
+  creased.add(ball);
+  for (std::size_t i = 0; i < creased.mesh.positions_m.size(); ++i)
+    creased.mesh.positions_m[i].x() += i < ball.positions_m.size() ? -kHalfApart_m : kHalfApart_m;
+  const double rest_m = std::sqrt(std::pow(kBall_m + kRadius_m, 2) - std::pow(kHalfApart_m, 2));
+
+  const ProxyContact between = rest_at(creased.mesh, kRadius_m, {1e-4, 0.0, rest_m - 2e-3});
+  ASSERT_TRUE(between.active);
+  ASSERT_EQ(between.beside[0].surface, between.surface);
+  EXPECT_LT(between.beside[0].point_m.x() * between.point_m.x(), 0.0);
+  EXPECT_LT(between.beside[0].gap_m, 1e-5);
+  EXPECT_NEAR(std::abs(between.beside[0].normal.x()), kHalfApart_m / (kBall_m + kRadius_m), 0.02);
+  EXPECT_EQ(between.beside[1].surface, -1);
+
+  const ProxyContact alone = rest_at(ball, kRadius_m, {1e-4, 0.0, kBall_m + kRadius_m - 2e-3});
+  ASSERT_TRUE(alone.active);
+  EXPECT_EQ(alone.beside[0].surface, -1);
+}
+
 /// Two balls side by side, two surfaces: the sphere rests where it touches both, whichever way the hand moves below.
 /// With the planes of the touched ball alone it was up to 0.39 mm off and stopped short in 36 ticks.
 TEST(SeveralSurfaces, BetweenTwoItIsWhereBothHoldIt) {

@@ -1,7 +1,10 @@
 // One sphere that rests on two muscles: what they bear together, how they share it, and what only pulls.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -134,6 +137,25 @@ TEST(TwoPoints, TheFirstMayBeTheOneThatOnlyPulls) {
   EXPECT_LT((alone.force_N() - beside.force_N()).norm(), 1e-9);
   EXPECT_EQ(beside.surface(), 1) << "what is let go of bears nothing";
   EXPECT_EQ(alone.surface(), 1);
+}
+
+/// A hand that jumps by up to 3 mm a step, over one place or the other: whatever a first tangent said, what the sphere
+/// is not allowed to press on in the end it does not lie in.
+TEST(TwoPoints, NoneIsLeftInsideTheSphere) {
+  SphereOnTwo limb;
+  std::mt19937 random(30);
+  std::uniform_real_distribution<double> depth_m(-1e-3, 2e-3);
+  double deepest_m = 0.0;
+  for (int step = 0; step < 300; ++step) {
+    const std::array<double, 2> depths_m = {depth_m(random), depth_m(random)};
+    limb.press(0, depths_m[0], depths_m[1]);
+    for (const int m : {0, 1}) {
+      const double sphere_z_m = sphere_m(depths_m[static_cast<std::size_t>(m)], limb.force_N()).z();
+      deepest_m = std::max(deepest_m, limb.moved_m(m).z() - sphere_z_m);
+    }
+  }
+  std::printf("deepest in the sphere: %.3f mm\n", 1e3 * deepest_m);
+  EXPECT_LT(deepest_m, 0.1e-3);  // the seats of one sphere give way by 3 % of 2 mm
 }
 
 }  // namespace

@@ -75,9 +75,10 @@ void ProxyTouch::report(const Vec3& force_N, double share, messages::ToolState& 
   tool.proxy_position_world_m = to_array(proxy_.position_m() + tissue_shift_m);
   const ProxyContact& contact = proxy_.contact();
   if (!contact.active || !(share > 0.0)) return;
-  // What the simulation said is of one surface; another one, bone perhaps, is not known to give way.
+  // What the simulation said is of one surface; a sphere on another one, bone perhaps, is not known to give way.
   const bool is_known = contact.surface == compliance_.surface();
-  const Vec3 touched_m = is_known ? Vec3(contact.point_m + tissue_shift_m) : contact.point_m;
+  const Vec3 shift_m = is_known ? tissue_shift_m : Vec3(Vec3::Zero());
+  const Vec3 touched_m = contact.point_m + shift_m;
   const double stiffness_N_m = compliance_.coupling_stiffness_N_m();
   tool.contact = {contact.surface,
                   contact.triangle,
@@ -87,7 +88,7 @@ void ProxyTouch::report(const Vec3& force_N, double share, messages::ToolState& 
                   stiffness_N_m};
   tool.touched_world_m = to_array(touched_m);
   // The same spring pulls those beside, as soon as the sphere that it pulls comes to lie on them: from where the sphere
-  // is, or the seats of one sphere would pull against each other.
+  // is, with the same shift, or the seats of one sphere would pull against each other.
   for (std::size_t i = 0; i < contact.beside.size(); ++i) {
     const ProxyNeighbour& near = contact.beside[i];
     if (near.surface < 0) break;
@@ -95,7 +96,7 @@ void ProxyTouch::report(const Vec3& force_N, double share, messages::ToolState& 
                       near.triangle,
                       {near.barycentric[0], near.barycentric[1], 1.0 - near.barycentric[0] - near.barycentric[1]},
                       to_array(near.normal),
-                      to_array(near.point_m + tissue_shift_m + near.gap_m * near.normal - force_N / stiffness_N_m),
+                      to_array(near.point_m + shift_m + near.gap_m * near.normal - force_N / stiffness_N_m),
                       stiffness_N_m};
   }
 }

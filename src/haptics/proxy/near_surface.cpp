@@ -13,6 +13,14 @@ namespace {
 constexpr double kSamePoint_m = 1e-9;
 /// Of the radius: spheres grown by more leave out too little and are computed anew (2 us).
 constexpr double kMostGrowth = 0.25;
+/// A muscle that is dented deep folds round the sphere. Two places of one surface count as two contacts when they are
+/// seen at more than 30 degrees from each other (cosine): at less, one bears what both would.
+constexpr double kOtherSide = 0.866;
+/// Cosine of 18 degrees between a triangle and the way to its nearest point. On a smooth surface next to the touched
+/// point that one lies on the rim, and the angle is as large as the other.
+constexpr double kOnItsFace = 0.951;
+/// Cosine of 12 degrees, the difference: triangles that are turned by less are neither.
+constexpr double kNearlyOtherSide = 0.978;
 
 }  // namespace
 
@@ -146,17 +154,33 @@ Vec3 NearSurface::allowed(const Vec3& from_m, const Vec3& wanted_m) noexcept {
   return move_m;
 }
 
-int NearSurface::nearest_beside(const Vec3& p_m, std::int32_t surface, double reach_m,
+/// A foot on the triangle's own face, not on its rim next to the touched point, and on another side than that.
+bool NearSurface::is_another_side(const Vec3& to_centre, const Vec3& outward, int local) const noexcept {
+  return to_centre.dot(outward) < kOtherSide && to_centre.dot(surface_->frame_W(local, 1.0).col(2)) > kOnItsFace;
+}
+
+/// Without its nearest point: whether a foot on the triangle's face could lie on another side than one seen along
+/// `outward`. On a smooth surface next to none may, and so next to none costs more than this.
+bool NearSurface::may_be_another_side(int local, const Vec3& outward) const noexcept {
+  const Vec3 a = surface_->corner_m(local, 0, 1.0);
+  const Vec3 across = (surface_->corner_m(local, 1, 1.0) - a).cross(surface_->corner_m(local, 2, 1.0) - a);
+  return across.dot(outward) < kNearlyOtherSide * across.norm();
+}
+
+int NearSurface::nearest_beside(const Vec3& p_m, std::int32_t surface, const Vec3& outward, double reach_m,
                                 std::span<NearestPoint> found) const noexcept {
   const auto surface_of = [&](const NearestPoint& point) { return surface_->triangle(point.local).surface; };
   const auto is_nearer = [](const NearestPoint& a, const NearestPoint& b) { return a.distance_m < b.distance_m; };
   std::size_t count = 0;
   for (int i = 0; i < surface_->triangle_count(); ++i) {
     const double far_m = sphere(i).radius_m + reach_m + moved_m_;
-    if (surface_->triangle(i).surface == surface || (sphere(i).centre_m - p_m).squaredNorm() > far_m * far_m) continue;
+    if ((sphere(i).centre_m - p_m).squaredNorm() > far_m * far_m) continue;
+    const bool is_touched = surface_->triangle(i).surface == surface;
+    if (is_touched && !may_be_another_side(i, outward)) continue;
     const geometry::TrianglePoint nearest = surface_->closest_point(p_m, i, 1.0);
     const NearestPoint point{i, (p_m - nearest.position_m).norm(), nearest.position_m, nearest.barycentric};
     if (!(point.distance_m > 0.0 && point.distance_m <= reach_m)) continue;
+    if (is_touched && !is_another_side((p_m - nearest.position_m) / point.distance_m, outward, i)) continue;
     const auto known = found.first(count);
     auto place = std::find_if(known.begin(), known.end(),
                               [&](const NearestPoint& other) { return surface_of(other) == surface_of(point); });

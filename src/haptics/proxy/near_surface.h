@@ -51,9 +51,10 @@ class NearSurface {
   /// The part of a straight move from `from_m` along which all triangles are known. Uses up the way allowed.
   Vec3 allowed(const Vec3& from_m, const Vec3& move_m) noexcept;
 
-  /// The points of the other surfaces that are nearest to `p_m` at the end of the tick, one each within `reach_m`,
-  /// nearest first. Returns how many; as many as there is room for.
-  int nearest_beside(const Vec3& p_m, std::int32_t surface, double reach_m,
+  /// The points besides the touched one that are nearest to `p_m` at the end of the tick, within `reach_m`: one of each
+  /// other surface, and one of another side of `surface`, the touched one, where that is creased; `outward`, unit, from
+  /// the touched point to `p_m`. Nearest first. Returns how many; as many as there is room for.
+  int nearest_beside(const Vec3& p_m, std::int32_t surface, const Vec3& outward, double reach_m,
                      std::span<NearestPoint> found) const noexcept;
 
   double clearance_m() const noexcept { return clearance_m_; }
@@ -81,6 +82,8 @@ class NearSurface {
   Sphere enclosed(int local) const noexcept;
   const Sphere& sphere(int local) const noexcept { return spheres_[static_cast<std::size_t>(local)]; }
   void drop_far_candidates() noexcept;
+  bool may_be_another_side(int local, const Vec3& outward) const noexcept;
+  bool is_another_side(const Vec3& to_centre, const Vec3& outward, int local) const noexcept;
   Projection project_at(const Vec3& goal_m, double radius_m) noexcept;
 
   static constexpr std::size_t kMost = messages::kMaxLocalTriangles;

@@ -67,7 +67,8 @@ Vec3 Proxy::seat_motion_m(const Projection& held, const MovingSurface& surface,
 
 void Proxy::settle_beside(const MovingSurface& surface) noexcept {
   std::array<NearestPoint, messages::kMaxContactsBeside> found;
-  const int count = near_.nearest_beside(p_m_, contact_.surface, settings_.radius_m + kBeside_m, found);
+  const Vec3 outward = (p_m_ - contact_.point_m).normalized();
+  const int count = near_.nearest_beside(p_m_, contact_.surface, outward, settings_.radius_m + kBeside_m, found);
   contact_.beside = {};
   for (int i = 0; i < count; ++i) {
     const NearestPoint& point = found[at(i)];

@@ -29,7 +29,7 @@ struct ToolSpring {
   Vec3 target_W_m = Vec3::Zero();   // the spring's end in the world
   double stiffness_N_m = 0.0;       // > 0, no rest length
   Vec3 normal_W = Vec3::Zero();     // of a contact: out of the tissue
-  bool open = false;                // of a contact: found to pull in this step, and so without force
+  bool open = false;                // of a contact: found to pull in this Newton step, and so without force
   bool ahead = false;               // no contact yet, of the surface next to the tool: its force is next to nothing
 };
 
@@ -78,6 +78,7 @@ struct LimbMuscle {
   Eigen::VectorXd free_solution;       // matrix^-1 residual
   std::vector<Eigen::Index> unknowns;  // of the small system that enter its equations: joints, then its own springs
   Eigen::MatrixXd borders;             // free dofs x unknowns: how
+  bool borders_stale = false;          // a spring that was open may press again, which they leave out
   Eigen::MatrixXd border_solution;     // matrix^-1 borders
   Eigen::MatrixXd reduced;             // borders^T matrix^-1 borders
   Eigen::VectorXd reduced_residual;    // borders^T matrix^-1 residual

@@ -293,7 +293,9 @@ SmallSystem make_small_system(const Limb& limb, Joints joints) {
 }
 
 void eliminate(const Limb& limb, const SmallSystem& small, TissueLoad load, int index, LimbMuscle& muscle) {
-  if (muscle.balanced) {
+  if (muscle.balanced && muscle.borders_stale) {
+    take_solution(solve(muscle, right_sides(limb, small, index, muscle)), muscle);
+  } else if (muscle.balanced) {
     muscle.free_solution = solve(muscle, muscle.system.residual_N);
   } else if (muscle.kept_rule == load.rule) {
     solve_with_kept(limb, small, load, index, muscle);
@@ -301,8 +303,17 @@ void eliminate(const Limb& limb, const SmallSystem& small, TissueLoad load, int 
     factor_anew(limb, small, load, index, muscle);
     if (!muscle.sound) return;
   }
+  muscle.borders_stale = false;
   muscle.reduced_residual.noalias() = muscle.borders.transpose() * muscle.free_solution;
   muscle.sound = muscle.free_solution.allFinite() && muscle.reduced.allFinite();
+}
+
+void close_springs(Limb& limb) {
+  for (ToolSpring& spring : limb.springs) {
+    if (!spring.open) continue;
+    spring.open = false;
+    if (spring.muscle >= 0) limb.muscles[at(spring.muscle)].borders_stale = true;
+  }
 }
 
 bool open_pulling(Limb& limb, const Eigen::VectorXd& solution, const SmallSystem& small) {

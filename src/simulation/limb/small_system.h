@@ -35,6 +35,10 @@ void eliminate(const Limb& limb, const SmallSystem& small, TissueLoad load, int 
 /// step by `rule`; fills limb.loads.
 Eigen::VectorXd skeleton_residual(Limb& limb, const TimeRule& rule);
 
+/// Lets every contact press again, before the next system is made: one that pulled by a first tangent may press by the
+/// next, and would else be passed through until the step ends.
+void close_springs(Limb& limb);
+
 /// Opens, where several points hold a sphere, the spring that pulls hardest at what it should press, by the forces of
 /// this solution. True when there was one: then the system has to be added up anew.
 bool open_pulling(Limb& limb, const Eigen::VectorXd& solution, const SmallSystem& small);

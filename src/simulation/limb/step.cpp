@@ -243,6 +243,7 @@ std::vector<int> longest_first(const Limb& limb, const TimeRule& rule) {
 
 Iteration newton_step(Limb& limb, const Task& task, WorkerPool& workers, int& definite_solves) {
   const TissueLoad& load = task.load;
+  close_springs(limb);
   SmallSystem small = make_small_system(limb, task.joints);
   const std::vector<int> order = longest_first(limb, load.rule);
   workers.run(static_cast<int>(order.size()), [&](int k) {
@@ -314,7 +315,6 @@ StepReport advance(Limb& limb, const StepInput& input, WorkerPool& workers) {
   TissueLoad load;
   load.rule = input.second_order_in_time ? second_order(input.dt_s) : backward_euler(input.dt_s);
   load.gravity_m_s2 = limb.gravity_m_s2;
-  for (ToolSpring& spring : limb.springs) spring.open = false;
   limb.spring_force_N.assign(limb.springs.size(), Vec3::Zero());
   limb.spring_compliance_m_N.assign(limb.springs.size(), Mat3::Zero());
   follow_angles(limb);

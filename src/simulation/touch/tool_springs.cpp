@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "core/at.h"
 #include "simulation/line/line_model.h"
@@ -109,16 +112,20 @@ std::optional<ToolSpring> body_spring(const messages::ToolState& tool, const ana
 }
 
 /// The springs of one tool's contacts: of a sphere that they hold together, by one coupling, which is soft enough that
-/// none of them pulls harder than a hand. Each surface counts once; nothing lies beside no contact.
+/// none of them pulls harder than a hand. Each triangle counts once; nothing lies beside no contact.
 std::vector<ToolSpring> contact_springs(const messages::ToolState& tool, const TouchableParts& parts,
                                         const Limb& limb) {
   const std::optional<ToolSpring> first = contact_spring(tool.contact, parts);
   if (!first) return {};
+  const auto place_of = [](const messages::ToolContact& contact) {
+    return std::pair(contact.surface, contact.triangle);
+  };
+  std::vector<std::pair<std::int32_t, std::int32_t>> taken = {place_of(tool.contact)};
   std::vector<ToolSpring> springs = {bounded(*first, limb)};
   for (const messages::ToolContact& beside : tool.beside) {
     std::optional<ToolSpring> spring = contact_spring(beside, parts);
-    const auto is_same = [&](const ToolSpring& other) { return other.surface == spring->surface; };
-    if (!spring || std::any_of(springs.begin(), springs.end(), is_same)) continue;
+    if (!spring || std::find(taken.begin(), taken.end(), place_of(beside)) != taken.end()) continue;
+    taken.push_back(place_of(beside));
     spring->stiffness_N_m = first->stiffness_N_m;
     springs.push_back(bounded(*spring, limb));
   }
