@@ -16,11 +16,18 @@ constexpr double kMostGrowth = 0.25;
 /// A muscle that is dented deep folds round the sphere. Two places of one surface count as two contacts when they are
 /// seen at more than 30 degrees from each other (cosine): at less, one bears what both would.
 constexpr double kOtherSide = 0.866;
-/// Cosine of 18 degrees between a triangle and the way to its nearest point. On a smooth surface next to the touched
-/// point that one lies on the rim, and the angle is as large as the other.
+/// Cosine of 18 degrees between a triangle's normal and the way from its nearest point to the sphere. On a smooth
+/// surface next to the touched point that one lies on the rim, and the angle is as large as the one above.
 constexpr double kOnItsFace = 0.951;
-/// Cosine of 12 degrees, the difference: triangles that are turned by less are neither.
-constexpr double kNearlyOtherSide = 0.978;
+/// Cosine of 12 degrees, the difference of the two: a triangle turned by less than that from the touched place is on
+/// the same side, wherever its nearest point is.
+constexpr double kSameSide = 0.978;
+
+/// Out of the tissue, at the end of the tick; zero for a triangle without area.
+Vec3 face_normal_W(const MovingSurface& surface, int local) {
+  const Vec3 a = surface.corner_m(local, 0, 1.0);
+  return (surface.corner_m(local, 1, 1.0) - a).cross(surface.corner_m(local, 2, 1.0) - a).normalized();
+}
 
 }  // namespace
 
@@ -154,19 +161,6 @@ Vec3 NearSurface::allowed(const Vec3& from_m, const Vec3& wanted_m) noexcept {
   return move_m;
 }
 
-/// A foot on the triangle's own face, not on its rim next to the touched point, and on another side than that.
-bool NearSurface::is_another_side(const Vec3& to_centre, const Vec3& outward, int local) const noexcept {
-  return to_centre.dot(outward) < kOtherSide && to_centre.dot(surface_->frame_W(local, 1.0).col(2)) > kOnItsFace;
-}
-
-/// Without its nearest point: whether a foot on the triangle's face could lie on another side than one seen along
-/// `outward`. On a smooth surface next to none may, and so next to none costs more than this.
-bool NearSurface::may_be_another_side(int local, const Vec3& outward) const noexcept {
-  const Vec3 a = surface_->corner_m(local, 0, 1.0);
-  const Vec3 across = (surface_->corner_m(local, 1, 1.0) - a).cross(surface_->corner_m(local, 2, 1.0) - a);
-  return across.dot(outward) < kNearlyOtherSide * across.norm();
-}
-
 int NearSurface::nearest_beside(const Vec3& p_m, std::int32_t surface, const Vec3& outward, double reach_m,
                                 std::span<NearestPoint> found) const noexcept {
   const auto surface_of = [&](const NearestPoint& point) { return surface_->triangle(point.local).surface; };
@@ -176,11 +170,13 @@ int NearSurface::nearest_beside(const Vec3& p_m, std::int32_t surface, const Vec
     const double far_m = sphere(i).radius_m + reach_m + moved_m_;
     if ((sphere(i).centre_m - p_m).squaredNorm() > far_m * far_m) continue;
     const bool is_touched = surface_->triangle(i).surface == surface;
-    if (is_touched && !may_be_another_side(i, outward)) continue;
+    const Vec3 face = is_touched ? face_normal_W(*surface_, i) : Vec3(Vec3::Zero());
+    if (is_touched && face.dot(outward) > kSameSide) continue;
     const geometry::TrianglePoint nearest = surface_->closest_point(p_m, i, 1.0);
     const NearestPoint point{i, (p_m - nearest.position_m).norm(), nearest.position_m, nearest.barycentric};
     if (!(point.distance_m > 0.0 && point.distance_m <= reach_m)) continue;
-    if (is_touched && !is_another_side((p_m - nearest.position_m) / point.distance_m, outward, i)) continue;
+    const Vec3 to_centre = (p_m - nearest.position_m) / point.distance_m;
+    if (is_touched && (to_centre.dot(outward) > kOtherSide || to_centre.dot(face) < kOnItsFace)) continue;
     const auto known = found.first(count);
     auto place = std::find_if(known.begin(), known.end(),
                               [&](const NearestPoint& other) { return surface_of(other) == surface_of(point); });

@@ -82,8 +82,6 @@ class NearSurface {
   Sphere enclosed(int local) const noexcept;
   const Sphere& sphere(int local) const noexcept { return spheres_[static_cast<std::size_t>(local)]; }
   void drop_far_candidates() noexcept;
-  bool may_be_another_side(int local, const Vec3& outward) const noexcept;
-  bool is_another_side(const Vec3& to_centre, const Vec3& outward, int local) const noexcept;
   Projection project_at(const Vec3& goal_m, double radius_m) noexcept;
 
   static constexpr std::size_t kMost = messages::kMaxLocalTriangles;
