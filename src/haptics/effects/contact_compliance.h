@@ -22,6 +22,8 @@ namespace myotact::haptics {
 /// A is what the device has to render, K is what hides the tissue: A is made no stiffer than the device supports now,
 /// and K as stiff as that allows (1/K = 1/A - c). Tissue whose one step is softer than the device's bound is therefore
 /// felt as it is, to K / kLargestCoupling_N_m; stiffer tissue and bone as that bound.
+/// K becomes softer at once and stiffer slowly (kStiffens_s): c and the room below vary from step to step, and would
+/// make the tissue's answer vary with them.
 ///
 /// A sphere that comes to lie on a second surface meets a bone perhaps. K falls to the device's bound on the last
 /// millimetre of the way there: were it to fall at the touch, the same force would need a hand 1 mm deeper from one
@@ -54,6 +56,8 @@ class ContactCompliance {
   const Vec3& unloaded_moved_m() const noexcept { return unloaded_moved_m_; }
   /// A: > 0, of the spring between the played surface and that place.
   double felt_stiffness_N_m() const noexcept;
+  /// Part of a slow motion of the hand that the touched tissue goes along with, c A: 0 where it is rigid, below 1.
+  double followed_share() const noexcept { return normal_m_N_ * felt_stiffness_N_m(); }
   /// K: > 0, of the spring between tissue and device, for the simulation.
   double coupling_stiffness_N_m() const noexcept;
   /// From the played surface to where the tissue is while the hand feels `on_hand_N` [m].
@@ -66,6 +70,7 @@ class ContactCompliance {
   std::int32_t surface_ = -1;           // that the compliance belongs to
   Mat3 compliance_m_N_ = Mat3::Zero();  // C
   double normal_m_N_ = 0.0;             // c
+  double sure_m_N_ = 0.0;               // what K counts on of it
   Mat3 given_m_N_ = Mat3::Zero();       // C where A leaves room for it
   Vec3 normal_ = Vec3::UnitZ();         // of the last touch, unit
   std::array<double, 9> model_rows_{};  // the last that a model said, and

@@ -184,6 +184,39 @@ TEST(ContactCompliance, LittleRoomBesideTheSphereSoftensTheCoupling) {
   }
 }
 
+// The other side of a dent is of the same tissue, whose compliance is known.
+TEST(ContactCompliance, TheOtherSideOfADentTakesNoRoom) {
+  Play play;
+  play.step(1.0, 1e-3);
+  play.tick(10);
+  const double alone_N_m = play.compliance.coupling_stiffness_N_m();
+  play.touching.beside[0].surface = play.touching.surface;
+  play.touching.beside[0].gap_m = 0.2e-3;
+  play.step(1.0, 1e-3);
+  play.tick(10);
+  EXPECT_NEAR(play.compliance.coupling_stiffness_N_m(), alone_N_m, 1e-9 * alone_N_m);
+}
+
+// The answer of tissue of 1 mm/N to a hand that holds still, told as 0.8 and 1 mm/N by turns, with a muscle beside it
+// that comes and goes by 0.2 mm: the force of a step is the hand's depth over 1/K + c.
+TEST(ContactCompliance, ACouplingThatWouldVaryFromStepToStepStaysSoft) {
+  constexpr double kTissue_m_N = 1e-3, kDepth_m = 2e-3;
+  Play play;
+  play.touching.beside[0].surface = 5;
+  double least_N = 1e9, most_N = 0.0;
+  for (int step = 0; step < 50; ++step) {
+    const bool even = step % 2 == 0;
+    play.touching.beside[0].gap_m = even ? 0.5e-3 : 0.7e-3;
+    play.step(1.0, even ? 0.8e-3 : 1e-3);
+    play.tick(10);
+    const double force_N = kDepth_m / (1.0 / play.compliance.coupling_stiffness_N_m() + kTissue_m_N);
+    if (step < 25) continue;  // it has come to rest
+    least_N = std::min(least_N, force_N);
+    most_N = std::max(most_N, force_N);
+  }
+  EXPECT_LT(most_N - least_N, 0.01 * most_N);
+}
+
 // The simulation tells of the surface next to the tool, too.
 TEST(ContactCompliance, ATouchThatWasForeseenIsAsSoftAsTheTissueFromItsFirstTick) {
   constexpr double kTissue_m_N = 5e-3;
