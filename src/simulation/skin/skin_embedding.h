@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -9,12 +10,14 @@
 
 namespace myotact::simulation {
 
-/// A point as a weighted sum of nodes of its tet: 4 for a linear mesh, 10 for a quadratic one. Weights sum to 1.
+/// A point as a weighted sum of nodes: of its tet, 4 for a linear mesh and 10 for a quadratic one, or of those around
+/// it (smooth_embedding.h). Weights sum to 1.
 struct NodeWeights {
-  int tet = -1;   // of the mesh
-  int count = 0;  // nodes in use
-  std::array<int, 10> nodes{};
-  std::array<double, 10> weights{};
+  static constexpr std::size_t kMostNodes = 30;  // a ball of five node spacings across, half of it outside
+  int tet = -1;                                  // of the mesh, that the point lies in or next to
+  int count = 0;                                 // nodes in use
+  std::array<int, kMostNodes> nodes{};
+  std::array<double, kMostNodes> weights{};
 };
 
 /// Shape values of a tet at barycentric coordinates (corners' order; any sign, sum 1): quadratic if the mesh is.
@@ -46,8 +49,8 @@ void update_skin(const SkinEmbedding& embedding, std::span<const Vec3> nodes_m, 
 /// A point of a skin triangle as a weighted sum of tet nodes, each node once. Weights sum to 1.
 struct MaterialPoint {
   int count = 0;  // nodes in use
-  std::array<int, 30> nodes{};
-  std::array<double, 30> weights{};
+  std::array<int, 3 * NodeWeights::kMostNodes> nodes{};
+  std::array<double, 3 * NodeWeights::kMostNodes> weights{};
 };
 
 /// `triangle`: its three skin vertices; `barycentric` of any sign, sum 1. Real-time safe.

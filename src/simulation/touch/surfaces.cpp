@@ -6,6 +6,7 @@
 #include "core/at.h"
 #include "simulation/muscle/touch_surface.h"
 #include "simulation/skin/skin_tissue.h"
+#include "simulation/skin/smooth_embedding.h"
 
 namespace myotact::simulation {
 namespace {
@@ -18,7 +19,10 @@ constexpr double kUnfelt_m = 0.5e-6;
 
 Surfaces::Surfaces(const anatomy::Specimen& specimen, const Limb& limb) : specimen_(specimen) {
   for (std::size_t m = 0; m < specimen.muscles.size(); ++m) {
-    skins_.push_back(embed_skin(specimen.muscles[m].skin, limb.muscles[m].tissue.mesh));
+    const geometry::TriangleMesh& skin = specimen.muscles[m].skin;
+    const geometry::TetMesh& tets = limb.muscles[m].tissue.mesh;
+    skins_.push_back(embed_skin(skin, tets));
+    if (!limb.muscles[m].rigid) smooth_embedding(skin, tets, skins_.back());  // others are fitted to bones as they are
   }
   const std::vector<const geometry::TriangleMesh*> surfaces = anatomy::touch_surfaces(specimen);
   for (const geometry::TriangleMesh* surface : surfaces) {
