@@ -31,6 +31,7 @@ class ProxyTouch {
   void report(const Vec3& force_N, double share, messages::ToolState& tool) const noexcept;
 
  private:
+  double lead_share() const noexcept;  // of a step, by which the surface is played ahead
   Vec3 force_N(const HandTick& hand, double share) noexcept;
   std::uint32_t new_faults() noexcept;
 
