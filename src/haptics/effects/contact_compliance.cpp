@@ -25,6 +25,9 @@ constexpr double kRoom_s = 0.01;
 /// from one step to the next under a still hand, near a second muscle or where tissue buckles; a coupling that followed
 /// at once made the force, and with it the dent, swing by 40 to 140 mN at 30 Hz.
 constexpr double kStiffens_s = 0.3;
+/// A touch is younger than this while the first steps tell of it [s], five at 62.5 Hz, one of them late: tissue that
+/// nobody foretold becomes as soft as it is at once.
+constexpr double kYoung_s = 0.1;
 
 /// Used in place of 0, so that nothing is divided by 0: a millionth of what any tissue has.
 constexpr double kLeastRoom_m_N = 1e-12;
@@ -124,8 +127,9 @@ void ContactCompliance::tick(const messages::LocalModel& model, const ProxyConta
   }
   const double share = share_of_tick(model, now_ns, dt_s);
   const double known_share = was_touching_ ? share : 1.0;  // what is not felt may change at once
-  const double stiffens_share = was_touching_ ? std::min(1.0, dt_s / kStiffens_s) : 1.0;
+  const double stiffens_share = touched_s_ < kYoung_s ? 1.0 : std::min(1.0, dt_s / kStiffens_s);
   was_touching_ = touching.active;
+  touched_s_ = touching.active ? touched_s_ + dt_s : 0.0;
   const double room = room_beside(touching);
   room_ += std::min(std::min(1.0, dt_s / kRoom_s), room > room_ ? stiffens_share : 1.0) * (room - room_);
   compliance_m_N_ += known_share * (compliance_m_N - compliance_m_N_);
@@ -150,6 +154,7 @@ void ContactCompliance::forget() noexcept {
   room_ = 1.0;
   used_N_ = unloaded_moved_m_ = Vec3::Zero();
   was_touching_ = false;
+  touched_s_ = 0.0;
 }
 
 double ContactCompliance::stiffest_N_m() const noexcept {

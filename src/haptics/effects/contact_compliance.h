@@ -22,8 +22,8 @@ namespace myotact::haptics {
 /// A is what the device has to render, K is what hides the tissue: A is made no stiffer than the device supports now,
 /// and K as stiff as that allows (1/K = 1/A - c). Tissue whose one step is softer than the device's bound is therefore
 /// felt as it is, to K / kLargestCoupling_N_m; stiffer tissue and bone as that bound.
-/// K becomes softer at once and stiffer slowly (kStiffens_s): c and the room below vary from step to step, and would
-/// make the tissue's answer vary with them.
+/// Once the tissue is known, K becomes softer at once and stiffer slowly (kStiffens_s): c and the room below vary from
+/// step to step, and would make the tissue's answer vary with them.
 ///
 /// A sphere that comes to lie on a second surface meets a bone perhaps. K falls to the device's bound on the last
 /// millimetre of the way there: were it to fall at the touch, the same force would need a hand 1 mm deeper from one
@@ -56,8 +56,9 @@ class ContactCompliance {
   const Vec3& unloaded_moved_m() const noexcept { return unloaded_moved_m_; }
   /// A: > 0, of the spring between the played surface and that place.
   double felt_stiffness_N_m() const noexcept;
-  /// Part of a slow motion of the hand that the touched tissue goes along with, c A: 0 where it is rigid, below 1.
-  double followed_share() const noexcept { return normal_m_N_ * felt_stiffness_N_m(); }
+  /// Part of a slow motion of the hand that the touched tissue would go along with on a coupling of 800 N/m, which most
+  /// devices can render: 0 where it is rigid, below 1.
+  double softness() const noexcept { return normal_m_N_ / (normal_m_N_ + 1.0 / 800.0); }
   /// K: > 0, of the spring between tissue and device, for the simulation.
   double coupling_stiffness_N_m() const noexcept;
   /// From the played surface to where the tissue is while the hand feels `on_hand_N` [m].
@@ -79,6 +80,7 @@ class ContactCompliance {
   Vec3 used_N_ = Vec3::Zero();          // force on the tissue that belongs to the played surface
   Vec3 unloaded_moved_m_ = Vec3::Zero();
   bool was_touching_ = false;  // in the last tick
+  double touched_s_ = 0.0;     // how long without a break
 };
 
 }  // namespace myotact::haptics

@@ -13,7 +13,7 @@ namespace myotact::simulation {
 /// A point as a weighted sum of nodes: of its tet, 4 for a linear mesh and 10 for a quadratic one, or of those around
 /// it (smooth_embedding.h). Weights sum to 1.
 struct NodeWeights {
-  static constexpr std::size_t kMostNodes = 30;  // a ball of five node spacings across, half of it outside
+  static constexpr std::size_t kMostNodes = 40;  // 30 around a point, and ten of its tet
   int tet = -1;                                  // of the mesh, that the point lies in or next to
   int count = 0;                                 // nodes in use
   std::array<int, kMostNodes> nodes{};

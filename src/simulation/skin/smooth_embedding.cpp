@@ -11,6 +11,12 @@
 namespace myotact::simulation {
 namespace {
 
+/// Nodes that a vertex follows: a ball of five node spacings across, half of it outside the muscle.
+constexpr std::size_t kFollowed = 30;
+/// Of the kernel's reach h [m]: up to the first, half of a force enters within 7 mm of the vertex, as under a
+/// fingertip; from the second on the tets alone count. A block with nodes 10 mm apart (h 23 mm) read 815 N/m instead of
+/// 350.
+constexpr double kFingertip_m = 14e-3, kTooWide_m = 20e-3;
 /// A vertex whose weights would be larger lies beside its nodes rather than among them: it would swing farther than the
 /// tissue does.
 constexpr double kLargestWeight = 1.5;
@@ -37,7 +43,7 @@ class NodesAround {
  private:
   std::vector<int> search(int tet) const {
     std::vector<int> near = {tet}, nodes = nodes_of(near);
-    while (nodes.size() <= NodeWeights::kMostNodes) {
+    while (nodes.size() <= kFollowed) {
       std::vector<int> wider;
       for (const int t : near) {
         for (const int corner : tets_.corners[at(t)]) {
@@ -74,21 +80,25 @@ class NodesAround {
 /// A node and its distance from the vertex.
 using NearNode = std::pair<double, int>;
 
-/// The weights of the nearest nodes; the one after them is where the kernel ends. Count 0: there is none.
-NodeWeights least_squares_weights(const geometry::TetMesh& tets, const std::vector<int>& nodes, const Vec3& p) {
-  constexpr std::size_t kCount = NodeWeights::kMostNodes;
-  NodeWeights result;
-  if (nodes.size() <= kCount) return result;
+/// Weights of the nearest nodes, and where their kernel ends.
+struct Smooth {
+  NodeWeights weights;  // count 0: there are none
+  double reach_m = 0.0;
+};
+
+/// The node after the nearest ones is where the kernel ends.
+Smooth least_squares_weights(const geometry::TetMesh& tets, const std::vector<int>& nodes, const Vec3& p) {
+  if (nodes.size() <= kFollowed) return {};
   std::vector<NearNode> near;
   near.reserve(nodes.size());
   for (const int node : nodes) near.emplace_back((tets.nodes_m[at(node)] - p).norm(), node);
-  std::nth_element(near.begin(), near.begin() + kCount, near.end());
-  const double reach_m = near[kCount].first;
-  std::sort(near.begin(), near.begin() + kCount);
+  std::nth_element(near.begin(), near.begin() + kFollowed, near.end());
+  const double reach_m = near[kFollowed].first;
+  std::sort(near.begin(), near.begin() + kFollowed);
   Eigen::Matrix4d moments = Eigen::Matrix4d::Zero();
-  std::array<Eigen::Vector4d, kCount> places;  // of each node from the vertex, over the reach
-  std::array<double, kCount> kernel{};
-  for (std::size_t i = 0; i < kCount; ++i) {
+  std::array<Eigen::Vector4d, kFollowed> places;  // of each node from the vertex, over the reach
+  std::array<double, kFollowed> kernel{};
+  for (std::size_t i = 0; i < kFollowed; ++i) {
     const auto& [distance_m, node] = near[i];
     const double inside = 1.0 - distance_m * distance_m / (reach_m * reach_m);
     kernel[i] = inside * inside;
@@ -96,13 +106,27 @@ NodeWeights least_squares_weights(const geometry::TetMesh& tets, const std::vect
     moments += kernel[i] * places[i] * places[i].transpose();
   }
   const Eigen::Vector4d at_vertex = moments.inverse().col(0);
-  for (std::size_t i = 0; i < kCount; ++i) {
+  NodeWeights result;
+  for (std::size_t i = 0; i < kFollowed; ++i) {
     result.nodes[i] = near[i].second;
     result.weights[i] = kernel[i] * places[i].dot(at_vertex);
     if (!(std::abs(result.weights[i]) <= kLargestWeight)) return {};
   }
-  result.count = static_cast<int>(kCount);
-  return result;
+  result.count = static_cast<int>(kFollowed);
+  return {result, reach_m};
+}
+
+/// Adds a share of other weights, each node once.
+void add_weights(const NodeWeights& more, double share, NodeWeights& sum) {
+  for (std::size_t i = 0; i < at(more.count); ++i) {
+    const auto end = sum.nodes.begin() + sum.count;
+    const auto place = static_cast<std::size_t>(std::find(sum.nodes.begin(), end, more.nodes[i]) - sum.nodes.begin());
+    if (place == at(sum.count)) {
+      sum.nodes[place] = more.nodes[i];
+      ++sum.count;
+    }
+    sum.weights[place] += share * more.weights[i];
+  }
 }
 
 Vec3 place_of(const NodeWeights& vertex, const geometry::TetMesh& tets) {
@@ -120,10 +144,14 @@ void smooth_embedding(const geometry::TriangleMesh& skin, const geometry::TetMes
     NodeWeights& vertex = embedding.vertices[v];
     const Vec3& p = skin.positions_m[v];
     if ((place_of(vertex, tets) - p).norm() > kInPlace_m) continue;
-    NodeWeights smooth = least_squares_weights(tets, around.of(vertex.tet), p);
-    if (smooth.count == 0) continue;
-    smooth.tet = vertex.tet;
-    vertex = smooth;
+    const Smooth smooth = least_squares_weights(tets, around.of(vertex.tet), p);
+    const double share = std::clamp((kTooWide_m - smooth.reach_m) / (kTooWide_m - kFingertip_m), 0.0, 1.0);
+    if (smooth.weights.count == 0 || share == 0.0) continue;
+    NodeWeights both;
+    both.tet = vertex.tet;
+    add_weights(smooth.weights, share, both);
+    if (share < 1.0) add_weights(vertex, 1.0 - share, both);
+    vertex = both;
   }
 }
 

@@ -13,10 +13,11 @@ namespace myotact::simulation {
 ///
 ///   x = sum w_n x_n,   w_n = phi_n p_n^T M^-1 p,   M = sum phi_n p_n p_n^T,   p = (1, place),   phi = (1 - (r/h)^2)^2
 ///
-/// with h from the nearest kMostNodes. What the nodes do in common, shift, rotation and even stretch, is followed
-/// exactly, and at rest nothing changes; a force on the vertex enters the tissue over a patch of that size. Vertices
-/// that were pulled in, and meshes that are linear or have hardly more nodes, stay as they are. `embedding`: of that
-/// skin in that mesh.
+/// with h as far as the nearest 30 reach. What the nodes do in common, shift, rotation and even stretch, is followed
+/// exactly, and at rest nothing changes. A force on the vertex enters the tissue over a patch of that size; where nodes
+/// lie so far apart that it would be wider than a fingertip's, the vertex keeps to its tet, little by little. So do
+/// those that were pulled in, and meshes that are linear or have hardly more nodes. `embedding`: of that skin in that
+/// mesh.
 void smooth_embedding(const geometry::TriangleMesh& skin, const geometry::TetMesh& tets, SkinEmbedding& embedding);
 
 }  // namespace myotact::simulation
