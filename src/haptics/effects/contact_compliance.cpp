@@ -126,12 +126,11 @@ void ContactCompliance::tick(const messages::LocalModel& model, const ProxyConta
     normal_m_N = touching.active ? touching.normal.dot(compliance_m_N * touching.normal) : compliance_m_N.trace() / 3.0;
   }
   const double share = share_of_tick(model, now_ns, dt_s);
-  const double known_share = was_touching_ ? share : 1.0;  // what is not felt may change at once
+  const double known_share = touched_s_ > 0.0 ? share : 1.0;  // what is not felt may change at once
   const double stiffens_share = touched_s_ < kYoung_s ? 1.0 : std::min(1.0, dt_s / kStiffens_s);
-  was_touching_ = touching.active;
   touched_s_ = touching.active ? touched_s_ + dt_s : 0.0;
   const double room = room_beside(touching);
-  room_ += std::min(std::min(1.0, dt_s / kRoom_s), room > room_ ? stiffens_share : 1.0) * (room - room_);
+  room_ += std::min(dt_s / kRoom_s, room > room_ ? stiffens_share : 1.0) * (room - room_);
   compliance_m_N_ += known_share * (compliance_m_N - compliance_m_N_);
   normal_m_N_ += known_share * (normal_m_N - normal_m_N_);
   sure_m_N_ += (normal_m_N_ > sure_m_N_ ? stiffens_share : 1.0) * (normal_m_N_ - sure_m_N_);
@@ -153,7 +152,6 @@ void ContactCompliance::forget() noexcept {
   normal_m_N_ = sure_m_N_ = 0.0;
   room_ = 1.0;
   used_N_ = unloaded_moved_m_ = Vec3::Zero();
-  was_touching_ = false;
   touched_s_ = 0.0;
 }
 
@@ -165,6 +163,11 @@ double ContactCompliance::coupling_stiffness_N_m() const noexcept {
   const double device_m_N = 1.0 / stiffness_N_m_;
   const double hidden_m_N = std::max(device_m_N - sure_m_N_, 1.0 / stiffest_N_m());
   return 1.0 / (room_ * hidden_m_N + (1.0 - room_) * device_m_N);
+}
+
+double ContactCompliance::softness() const noexcept {
+  constexpr double kUsualDevice_m_N = 1.0 / 800.0;  // coupling that most devices can render
+  return normal_m_N_ / (normal_m_N_ + kUsualDevice_m_N);
 }
 
 double ContactCompliance::felt_stiffness_N_m() const noexcept {

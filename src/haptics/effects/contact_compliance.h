@@ -56,9 +56,9 @@ class ContactCompliance {
   const Vec3& unloaded_moved_m() const noexcept { return unloaded_moved_m_; }
   /// A: > 0, of the spring between the played surface and that place.
   double felt_stiffness_N_m() const noexcept;
-  /// Part of a slow motion of the hand that the touched tissue would go along with on a coupling of 800 N/m, which most
-  /// devices can render: 0 where it is rigid, below 1.
-  double softness() const noexcept { return normal_m_N_ / (normal_m_N_ + 1.0 / 800.0); }
+  /// Part of a slow motion of the hand that the touched tissue would go along with on a coupling of 800 N/m: 0 where it
+  /// is rigid, below 1.
+  double softness() const noexcept;
   /// K: > 0, of the spring between tissue and device, for the simulation.
   double coupling_stiffness_N_m() const noexcept;
   /// From the played surface to where the tissue is while the hand feels `on_hand_N` [m].
@@ -79,8 +79,7 @@ class ContactCompliance {
   double room_ = 1.0;                   // beside the sphere, 0 .. 1
   Vec3 used_N_ = Vec3::Zero();          // force on the tissue that belongs to the played surface
   Vec3 unloaded_moved_m_ = Vec3::Zero();
-  bool was_touching_ = false;  // in the last tick
-  double touched_s_ = 0.0;     // how long without a break
+  double touched_s_ = 0.0;  // how long without a break; 0: not in the last tick
 };
 
 }  // namespace myotact::haptics

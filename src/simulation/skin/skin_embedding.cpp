@@ -186,17 +186,7 @@ MaterialPoint material_point(const SkinEmbedding& embedding, const std::array<in
                              const std::array<double, 3>& barycentric) noexcept {
   MaterialPoint point;
   for (std::size_t corner = 0; corner < 3; ++corner) {
-    const NodeWeights& vertex = embedding.vertices[at(triangle[corner])];
-    for (std::size_t i = 0; i < at(vertex.count); ++i) {
-      const auto end = point.nodes.begin() + point.count;
-      const auto found = std::find(point.nodes.begin(), end, vertex.nodes[i]);
-      const auto place = static_cast<std::size_t>(found - point.nodes.begin());
-      if (found == end) {
-        point.nodes[place] = vertex.nodes[i];
-        ++point.count;
-      }
-      point.weights[place] += barycentric[corner] * vertex.weights[i];
-    }
+    add_weights(embedding.vertices[at(triangle[corner])], barycentric[corner], point);
   }
   return point;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -45,6 +46,17 @@ SkinEmbedding embed_skin(const geometry::TriangleMesh& skin, const geometry::Tet
 /// positions_m[i] = sum of weights * nodes_m; one node and one vertex each, as embedded; `nodes_m` in any frame.
 /// Real-time safe.
 void update_skin(const SkinEmbedding& embedding, std::span<const Vec3> nodes_m, std::span<Vec3> positions_m) noexcept;
+
+/// Adds a share of a point's weights to `sum`, which has room for its nodes: each node once. Real-time safe.
+template <class Weights>
+void add_weights(const NodeWeights& more, double share, Weights& sum) noexcept {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(more.count); ++i) {
+    const auto end = sum.nodes.begin() + sum.count;
+    const auto place = static_cast<std::size_t>(std::find(sum.nodes.begin(), end, more.nodes[i]) - sum.nodes.begin());
+    if (place == static_cast<std::size_t>(sum.count)) sum.nodes[static_cast<std::size_t>(sum.count++)] = more.nodes[i];
+    sum.weights[place] += share * more.weights[i];
+  }
+}
 
 /// A point of a skin triangle as a weighted sum of tet nodes, each node once. Weights sum to 1.
 struct MaterialPoint {

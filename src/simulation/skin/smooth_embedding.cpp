@@ -51,7 +51,7 @@ class NodesAround {
           wider.insert(wider.end(), beside.begin(), beside.end());
         }
       }
-      make_unique(wider);
+      sort_unique(wider);
       if (wider.size() == near.size()) break;  // that is the whole mesh
       near = std::move(wider);
       nodes = nodes_of(near);
@@ -64,10 +64,10 @@ class NodesAround {
       nodes.insert(nodes.end(), tets_.corners[at(t)].begin(), tets_.corners[at(t)].end());
       nodes.insert(nodes.end(), tets_.midsides[at(t)].begin(), tets_.midsides[at(t)].end());
     }
-    make_unique(nodes);
+    sort_unique(nodes);
     return nodes;
   }
-  static void make_unique(std::vector<int>& numbers) {
+  static void sort_unique(std::vector<int>& numbers) {
     std::sort(numbers.begin(), numbers.end());
     numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   }
@@ -114,19 +114,6 @@ Smooth least_squares_weights(const geometry::TetMesh& tets, const std::vector<in
   }
   result.count = static_cast<int>(kFollowed);
   return {result, reach_m};
-}
-
-/// Adds a share of other weights, each node once.
-void add_weights(const NodeWeights& more, double share, NodeWeights& sum) {
-  for (std::size_t i = 0; i < at(more.count); ++i) {
-    const auto end = sum.nodes.begin() + sum.count;
-    const auto place = static_cast<std::size_t>(std::find(sum.nodes.begin(), end, more.nodes[i]) - sum.nodes.begin());
-    if (place == at(sum.count)) {
-      sum.nodes[place] = more.nodes[i];
-      ++sum.count;
-    }
-    sum.weights[place] += share * more.weights[i];
-  }
 }
 
 Vec3 place_of(const NodeWeights& vertex, const geometry::TetMesh& tets) {
