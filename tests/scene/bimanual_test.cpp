@@ -15,7 +15,7 @@ constexpr double kTouched_s = 2.0, kSettled_s = 3.5;  // of the scene's script: 
 struct Press {
   double elbow_rad = 0.0;           // where it stood before the press
   double turned_rad = 0.0;          // by the press
-  double felt_stiffness_N_m = 0.0;  // force on the palpating hand over its way since it met the skin
+  double felt_stiffness_N_m = 0.0;  // force on the palpating hand over its way, both since the first step on the skin
 };
 
 enum class Elbow { Free, Held, Locked };
@@ -33,11 +33,16 @@ Press press(Elbow elbow, double locked_rad = 0.0) {
   SampleTable samples(scene.specimen, hands_of(scene), 1000);
   LockstepSession session(scene, simulation, samples, nullptr);
   double before_rad = 0.0;
-  Vec3 met_m = Vec3::Constant(std::nan(""));
+  bool touched = false;
+  Vec3 met_m = Vec3::Zero(), met_N = Vec3::Zero();
   while (simulation.time_s() < kSettled_s) {
     session.step();
     const messages::ToolState& hand = session.tool(0);
-    if (hand.contact.surface < 0) met_m = to_vec3(hand.tool_position_world_m);
+    if (!touched && hand.contact.surface >= 0) {
+      met_m = to_vec3(hand.tool_position_world_m);
+      met_N = to_vec3(hand.force_world_N);
+    }
+    touched = hand.contact.surface >= 0;
     if (simulation.time_s() < kTouched_s) before_rad = simulation.joint(joint).angle_rad;
   }
   const messages::ToolState& hand = session.tool(0);
@@ -45,7 +50,7 @@ Press press(Elbow elbow, double locked_rad = 0.0) {
   EXPECT_EQ(session.tool(1).grabbed_body >= 0, elbow == Elbow::Held);
   const double way_m = (to_vec3(hand.tool_position_world_m) - met_m).norm();
   return {before_rad, std::abs(simulation.joint(joint).angle_rad - before_rad),
-          to_vec3(hand.force_world_N).norm() / way_m};
+          (to_vec3(hand.force_world_N) - met_N).norm() / way_m};
 }
 
 TEST(Bimanual, TheHandThatHoldsThePawStillsTheJointAndLetsTheMuscleFeelAsItIs) {
