@@ -10,7 +10,8 @@
 namespace myotact::scene {
 namespace {
 
-constexpr double kTouched_s = 2.0, kSettled_s = 3.5;  // of the scene's script: the press begins, and rests
+constexpr double kTouched_s = 2.0, kPressed_s = 3.5;  // of the scene's script: the press begins, and is over
+constexpr double kRested_s = 6.0;                     // a free elbow swings for a second after the press
 
 struct Press {
   double elbow_rad = 0.0;           // where it stood before the press
@@ -23,6 +24,7 @@ enum class Elbow { Free, Held, Locked };
 /// `locked_rad`: where a locked elbow stands.
 Press press(Elbow elbow, double locked_rad = 0.0) {
   Scene scene = load_scene("bimanual");
+  std::erase_if(scene.script, [](const ScriptAction& action) { return action.start_s > kPressed_s; });
   if (elbow != Elbow::Held) {
     std::erase_if(scene.script, [](const ScriptAction& action) { return moves_hand(action.what) && action.tool == 1; });
   }
@@ -35,7 +37,7 @@ Press press(Elbow elbow, double locked_rad = 0.0) {
   double before_rad = 0.0;
   bool touched = false;
   Vec3 met_m = Vec3::Zero(), met_N = Vec3::Zero();
-  while (simulation.time_s() < kSettled_s) {
+  while (simulation.time_s() < kRested_s) {
     session.step();
     const messages::ToolState& hand = session.tool(0);
     if (!touched && hand.contact.surface >= 0) {
