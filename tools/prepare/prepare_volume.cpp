@@ -18,6 +18,7 @@
 #include "prepare/guess/part_files.h"
 #include "prepare/loft/loft.h"
 #include "prepare/measure/measure_limb.h"
+#include "prepare/parallel.h"
 #include "prepare/partition/cut_parts.h"
 #include "prepare/partition/lay_tendons.h"
 #include "prepare/partition/part_volume_file.h"
@@ -29,6 +30,7 @@
 #include "prepare/recipe/read_scan.h"
 #include "prepare/recipe/recipe_text.h"
 #include "prepare/recipe/units_and_frame.h"
+#include "prepare/remesh/close_holes.h"
 #include "prepare/remesh/fine_surface.h"
 #include "prepare/stages/stages.h"
 #include "prepare/volume/map_segments.h"
@@ -173,8 +175,9 @@ Surfaces cut(const PartVolume& volume, const std::vector<SegmentChoice>& choices
   return surfaces;
 }
 
-/// Skins as they were cut; what the volume has not (built bands) gets one of its own.
-void take_skins(std::vector<NamedSurface>& skins, LimbWork& limb) {
+/// Skins as they were cut, those of thin muscles without the holes that the lattice tore; what the volume has not
+/// (built bands) gets one of its own.
+void take_skins(std::vector<NamedSurface>& skins, LimbWork& limb, double step_m) {
   limb.shares_borders = true;
   const auto take = [&](const std::string& key, auto& part) {
     const auto found = std::find_if(skins.begin(), skins.end(), [&](const auto& skin) { return skin.key == key; });
@@ -189,6 +192,11 @@ void take_skins(std::vector<NamedSurface>& skins, LimbWork& limb) {
     take(muscle.data.mechanics.key, muscle);
     muscle.report.muscle = true;
   }
+  for_each_index(limb.muscles.size(), limb.settings.threads, [&](std::size_t m) {
+    MuscleWork& muscle = limb.muscles[m];
+    muscle.skin = close_holes(muscle.skin, step_m);
+    muscle.report.skin_triangles = static_cast<int>(muscle.skin.triangles.size());
+  });
 }
 
 /// Where a recipe has measured sections beside it, muscle lines go through their middle, as in lofted limbs.
@@ -259,6 +267,7 @@ void prepare(const Options& options, const std::vector<fs::path>& marks) {
   volume.layers.clear();
   show(*bar, "cut", 0.15);
   Surfaces surfaces = cut(*parts, map.choices, options.settings.threads);
+  const double length_m = step_m(parts->lattice);
   parts.reset();
   bar.reset();
   std::vector<Markup> markups = read_marks(marks, notes);
@@ -267,7 +276,7 @@ void prepare(const Options& options, const std::vector<fs::path>& marks) {
   LimbWork limb = mapping ? known_limb(*mapping, surfaces, options)
                           : guessed_limb(file, surfaces, std::move(markups), options, companions);
   if (options.output.empty()) return;  // the recipe alone was wanted
-  take_skins(surfaces.skins, limb);
+  take_skins(surfaces.skins, limb, length_m);
   limb.notes = std::move(notes);
   finish_limb(limb, options, options.output, std::move(companions));
 }
