@@ -1,6 +1,6 @@
 // Plates with holes, cut from a field whose holes are known.
 
-#include "prepare/remesh/close_holes.h"
+#include "prepare/stages/close_holes.h"
 
 #include <algorithm>
 #include <cmath>

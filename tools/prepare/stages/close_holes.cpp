@@ -1,4 +1,4 @@
-#include "prepare/remesh/close_holes.h"
+#include "prepare/stages/close_holes.h"
 
 #include <algorithm>
 #include <cmath>
