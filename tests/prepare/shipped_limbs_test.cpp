@@ -163,8 +163,10 @@ TEST_P(ShippedLimb, IsWhatItsVolumeSays) {
       EXPECT_NEAR(part.volume, 1.0, part.points >= kLarge ? 0.05 : 0.12) << part.key;
     }
     EXPECT_LE(part.ends_mm, 2.0) << part.key;
-    // The model's muscles have none; what is left of them runs round something larger, a trochanter or another tendon.
-    EXPECT_TRUE(!part.muscle || part.handles <= 5) << part.key << ": " << part.handles;
+    // The model's muscles have none: zero is wanted. Biceps femoris has five, round the trochanter and neighbours.
+    if (part.muscle) {
+      EXPECT_LE(part.handles, 5) << part.key;
+    }
     muscles += part.muscle ? 1 : 0;
   }
   EXPECT_EQ(muscles, std::string(GetParam()) == "forelimb" ? 33U : 35U);
